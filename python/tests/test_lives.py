@@ -136,7 +136,7 @@ def test_lives_that_cannot_be_had_are_refused(fit, options, message):
     ({"F": [300.0], "s": [6e4]}, {}, "no column 'joint'"),
     ({"joint": ["J9"], "F": [300.0], "s": [6e4]}, {}, "column 'joint': the data have no joint 'J9' \\(J1, .*empty cell"),
     ({"joint": ["J5"], "F": [300.0], "s": [np.nan]}, {}, "row 1, column 's': a value is missing"),
-    ({"joint": ["J5"], "F": [np.inf], "s": [6e4]}, {}, "row 1, column 'F': inf is no finite number"),
+    ({"joint": ["J5"], "F": [np.inf], "s": [6e4]}, {}, "row 1, column 'F': inf is not a finite number"),
     ({"joint": ["J5"], "F": [300.0], "s": [6e4]}, {"along": None}, "along is missing: the column along which it wears \\(F, s\\)"),
     ({"joint": ["J5"], "F": [300.0], "s": [6e4]}, {"kind": "units"}, "'mean', 'next' or 'unit'"),
 ])

@@ -98,7 +98,7 @@ def _require_values(frame, columns):
         if frame[name].dtype.kind in "fc":
             wild = ~frame[name].abs().lt(float("inf")).to_numpy()
             if wild.any():
-                raise InputError(f"new, row {int(wild.argmax()) + 1}, column '{name}': {frame[name].iloc[wild.argmax()]} is no finite number")
+                raise InputError(f"new, row {int(wild.argmax()) + 1}, column '{name}': {frame[name].iloc[wild.argmax()]} is not a finite number")
 
 
 def _answers(fit, table, level, name):

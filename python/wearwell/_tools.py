@@ -75,7 +75,7 @@ class Comparison:
         self._text, self._page = text, page
 
     def report(self, path):
-        """Writes the page: the tables, and parameters over each other."""
+        """Writes the page: the tables, and the posteriors of the parameters overlaid."""
         _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):

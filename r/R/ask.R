@@ -72,7 +72,7 @@ require_values <- function(newdata, columns) {
     row <- which(is.na(column))
     if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': a value is missing")
     row <- if (is.numeric(column)) which(is.infinite(column))
-    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': ", column[row[1]], " is no finite number")
+    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': ", column[row[1]], " is not a finite number")
   }
 }
 

@@ -297,16 +297,16 @@ TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
   expect(head + columns + "[conditions]\ncontact = \"sliding\"\nradius = \"10 mm\"\n" + rest,
          "conditions.contact: 'sliding' is not possible");
   expect(head + columns + conditions + "force = \"800 N\"\n" + rest,
-         "data.columns.force: is given beside pressure");
+         "data.columns.force: is given, and so is pressure");
   expect(head + columns + conditions + "length = \"20 mm\"\n" + rest,
-         "data.columns.length: is given beside pressure");
+         "data.columns.length: is given, and so is pressure");
   expect(head + columns + conditions + "speed = \"60 rpm\"\n" + rest,
-         "data.columns.speed: is given beside revolutions");
+         "data.columns.speed: is given, and so is revolutions");
   expect(head + columns + "[conditions]\ncontact = \"stationary\"\nradius = \"-1 mm\"\n" + rest,
          "conditions.radius: must be positive");
   expect(head + columns + conditions + likelihood + prior +
              "sigma = { distribution = \"half-normal\", scale = \"1 um\" }\n",
-         "prior.sigma: is given, but likelihood.depth_error says that it is known");
+         "prior.sigma: is given, but likelihood.depth_error fixes it");
   expect(head + columns + conditions + rest +
              "k_scater = { distribution = \"half-normal\", scale = 1 }\n",
          "did you mean 'k_scatter'?");
@@ -337,7 +337,7 @@ TEST_F(BearingStudy, RefusesDepthsBelowAtomsWithTheLikelyUnit) {
               HasSubstr("column 'd' (data.columns.depth): the largest depth is 1e-11 um, less than "
                         "the size of an atom (1e-10 m); no unit of length makes a wear depth"));
   write("data.csv", "b,c,p,n,d\nA,30,1,1e5,1.5e-5\nA,30,1,2e5,3e-5\nB,30,1,1e5,2e-5\n");
-  EXPECT_THAT(refusal(study), HasSubstr("in m it would be 30 um: is that the unit?"));
+  EXPECT_THAT(refusal(study), HasSubstr("in m it would be 30 um: check the unit"));
 }
 
 TEST_F(BearingStudy, RefusesBadRowsByName) {
@@ -368,7 +368,7 @@ TEST_F(BearingStudy, RefusesBadRowsByName) {
              "[likelihood]\nfamily = \"lognormal\"\ndepth_error = \"2 um\"\n" + prior);
   expect(
       "b,c,p,n,d,k\nA,30,1,1e5,15,journal\nB,30,1,1e5,18,shaft\n",
-      "row 2, column 'k': 'shaft' is no contact; it is one of stationary, journal, bushing",
+      "row 2, column 'k': 'shaft' is not a contact; it is one of stationary, journal, bushing",
       head + columns + "contact = \"k\"\n[conditions]\nradius = \"10 mm\"\n" + likelihood + prior);
 }
 
@@ -422,7 +422,7 @@ TEST(BearingProfile, RefusesByOption) {
   EXPECT_THAT(refused(profiles + units + radius + "--force '1 N' --revolutions 1e5"),
               HasSubstr("--force and --length go together"));
   EXPECT_THAT(refused(profiles + units + radius + "--depth '1 mm'"),
-              HasSubstr("--depth, --scar-width and --rate are answers here"));
+              HasSubstr("--depth, --scar-width and --rate are results here"));
   EXPECT_THAT(refused(profiles + units + radius + "--flank '20 mm'"), HasSubstr("a flank of"));
   EXPECT_THAT(refused(profiles + units + radius + "--flank '-2 mm'"),
               HasSubstr("--flank: '-2 mm'"));

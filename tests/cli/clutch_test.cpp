@@ -244,7 +244,7 @@ TEST_F(Clutch, PredictKeepsItsStateFromWhatIsNotFinite) {
   const std::string before = read(folder() / "s.json");
   const CommandResult hot = here(start + "hot.csv --state s.json --trace t.csv");
   EXPECT_EQ(hot.exit_code, 2);
-  EXPECT_THAT(hot.err, HasSubstr("hot.csv, row 1: plate 5, cycle 2: the model gives no finite"));
+  EXPECT_THAT(hot.err, HasSubstr("hot.csv, row 1: plate 5, cycle 2: the model has no finite"));
   EXPECT_EQ(read(folder() / "s.json"), before);
   EXPECT_FALSE(fs::exists(folder() / "t.csv"));
   const CommandResult skipped =
@@ -388,7 +388,7 @@ TEST_F(Clutch, PlatesThatHaveNames) {
   EXPECT_EQ(c[1]["cycles"], 2);
   EXPECT_EQ(c[2]["plate"], "VIN-9");
   EXPECT_THAT(here(predict + "n.csv --state s.json").err,
-              HasSubstr("n.csv: its plates are numbers, and those of the state are names"));
+              HasSubstr("n.csv: its plates are numbers, but those of the state are names"));
   EXPECT_THAT(here(predict + "w.csv --state s.json").err,
               HasSubstr("row 1: plate B, 2, cycle 2 follows cycle 2; cycles must ascend"));
 }
@@ -460,7 +460,7 @@ TEST_F(Clutch, FitRefusesBadCampaigns) {
     const std::size_t at = line.find("point 17,");
     if (at != std::string::npos) line.replace(at, 8, "point 999");
   }
-  EXPECT_THAT(fit_refusal(c, bad), HasSubstr("point 999 was run but is not in the design"));
+  EXPECT_THAT(fit_refusal(c, bad), HasSubstr("point 999 has cycles but is not in the design"));
   // Run-in alone: too little to model with.
   bad = {w[0]};
   for (const std::string& line : w) {
@@ -468,7 +468,7 @@ TEST_F(Clutch, FitRefusesBadCampaigns) {
         line.find("run-out") == std::string::npos && line != w[0])
       bad.push_back(line);
   }
-  EXPECT_THAT(fit_refusal(c, bad), HasSubstr("0 points to model with; at least 25 are needed"));
+  EXPECT_THAT(fit_refusal(c, bad), HasSubstr("0 points to fit; at least 25 are needed"));
 }
 
 // Cycles after the last weighing and points that were not run are kept out of the fit, and said.
@@ -491,7 +491,7 @@ TEST_F(Clutch, FitSaysWhatItDoesNotUse) {
   EXPECT_EQ(check["verdict"], "warn");
   EXPECT_THAT(std::string(check["detail"]),
               AllOf(HasSubstr("no weighing of plate 15 follows 1 of its cycles"),
-                    HasSubstr("points 500 of the design were not run")));
+                    HasSubstr("points 500 of the design have no cycles")));
   EXPECT_FALSE(fs::exists(folder() / "out/report.html"));
 }
 
@@ -561,7 +561,7 @@ TEST_F(Clutch, UpdateRefusesWhatIsNoneOfItsTables) {
     return run.err;
   };
   EXPECT_THAT(refusal("plate,cycle\n1,2\n"),
-              AllOf(HasSubstr("is none of the campaign's tables"), HasSubstr("weighings (block")));
+              AllOf(HasSubstr("is not a table of this campaign"), HasSubstr("weighings (block")));
   EXPECT_THAT(in_shared("life result").err, HasSubstr("has no posterior"));
 }
 
@@ -602,10 +602,11 @@ TEST_F(Clutch, ReportAndCompareTakeItAsAnyOther) {
 TEST_F(Clutch, CheckAndNew) {
   const CommandResult check = in_shared("check study.toml");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_THAT(check.out, AllOf(HasSubstr("81 points of the factorial, 20 beyond it, 20 held out"),
-                               HasSubstr("of 15 plates"), HasSubstr("worn out at 500 mm^3"),
-                               HasSubstr("at each of 4 pairs"),
-                               HasSubstr("launch: 1700 rpm, 50 N m, 170 degC, 2.15 s")));
+  EXPECT_THAT(check.out,
+              AllOf(HasSubstr("81 points of the factorial, 20 beyond it, 20 held out"),
+                    HasSubstr("of 15 plates"), HasSubstr("the worn-out volume is 500 mm^3"),
+                    HasSubstr("at each of 4 pairs"),
+                    HasSubstr("launch: 1700 rpm, 50 N m, 170 degC, 2.15 s")));
   const CommandResult made = here("new clutch mine && '" WEARWELL_BINARY "' check mine/study.toml");
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("simulated from a known truth"));
@@ -656,7 +657,7 @@ TEST_F(Clutch, Features) {
   run = features(bad);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("t.csv, row 11: time"), HasSubstr("must ascend")));
-  EXPECT_THAT(features({trace[0], "1,0,100,0,150"}).err, HasSubstr("holds no closing"));
+  EXPECT_THAT(features({trace[0], "1,0,100,0,150"}).err, HasSubstr("has no closing"));
   EXPECT_THAT(features({}).err, HasSubstr("t.csv is empty"));
   EXPECT_EQ(here("clutch features t.csv --torque-on '2 kg'").exit_code, 2);
   EXPECT_THAT(here("clutch features t.csv --slip-off '3 ms'").err,
@@ -684,7 +685,7 @@ TEST_F(Clutch, DesignAndSimulate) {
       lines(design.out));
   EXPECT_THAT(refusal("--slip-speed '20, 30, 50 1/s'"), HasSubstr("write rev/s"));
   EXPECT_THAT(refusal("--torque '25 N m'"), HasSubstr("torque needs at least two levels"));
-  EXPECT_THAT(refusal("--torque '25,, 50 N m'"), HasSubstr("write numbers with commas"));
+  EXPECT_THAT(refusal("--torque '25,, 50 N m'"), HasSubstr("write numbers separated by commas"));
   EXPECT_THAT(refusal("--feasible-torque '30 .. 80 N m'"), HasSubstr("feasible range of torque"));
   EXPECT_THAT(refusal("--feasible-torque '20 N m'"), HasSubstr("LOW .. HIGH UNIT"));
   EXPECT_THAT(refusal("--most-energy '1 kJ'"), HasSubstr("more than feasible"));
@@ -725,7 +726,7 @@ TEST_F(Clutch, LifeAndCompare) {
                    "--slip-speed '9000 rpm' --torque '50 N m' --temperature '170 degC' "
                    "--closing-time '2.15 s'")
                   .out,
-              HasSubstr("Outside the range of validity: slip_speed"));
+              HasSubstr("Outside the calibrated range: slip_speed"));
   const CommandResult compared = in_shared("clutch compare result result");
   EXPECT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_EQ(lines(compared.out).size(), 3u);

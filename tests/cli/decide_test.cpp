@@ -79,7 +79,7 @@ TEST_F(Decide, RefusesWhatItCannotTell) {
   EXPECT_THAT(refusal(lives + costs + " --downtime-cost '1 EUR/h'"),
               HasSubstr("--inspection-cost"));
   EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --downtime-cost '1 EUR/km'"),
-              HasSubstr("'km' is no unit like h"));
+              HasSubstr("'km' is not a unit like h"));
   EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --unit P2 --inspect-after '9 h'"),
               HasSubstr("what a reading would show"));
   EXPECT_THAT(refusal("no-such.csv" + costs), HasSubstr("no-such.csv"));
@@ -93,11 +93,11 @@ TEST_F(Decide, NamesTheRowThatIsNoLife) {
   };
   EXPECT_THAT(table("life\n1\n"), HasSubstr("needs its unit"));
   EXPECT_THAT(table("life [h]\n12\n-3\n"), HasSubstr("row 2"));
-  EXPECT_THAT(table("life [h],unit\n12,A\n"), HasSubstr("nothing is said of the life of a new"));
-  EXPECT_THAT(table("life [h]\n100\n100\n"), HasSubstr("lie at one place"));
+  EXPECT_THAT(table("life [h],unit\n12,A\n"), HasSubstr("the study has no life of a new"));
+  EXPECT_THAT(table("life [h]\n100\n100\n"), HasSubstr("of a new unit are equal"));
   EXPECT_THAT(table("life [h],colour\n12,red\n"), HasSubstr("colour"));
   EXPECT_THAT(table("life [h],unit,population\n9,,A\n12,,A\n20,,B\n30,,B\n5,U,A\n"),
-              HasSubstr("the population 'A' has 1 of the weight of the unit 'U' and 0.5"));
+              HasSubstr("the population 'A' has weight 1 for the unit 'U' and 0.5"));
 }
 
 // Two populations as likely, in which all units fail within a month or none does: all or nothing. Without it, between.

@@ -167,7 +167,7 @@ TEST_F(Door, SlipsInAStudy) {
        "2 keys are missing; with values of yours: life.points.launch.torque = \"50 N m\"; "
        "life.points.launch.closing_time = "},
       {"clutch", "^\\[search\\]", "[data]\n[search]",
-       "data: stands beside [simulation]; give one of the two"},
+       "data: is given, and so is [simulation]; keep one of them"},
       // values
       {"joint", "distribution = \"uniform\"", "distribution = \"unifrom\"",
        "prior.sigma.distribution: 'unifrom' is not possible; it is one of flat, uniform, "},
@@ -175,7 +175,7 @@ TEST_F(Door, SlipsInAStudy) {
        "likelihood.family: 'gaussian' is not possible; it is one of normal, lognormal (nearest: "
        "'normal')"},
       {"joint", "\"row\"", "\"rows\"", "update.stages: 'rows' is not possible; only 'row' is"},
-      {"joint", "\"1 %\"", "5", "predict.risk: must lie between 0 and 1, as 0.05 or \"5 %\""},
+      {"joint", "\"1 %\"", "5", "predict.risk: must lie between 0 and 1, like 0.05 or \"5 %\""},
       {"joint", "\\[20585\\]", "\"many\"", "predict.cycles: 'many' is not a number"},
       {"joint", "^cycles = \"cycles\"", "cycles = 5", "data.columns.cycles: must be a table"},
       {"joint", "family = \"normal\"", "family = true",
@@ -223,35 +223,35 @@ TEST_F(Door, SlipsInACommandLine) {
   write("other/model.json", "{}");
   const std::pair<const char*, const char*> slips[] = {
       {"fti joint/study.toml",
-       "'fti' is no command of wearwell; did you mean 'fit'? (commands: new, check, fit, report, "
+       "'fti' is not a command of wearwell; did you mean 'fit'? (commands: new, check, fit, "
+       "report, "
        "life, "
        "decide, update, backtest, compare, monitor, bearing, clutch, fleet, fatigue, export, "
        "select, "
        "help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
       {"joint/study.toml",
-       "'joint/study.toml' is no command of wearwell (commands: new, check, fit, "},
+       "'joint/study.toml' is not a command of wearwell (commands: new, check, fit, "},
       {"", "wearwell needs a command: new, check, fit, "},
       {"clutch",
        "wearwell clutch needs a command: design, simulate, features, predict, life, compare, sql "
        "(see "
        "wearwell help clutch)"},
-      {"clutch lfie", "'lfie' is no command of wearwell clutch; did you mean 'life'?"},
+      {"clutch lfie", "'lfie' is not a command of wearwell clutch; did you mean 'life'?"},
       {"bearing rat", "did you mean 'rate'?"},
-      {"help fti", "'fti' is no command of wearwell; did you mean 'fit'?"},
-      {"help fit study", "wearwell fit has no commands, and so no 'study'"},
+      {"help fti", "'fti' is not a command of wearwell; did you mean 'fit'?"},
+      {"help fit study", "wearwell fit has no subcommands; 'study' is unknown"},
       {"fit joint/study.toml --metod exact",
        "wearwell fit has no option --metod; did you mean '--method'? (options: --help, --output, "},
-      {"fit joint/study.toml -output out", "-output is written with two dashes: --output"},
+      {"fit joint/study.toml -output out", "-output needs two dashes: --output"},
       {"fit joint/study.toml --method exakt",
        "--method: 'exakt' is not possible; it is one of nuts, metropolis, exact; did you mean "
        "'exact'?"},
       {"fit joint/study.toml --draws abc", "--draws: Value abc not in range 10 to 10000000"},
-      {"fit joint/study.toml -o",
-       "wearwell fit: --output needs a value behind it (see wearwell help fit)"},
-      {"fit joint/study.toml -o a -o b", "--output may be given once, and is given 2 times"},
+      {"fit joint/study.toml -o", "wearwell fit: --output needs a value (see wearwell help fit)"},
+      {"fit joint/study.toml -o a -o b", "--output may be given once; it is given 2 times"},
       {"fit joint/study.toml bearing/study.toml",
-       "wearwell fit: 'bearing/study.toml' is more than it takes"},
+       "wearwell fit: 'bearing/study.toml' is an extra argument"},
       {"fit", "wearwell fit: STUDY is missing: Study file (TOML) (see wearwell help fit)"},
       {"fit none.toml", "no such file: none.toml"},
       {"fit joint", "joint is a folder, not a study file; did you mean 'joint/study.toml'?"},
@@ -266,7 +266,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
-      {"compare joint", "DIR is given 1 times, and is needed 2 times at least"},
+      {"compare joint", "DIR is given 1 times; at least 2 are needed"},
       {"compare joint bearing",
        "joint holds no summary.json: it is no folder that wearwell fit wrote"},
       {"compare joint/study.toml bearing",
@@ -277,7 +277,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "other/summary.json is not what wearwell writes: model is missing"},
       {"report nowhere", "no such folder: nowhere"},
       {"report joint", "joint holds no summary.json"},
-      {"clutch life joint", "joint is a folder, not a file, and holds no model.json"},
+      {"clutch life joint", "joint is a folder, not a file, and has no model.json"},
       {"clutch life other", "model.json"},
       {"clutch life none.json", "no such file: none.json"},
       {"clutch life clutch/study.toml", "clutch/study.toml is not JSON"},
@@ -287,7 +287,7 @@ TEST_F(Door, SlipsInACommandLine) {
       {"bearing rate --contact journal --radius 9.5", "--radius: '9.5' has no unit"},
       {"bearing life --contcat journal",
        "wearwell bearing life has no option --contcat; did you mean '--contact'?"},
-      {"version now", "wearwell version: 'now' is more than it takes"},
+      {"version now", "wearwell version: 'now' is an extra argument"},
   };
   fs::create_directory(folder() / "empty");
   for (const auto& [arguments, said] : slips)

@@ -267,7 +267,7 @@ TEST_F(FatigueLife, InTheHoursOfTheSignal) {
               AllOf(HasSubstr("'when' has no unit"), HasSubstr("--block")));
   write("metres.csv", "way [m],stress [MPa]\n0,0\n1,300\n2,0\n");
   EXPECT_THAT(refused("life res metres.csv --column stress --time way"),
-              HasSubstr("no unit of time"));
+              HasSubstr("not a unit of time"));
   write("counted.csv", "range [MPa],mean [MPa],cycles\n300,10,1\n");
   EXPECT_THAT(refused("life res counted.csv --time cycles"), HasSubstr("has no times"));
 }
@@ -276,7 +276,7 @@ TEST_F(FatigueLife, RefusesWhatMayBeMisread) {
   write("no_kind.csv", "stress [MPa],cycles\n300,10\n");
   EXPECT_THAT(refused("life res no_kind.csv"), AllOf(HasSubstr("range"), HasSubstr("amplitude")));
   write("no_mean.csv", "range [MPa],cycles\n300,10\n");
-  EXPECT_THAT(refused("life res no_mean.csv"), HasSubstr("'mean' or 'stress_ratio'"));
+  EXPECT_THAT(refused("life res no_mean.csv"), HasSubstr("'mean' and 'stress_ratio'"));
   write("no_count.csv", "range [MPa],mean [MPa]\n300,10\n");
   EXPECT_THAT(refused("life res no_count.csv"), HasSubstr("'cycles'"));
   write("both.csv", "range [MPa],amplitude [MPa],mean [MPa],cycles\n300,10,0,1\n");

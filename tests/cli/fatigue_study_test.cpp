@@ -426,7 +426,7 @@ TEST_F(FatigueStudy, WarnsOfExtrapolationAndOfFewTests) {
   EXPECT_THAT(std::string(where["detail"]), testing::Not(HasSubstr("of here")));
   // 1 - 2^(-1/4) = 15.9 %; 1 - 0.999^n > 1/2 from n = 693.
   EXPECT_EQ(check(result, "percentile-support")["detail"],
-            "the lowest of 4 tests shows about B16; asked for is B0.1 (693 tests show it)");
+            "the lowest of 4 tests is near B16; requested: B0.1 (needs 693 tests)");
 }
 
 TEST_F(FatigueStudy, RefusesBadRowsByName) {
@@ -465,14 +465,14 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   expect(
       head + "alternating_stress = { column = \"s\", unit = \"mm\" }\nlife = \"n\"\n" + law + prior,
       "prior.log10_a.mean: unit 'MPa' has the wrong dimension (expected one like 'm'), since "
-      "data.columns says that lives are driven by what is in 'mm'");
+      "by data.columns the stress quantity is 'mm'");
   expect(head + "alternating_stress = \"s\"\nlife = \"n\"\n" + law + prior, "needs a unit");
   expect(head + columns + "max_stress = { column = \"s\", unit = \"MPa\" }\n" + law + prior,
          "give the stress in one way");
   expect(study + "[predict]\nb_lives = [10]\n", "predict.b_lives: needs stresses");
-  expect(study + "[predict]\ntypes = \"A\"\n", "predict.types: 'A' is no type of the data");
+  expect(study + "[predict]\ntypes = \"A\"\n", "predict.types: 'A' is not a type in the data");
   expect(head + "label = \"end\"\n" + columns + law + prior + "[predict]\ntypes = [\"F\", \"G\"]\n",
-         "predict.types: 'G' is no type of the data; possible are all, F");
+         "predict.types: 'G' is not a type in the data; use one of all, F");
   expect(study + "[predict]\ntypes = \"all\"\nb_lives = [0, 10]\n",
          "predict.b_lives: are percentages between 0 and 100");
   expect(study + "[predict]\nrequired_life = 1e5\n", "predict.required_life: needs the other");
@@ -508,7 +508,7 @@ TEST_F(FatigueStudy, ReportIsWrittenAgainTheSame) {
   };
   const std::string first = content();
   for (const char* expected :
-       {"Alternating stress against life", "Life of the next one, by stress", "Haigh diagram",
+       {"Alternating stress against life", "Predictive life, by stress", "Haigh diagram",
         "predictive", "confidence", "Every test, and the life", "run-outs"}) {
     EXPECT_THAT(first, HasSubstr(expected));
   }

@@ -49,7 +49,7 @@ TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
   const std::string said =
       fitted("lives.csv", "stress,N\n400,41000\n400,52000\n350,120000\n300,500000\n300,700000\n");
   EXPECT_THAT(said, AllOf(HasSubstr("column 'stress' has no unit in its heading: MPa is a guess"),
-                          HasSubstr("no column says which tests were stopped unbroken")));
+                          HasSubstr("no column tells which tests were stopped unbroken")));
   EXPECT_THAT(content("out/study.toml"), HasSubstr("unit = \"MPa\" }    # the unit is a GUESS"));
 }
 
@@ -62,7 +62,7 @@ TEST_F(NewFrom, DepthsOfSeveralBearings) {
              "B,stationary,10,35,400,20,50000,12.0\nB,stationary,10,35,400,20,100000,22.5\n"
              "C,stationary,10,35,400,20,50000,19.0\nC,stationary,10,35,400,20,100000,34.5\n");
   EXPECT_THAT(said, AllOf(HasSubstr("depth: column 'wear depth [um]' in um"),
-                          Not(HasSubstr("State what no heading says"))));
+                          Not(HasSubstr("State what no heading tells"))));
   EXPECT_EQ(result_["model"], "bearing-wear");
   EXPECT_TRUE(result_["parameters"].contains("k_scatter"));
 }
@@ -72,9 +72,9 @@ TEST_F(NewFrom, WhatNobodyStatedIsNoGroundForAResult) {
   write("depths.csv", "revolutions,wear [um]\n50000,16.7\n100000,31.9\n150000,45.1\n");
   const CommandResult run = here("new --from depths.csv out");
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("State what no heading says"), HasSubstr("pressure: "),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("State what no heading tells"), HasSubstr("pressure: "),
                              HasSubstr("radius: "), HasSubstr("clearance: "),
-                             HasSubstr("contact: "), HasSubstr("It does not run yet")));
+                             HasSubstr("contact: "), HasSubstr("The study does not run yet")));
   const CommandResult fit = here("fit out/study.toml");
   EXPECT_EQ(fit.exit_code, 2);
   EXPECT_THAT(fit.err, AllOf(HasSubstr("conditions.pressure (like \"1.5 MPa\"), "
@@ -141,7 +141,7 @@ TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {
   const CommandResult run = here("new --from lives.csv");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.out,
-              AllOf(HasSubstr("It does not run yet"), HasSubstr("'went on' is no status")));
+              AllOf(HasSubstr("The study does not run yet"), HasSubstr("'went on' is no status")));
   EXPECT_TRUE(std::filesystem::exists(folder() / "lives-study" / "study.toml"));
 }
 

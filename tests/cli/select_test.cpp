@@ -195,7 +195,7 @@ TEST_F(Select, NamesWhatIsWrongInOneSentence) {
   EXPECT_THAT(refusal(data + " --response w --inputs Td --terms Td"), HasSubstr("give one"));
   EXPECT_THAT(refusal(data + " --response w --terms Td --degree 2"), HasSubstr("--degree goes"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td,w"),
-              HasSubstr("'w' is the response; it cannot explain itself"));
+              HasSubstr("'w' is the response; it cannot be a term"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td,Td"), HasSubstr("'Td' is given twice"));
   EXPECT_THAT(refusal(data + " --response w --terms Td*n,n*Td"), HasSubstr("are the same"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --degree 0"),
@@ -205,12 +205,12 @@ TEST_F(Select, NamesWhatIsWrongInOneSentence) {
   EXPECT_THAT(refusal(data + " --response w --inputs Td --criterion aik"),
               HasSubstr("criterion 'aik' is unknown"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --force Mz"),
-              HasSubstr("--force: 'Mz' is no candidate term"));
+              HasSubstr("--force: 'Mz' is not a candidate term"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --keep 0"), HasSubstr("--keep"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --near -1"),
               HasSubstr("--near: '-1' must be 0 or more"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --folds 200"),
-              HasSubstr("200 folds; there may be 2 to 101"));
+              HasSubstr("200 folds; must be 2 to 101"));
   EXPECT_THAT(refusal("nowhere.csv --response w --inputs Td"), HasSubstr("nowhere.csv"));
   EXPECT_THAT(refusal(data + " --sql 'select * from data limit 2' --response w --inputs Td"),
               HasSubstr("has 2 rows; a selection needs at least 3"));

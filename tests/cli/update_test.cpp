@@ -202,7 +202,7 @@ limit = { depth = "100 um" }
   // The path ahead is at the limit where half of its lives end.
   const CommandResult with_path = run("life both --unit M5 --path path.csv");
   EXPECT_LE(with_path.exit_code, 1) << with_path.err;
-  EXPECT_THAT(with_path.out, HasSubstr("The path ahead is in path.csv"));
+  EXPECT_THAT(with_path.out, HasSubstr("The forecast is in path.csv"));
   std::istringstream path(slurp(folder() / "path.csv"));
   std::string row;
   std::getline(path, row);
@@ -241,7 +241,7 @@ TEST_F(UpdateCommand, TellsWhatContradictsLoudly) {
   write("slip.csv", rows.heading + "\n0,30000,64,9999,1795,1\n");
   const CommandResult update = run("update r slip.csv --no-report -o r2");
   EXPECT_THAT(update.out, HasSubstr("new-data"));
-  EXPECT_THAT(update.out, HasSubstr("1 contradicts what was known"));
+  EXPECT_THAT(update.out, HasSubstr("1 contradicts the earlier posterior"));
   const json reported = summary("r2")["update"];
   ASSERT_EQ(reported["contradictions"].size(), 1u);
   EXPECT_THAT(reported["contradictions"][0]["place"].get<std::string>(), HasSubstr("30000"));
@@ -267,7 +267,7 @@ TEST_F(UpdateCommand, RefusesWithNothingWritten) {
   EXPECT_THAT(clutch.err, HasSubstr("Add the rows to its files and fit it again"));
   const CommandResult damaged = run("life r");
   EXPECT_EQ(damaged.exit_code, 2);
-  EXPECT_THAT(damaged.err, HasSubstr("cut off or damaged"));
+  EXPECT_THAT(damaged.err, HasSubstr("truncated or damaged"));
 }
 
 // What life tells at the last inspection is what the fit told of it; and it goes on from there.

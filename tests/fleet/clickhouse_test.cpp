@@ -117,7 +117,7 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   std::filesystem::remove_all(folder() / "results");
   must(server, "insert into cycles values ('unit 1', 1, 100, 50, 150, 1, 1000)");
   refused(arguments, "rows came late");
-  refused(arguments + " --prefix y", "whose number stands there twice");
+  refused(arguments + " --prefix y", "with a repeated number");
   EXPECT_EQ(server.sql("select count() from y_sums").out, "0\n");  // and nothing was kept
   must(server, "insert into cycles values ('unit 1', 100000, 100, null, 150, 1, 1000)");
   refused(arguments, "unit 1, cycle 100000: torque is no number");
@@ -139,9 +139,9 @@ TEST_F(ClickhouseFleet, SumsOfAnotherOptionAreRefused) {
   const std::string all = "select sum(cityHash64(unit, last_cycle, v1)) from wearwell_sums";
   const std::string before = server.sql(all).out;
   refused(arguments + " --scatter-only",
-          "made without --scatter-only, or for a model that has replicates: go on with the same "
-          "option, or sum all cycles anew, under another --prefix");
-  refused(arguments + " --prefix plain", "made with --scatter-only: go on with the same option");
+          "made without --scatter-only, or for a model that has replicates: continue with the same "
+          "option, or sum all cycles again, under another --prefix");
+  refused(arguments + " --prefix plain", "made with --scatter-only: continue with the same option");
   EXPECT_EQ(before, server.sql(all).out);
   EXPECT_EQ(server.sql("select count() from plain_model").out,
             server.sql("select count() from plain_model where replicate = 0").out);
@@ -309,7 +309,7 @@ TEST_F(ClickhouseShards, ADeadShardOrATornUnitIsAnErrorAndNoPartOfAnAnswer) {
   // The server itself would give a part.
   EXPECT_EQ(server_[0]->sql("select count() > 0 from all_cycles").out, "1\n");
   refused(asked(server_[0]->address(), "all_cycles"), "connection tries failed");
-  refused(side_by_side("cycles"), "ClickHouse is not reached");
+  refused(side_by_side("cycles"), "ClickHouse cannot be reached");
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST_F(Cluster, SumsBelongToTheirTable) {
   kilojoule.replace(kilojoule.find("e:J"), 3, "e:kJ");
   const CommandResult refused = run_wearwell("fleet " + engine + " --table cycles" + kilojoule);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("holds sums of this table by other columns or units"));
+  EXPECT_THAT(refused.err, HasSubstr("has sums of this table by other columns or units"));
 }
 
 TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {

@@ -253,7 +253,7 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   auto changed = cycles;
   changed[50].torque = -1;
   refused(changed,
-          fmt::format("1 rows of 200 have no value, or one that cannot be (unit {}, cycle {}: "
+          fmt::format("1 rows of 200 have a missing or impossible value (unit {}, cycle {}: "
                       "torque is -1, in SI and degC)",
                       changed[50].unit, changed[50].number));
   changed = cycles;
@@ -265,15 +265,15 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   changed = cycles;
   changed[51].unit = changed[50].unit;
   changed[51].number = changed[50].number;
-  refused(changed, "stands there twice");
+  refused(changed, "a repeated number");
   changed = cycles;
   changed[50].unit = "";
-  refused(changed, "1 rows name no unit");
+  refused(changed, "1 rows have no unit");
   refused({}, "bad.csv has no rows");
   // Beyond what the sums hold.
   changed = cycles;
   changed[50].temperature = 1e12;
-  refused(changed, "beyond what the sums hold");
+  refused(changed, "exceeds the range of the sums");
 }
 
 // One cycle of 1.6e9 J among 500 of some ten thousand, which the sum of its unit shows; and one of 5 MJ, which it does not.
@@ -301,7 +301,7 @@ TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
         if (check["name"] != "energy-of-cycles") continue;
         ++named;
         EXPECT_THAT(detail, AllOf(HasSubstr("1 of 2000 cycles read now has more than 10 times"),
-                                  HasSubstr(fmt::format("farthest off is cycle {} of unit {},",
+                                  HasSubstr(fmt::format("the largest is cycle {} of unit {},",
                                                         cycles[50].number, cycles[50].unit))))
             << how;
       }

@@ -93,19 +93,20 @@ TEST_F(FleetInDays, WhatTellsNoDaysIsRefused) {
     EXPECT_THAT(run.err, HasSubstr(part));
     EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
   };
-  refused(" --days 30", "nothing tells how many cycles a day");
+  refused(" --days 30", "the cycles per day of units are unknown");
   refused(" --columns time=words", "soon");
   refused(" --columns cycles_per_day=words", "does not hold numbers");
-  refused(" --columns cycles_per_day=rate time=day", "name one of them");
+  refused(" --columns cycles_per_day=rate time=day", "keep one of them");
   refused(" --columns time=never", "has no column 'never'");
-  EXPECT_THAT(run_wearwell("fleet " + asked).out, HasSubstr("cycles: nothing here tells"));
+  EXPECT_THAT(run_wearwell("fleet " + asked).out,
+              HasSubstr("cycles: the data have no cycles per day"));
   EXPECT_THAT(run_wearwell("fleet " + asked + " --columns time=day").out,
               HasSubstr("last of the data"));
   EXPECT_THAT(run_wearwell("sql " + path("model.json") +
                            " --dialect duckdb --table t --columns time=day slip_speed=a:rpm "
                            "'torque=b:N m' temperature=c:degC closing_time=d:s energy=e:J")
                   .err,
-              HasSubstr("of wearwell fleet alone"));
+              HasSubstr("for wearwell fleet only"));
 }
 
 TEST(FleetDays, AreWordsOfTheCalendar) {

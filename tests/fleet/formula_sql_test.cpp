@@ -42,7 +42,7 @@ TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibrary) {
     choice.table = choice.table.empty() ? "t" : choice.table;
     return message_of<InputError>([&] { sql_export(state, choice); });
   };
-  EXPECT_THAT(refusal({.value = "cum(force)"}), HasSubstr("rows before its own"));
+  EXPECT_THAT(refusal({.value = "cum(force)"}), HasSubstr("depends on earlier rows"));
   EXPECT_THAT(refusal({.value = "erf(wear/(1 [um]))"}), HasSubstr("erf"));
   EXPECT_THAT(refusal({.value = "force"}), HasSubstr("no parameter"));
   EXPECT_THAT(refusal({.value = "wear + force"}), HasSubstr("cannot be added"));
@@ -71,7 +71,7 @@ TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibraryForEveryKindOfParameter) {
   SqlExportChoice choice;
   choice.table = "t";
   EXPECT_THAT(message_of<InputError>([&] { sql_export(pad_state(), choice); }),
-              HasSubstr("'T' and 't' are one name for DuckDB"));
+              HasSubstr("'T' and 't' are the same name for DuckDB"));
 }
 
 }  // namespace

@@ -96,16 +96,16 @@ TEST_F(Configs, Refused) {
   EXPECT_THAT(refusal("time = \"t\"\ntime_format = \"iso 8601\"", ""), HasSubstr("so is time"));
   EXPECT_THAT(refusal("time_format = \"iso 8601\"", ""),
               HasSubstr("reading.time_format: is missing"));
-  EXPECT_THAT(refusal(", unit = \"um\"", ""), HasSubstr("in which unit does it come?"));
+  EXPECT_THAT(refusal(", unit = \"um\"", ""), HasSubstr("has no unit; write"));
   EXPECT_THAT(refusal("\"um\"", "\"s\""), HasSubstr("wrong dimension"));
   EXPECT_THAT(refusal("wear = {", "wera = {"), HasSubstr("did you mean 'wear'"));
   EXPECT_THAT(refusal("wear = { field = \"w\", unit = \"um\" }", ""),
               HasSubstr("the study has wear [m] as well"));
   EXPECT_THAT(refusal("{ field = \"w\", unit = \"um\" }", "{ value = \"1 um\" }"),
-              HasSubstr("no constant value"));
+              HasSubstr("cannot be constant"));
   EXPECT_THAT(refusal("\"stdin\"", "\"stdio\""), HasSubstr("nearest: 'stdin'"));
   EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"stdin\"\n[source.two]\nkind = \"stdin\""),
-              HasSubstr("one source of this kind"));
+              HasSubstr("second source of this kind"));
   EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"folder\"\nfolder = \"nowhere\""),
               HasSubstr("no such file or folder"));
   EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"http\""), HasSubstr("needs a server, [http]"));
@@ -118,9 +118,9 @@ TEST_F(Configs, Refused) {
   EXPECT_THAT(refusal("horizon = \"2 h\"", "horizon = \"2 km\""), HasSubstr("wrong dimension"));
   EXPECT_THAT(refusal("\"10 %\"", "\"30 %\""), HasSubstr("must be below act"));
   EXPECT_THAT(refusal("[alarm]", "[http]\nlisten = \"0.0.0.0:80\"\n[alarm]"),
-              HasSubstr("needs a token"));
+              HasSubstr("set a token"));
   EXPECT_THAT(refusal("[alarm]", "[http]\nlisten = \"127.0.0.1:0x\"\n[alarm]"),
-              HasSubstr("no HOST:PORT"));
+              HasSubstr("is not HOST:PORT"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
               HasSubstr("neither a file nor postgresql"));
   EXPECT_THAT(refusal("silence", "silent"), HasSubstr("did you mean 'silence'"));
@@ -156,12 +156,14 @@ TEST_F(Configs, OfSparkplug) {
   EXPECT_THAT(message_of<InputError>([&] { read(other); }),
               HasSubstr("wear: only metrics of Sparkplug B have an engUnit"));
   EXPECT_THAT(refusal_of(other, "{engUnit}", "um"),
-              HasSubstr("'{edge}/{device}' is for Sparkplug B alone"));
+              HasSubstr("'{edge}/{device}' is for Sparkplug B only"));
   EXPECT_THAT(refusal_of(text, "{edge}/{device}", "{edge}/{devise}"),
-              HasSubstr("holds braces of which none of {group}, {edge}, {device} are made"));
-  EXPECT_THAT(refusal_of(text, "{edge}/{device}", "{group}"), HasSubstr("names no machine"));
-  EXPECT_THAT(refusal_of(text, "unix ms", "unix s"), HasSubstr("of {timestamp} is \"unix ms\""));
-  EXPECT_THAT(refusal_of(text, "Hall 2", "a/b"), HasSubstr("'a/b' is no level of a topic"));
+              HasSubstr("has braces other than {group}, {edge}, {device}"));
+  EXPECT_THAT(refusal_of(text, "{edge}/{device}", "{group}"),
+              HasSubstr("does not identify the machine"));
+  EXPECT_THAT(refusal_of(text, "unix ms", "unix s"),
+              HasSubstr("must be \"unix ms\" for {timestamp}"));
+  EXPECT_THAT(refusal_of(text, "Hall 2", "a/b"), HasSubstr("'a/b' is not a level of a topic"));
 }
 
 }  // namespace

@@ -196,13 +196,13 @@ TEST_F(Fleets, RefuseWhatIsNoReading) {
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "time": 3})"), "wear is missing");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": 3})"), "time is missing");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1.5, "wear": 3, "time": 3})"),
-            "n should be a whole number");
+            "n must be a whole number");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": "1,5", "time": 3})"),
-            "wear is '1,5', and should be a number");
+            "wear is '1,5', but must be a number");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": true, "time": 3})"),
-            "wear should be a number");
+            "wear must be a number");
   EXPECT_THAT(problem(R"({"machine": "a\u0007", "n": 1, "wear": 1, "time": 3})"),
-              HasSubstr("should be a name"));
+              HasSubstr("must be a name"));
   EXPECT_THAT(problem(R"({"n": 1, "wear": 1, "time": 3})"), HasSubstr("machine is missing"));
   EXPECT_EQ(deliver(R"({"machine": 12, "n": 1, "wear": "1.5", "time": 3})").readings, 1U);
   catch_up();

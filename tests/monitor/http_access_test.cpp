@@ -156,10 +156,10 @@ TEST_F(HttpAccessTest, BeyondLoopbackATokenAndTlsMustBe) {
   HttpSettings settings = settings_of();
   settings.host = "0.0.0.0";
   EXPECT_EQ(refusal_of(settings),
-            "host = \"0.0.0.0\" is reached from other machines: there a token and TLS (certificate "
-            "and key) must be set; 127.0.0.1 is reached from this one alone");
+            "host = \"0.0.0.0\" is reachable from other machines: set a token and TLS (certificate "
+            "and key); or use 127.0.0.1, which only this machine can reach");
   settings.token = token;
-  EXPECT_THAT(refusal_of(settings), HasSubstr("there TLS (certificate and key) must be set"));
+  EXPECT_THAT(refusal_of(settings), HasSubstr("set TLS (certificate and key)"));
   certify("a");
   settings.certificate = folder() / "a.pem";
   EXPECT_THAT(refusal_of(settings), HasSubstr("TLS needs both"));
@@ -172,7 +172,7 @@ TEST_F(HttpAccessTest, BeyondLoopbackATokenAndTlsMustBe) {
 
 TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
   HttpSettings settings = settings_of("short");
-  EXPECT_THAT(refusal_of(settings), StartsWith("the token has 5 characters: at least 16"));
+  EXPECT_THAT(refusal_of(settings), StartsWith("the token has 5 characters: use at least 16"));
   settings = settings_of(token + "\n");
   EXPECT_THAT(refusal_of(settings), HasSubstr("visible ASCII"));
   settings = settings_of();
@@ -180,7 +180,7 @@ TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
   EXPECT_THAT(refusal_of(settings), StartsWith("port = 65536"));
   settings = settings_of();
   settings.host = "no such host.invalid";
-  EXPECT_THAT(refusal_of(settings), HasSubstr("neither an address nor a name"));
+  EXPECT_THAT(refusal_of(settings), HasSubstr("neither an address nor a known name"));
   certify("a");
   certify("b");
   settings = tls();
@@ -217,7 +217,7 @@ TEST_F(HttpAccessTest, TlsIsSpokenUnderTheNamesOfTheCertificate) {
   EXPECT_THAT(curl("-i -d token=" + token + " " + address + "/login").out, HasSubstr("; Secure"));
   EXPECT_EQ(curl("https://127.0.0.1:" + port + "/health").exit_code, 0);
   EXPECT_THAT(curl("-H 'Host: evil.example.com' " + address + "/api/fleet").out,
-              HasSubstr("is no name of this server"));
+              HasSubstr("is not a name of this server"));
   EXPECT_NE(curl("--tls-max 1.1 " + address + "/health").exit_code, 0);
   EXPECT_THAT(curl("--max-time 2 -N " + address + "/api/events").out, HasSubstr("event: fleet"));
   // Plain HTTP, and half a handshake, lead nowhere and hurt nobody.

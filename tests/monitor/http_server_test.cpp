@@ -107,7 +107,7 @@ TEST_F(HttpServerTest, NamesMayHoldAnything) {
   EXPECT_EQ(json::parse(get("/api/units?search=s%C3%BCd+%223").body)["matching"], 1);
   EXPECT_EQ(get("/api/units/nobody%22%1b[2J").status, 404);
   EXPECT_EQ(std::string(json::parse(get("/api/units/nobody%22%1b[2J").body)["error"]),
-            "\"nobody\"\\x1b[2J\" is no unit");
+            "\"nobody\"\\x1b[2J\" is not a unit");
   for (const char* bad : {"%zz", "%4", "%", "a%ff"}) {
     EXPECT_EQ(get(std::string("/api/units/") + bad).status, 400) << bad;
   }
@@ -135,7 +135,7 @@ TEST_F(HttpServerTest, RefusesWhatItDoesNotKnow) {
     EXPECT_TRUE(json::parse(reply.body).contains("error")) << query;
   }
   EXPECT_EQ(std::string(json::parse(get("/api/units?count=501").body)["error"]),
-            "count = \"501\": a whole number from 0 to 500");
+            "count = \"501\": must be a whole number from 0 to 500");
 }
 
 TEST_F(HttpServerTest, TakesReadingsOrSaysWhyNot) {

@@ -70,7 +70,7 @@ TEST_F(Programs, AreDecidedUpon) {
   const std::string decide = "decide '" + config.string() +
                              "' --failure-cost 12 --replacement-cost 1 --inspection-cost 0.01 "
                              "--month '10 km' --json";
-  EXPECT_THAT(run_wearwell(decide).err, HasSubstr("is no store yet: no monitor has run"));
+  EXPECT_THAT(run_wearwell(decide).err, HasSubstr("is not a store yet: no monitor has run"));
   ChildProcess monitor = start(config);
   ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
   const CommandResult beside = run_wearwell(decide);  // states have not been saved yet
@@ -308,8 +308,9 @@ TEST_F(BrokerPrograms, AreSureOfWhomTheyTalkTo) {
     EXPECT_TRUE(eventually([&] {
       return log(config).find("TLS: certificate verify failed: ") != std::string::npos;
     })) << log(config);
-    EXPECT_THAT(log(config), HasSubstr(authority.empty() ? "the system's authorities do not vouch"
-                                                         : "/other.pem does not vouch for it"));
+    EXPECT_THAT(log(config),
+                HasSubstr(authority.empty() ? "the system's certificate authorities do not confirm"
+                                            : "/other.pem does not confirm it"));
     EXPECT_THAT(log(config), testing::Not(HasSubstr("follows")));
     EXPECT_EQ(monitor.end(SIGTERM), 0);
   }
@@ -382,7 +383,7 @@ TEST_F(BrokerPrograms, AcknowledgeNothingThatIsNotStored) {
   server.kill();
   send(11, 40);
   ASSERT_TRUE(eventually([&] {
-    return log(config).find("cannot take readings, which wait") != std::string::npos;
+    return log(config).find("cannot store readings, which wait") != std::string::npos;
   })) << log(config);
   monitor.end(SIGKILL);
   server.start();

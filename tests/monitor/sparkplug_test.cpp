@@ -246,7 +246,7 @@ TEST_F(Sparkplug, LateValuesGoWithWhatHeldThen) {
 
 TEST_F(Sparkplug, AsksForABirthCertificateWhereOneIsMissing) {
   EXPECT_THAT(tell("DDATA/E/pump", both(9, 1500, 1, 2)),
-              ElementsAre(HasSubstr("comes before a birth certificate, which is asked for")));
+              ElementsAre(HasSubstr("comes before a birth certificate, which is requested")));
   EXPECT_THAT(decoder_->rebirths(0), ElementsAre("spBv1.0/G/NCMD/E"));
   EXPECT_THAT(tell("DDATA/E/pump", both(10, 1500, 1, 2)), testing::SizeIs(1));
   EXPECT_THAT(decoder_->rebirths(100), IsEmpty());
@@ -257,9 +257,9 @@ TEST_F(Sparkplug, AsksForABirthCertificateWhereOneIsMissing) {
   EXPECT_THAT(tell("DDATA/E/pump", both(4, 1500, 1, 2)), testing::SizeIs(1));
   live();
   EXPECT_THAT(tell("DDATA/E/other", payload(2, "")),
-              ElementsAre(HasSubstr("before a birth certificate of its own")));
+              ElementsAre(HasSubstr("before its own birth certificate")));
   EXPECT_THAT(tell("DDATA/E/pump", payload(3, metric(77, 1500, number(1)))),
-              ElementsAre(HasSubstr("holds alias 77, which no birth certificate had")));
+              ElementsAre(HasSubstr("has alias 77, which is in no birth certificate")));
   EXPECT_THAT(decoder_->rebirths(1'000'000), ElementsAre("spBv1.0/G/NCMD/E"));
   // Numbers go round after 255.
   live();
@@ -275,7 +275,7 @@ TEST_F(Sparkplug, TheDeadAreSilent) {
   EXPECT_THAT(tell("DDATA/E/pump", both(2, 1500, 1000, 1)), testing::SizeIs(1));
   EXPECT_THAT(tell("DDEATH/E/pump", payload(3, "")), IsEmpty());
   EXPECT_THAT(tell("DDATA/E/pump", both(4, 1600, 1000, 1)),
-              ElementsAre(HasSubstr("before a birth certificate of its own")));
+              ElementsAre(HasSubstr("before its own birth certificate")));
   EXPECT_THAT(tell("DBIRTH/E/pump", birth(5, 1000, 2)), IsEmpty());
   EXPECT_THAT(tell("DDATA/E/pump", both(6, 1700, 1000, 1)), ElementsAre("pump 1700 0.001 3600"));
   EXPECT_THAT(tell("NDEATH/E", node_birth(1)), IsEmpty());
@@ -297,9 +297,8 @@ TEST_F(Sparkplug, UnitsOfMeasureAreCheckedOrTaken) {
   };
   tell("NBIRTH/E", node_birth());
   EXPECT_THAT(tell("DBIRTH/E/pump", birth(1, 1000, 2, in("mm"))), IsEmpty());
-  EXPECT_THAT(
-      tell("DDATA/E/pump", both(2, 1500, 2, 3)),
-      ElementsAre("Wear comes in 'mm', says its engUnit, and in 'um', says the configuration"));
+  EXPECT_THAT(tell("DDATA/E/pump", both(2, 1500, 2, 3)),
+              ElementsAre("Wear comes in 'mm' by its engUnit, but in 'um' by the configuration"));
   int n = 3;
   for (const char* good : {"um", "micrometer", "no such unit"}) {
     tell("DBIRTH/E/pump", birth(n++, 1000, 2, in(good)));
@@ -327,7 +326,7 @@ TEST_F(Sparkplug, OnlyGoodQualityCounts) {
   };
   live();
   EXPECT_THAT(tell("DDATA/E/pump", payload(2, metric(1, 1500, number(1) + quality(0)))),
-              ElementsAre("Wear is not of good quality, says its edge node"));
+              ElementsAre("Wear does not have good quality, by its edge node"));
   EXPECT_THAT(tell("DDATA/E/pump", payload(3, metric(1, 1600, number(1)))), testing::SizeIs(1));
   EXPECT_THAT(tell("DDATA/E/pump", payload(4, metric(1, 1700, number(1000) + quality(192)))),
               ElementsAre("pump 1700 0.001 7200"));
@@ -338,9 +337,9 @@ TEST_F(Sparkplug, TwoDevicesOfOneNameAreNotTakenForOne) {
   live();
   tell("NBIRTH/F", node_birth());
   EXPECT_THAT(tell("DBIRTH/F/pump", birth(1, 1000, 2)),
-              ElementsAre(HasSubstr("names unit 'pump', and so does G/E/pump; tell them apart")));
+              ElementsAre(HasSubstr("has unit 'pump', as does G/E/pump; distinguish them")));
   EXPECT_THAT(tell("DDATA/F/pump", both(2, 1500, 2000, 3)),
-              ElementsAre(HasSubstr("follows a birth certificate that names unit 'pump'")));
+              ElementsAre(HasSubstr("follows a birth certificate that has unit 'pump'")));
   EXPECT_THAT(tell("DDATA/E/pump", both(2, 1500, 2000, 3)), testing::SizeIs(1));
   settings_.mapping.unit = "{edge}/{device}";
   decoder_ = std::make_unique<SparkplugDecoder>(settings_);
@@ -361,7 +360,7 @@ TEST_F(Sparkplug, AMetricMayNameTheMachine) {
                    payload(2, metric(1, 1500, number(2000)) + metric(4, 1500, "long_value: 12"))),
               ElementsAre("S-7 12 0.002 7200"));
   EXPECT_THAT(tell("DDATA/E/pump", payload(3, metric(1, 1600, number(2000)))),
-              ElementsAre("Count should be a whole number"));  // it does not hold
+              ElementsAre("Count must be a whole number"));  // it does not hold
   EXPECT_THAT(tell("DDATA/E/pump", payload(4, metric(3, 1600, "string_value: 'S-8'"))), IsEmpty());
   EXPECT_THAT(tell("DDATA/E/pump",
                    payload(5, metric(1, 1700, number(2000)) + metric(4, 1700, "long_value: 1"))),
@@ -449,9 +448,9 @@ TEST_F(Sparkplug, IsBounded) {
   for (int i = 0; i <= 100'000; ++i) many += std::string("\x12\x00", 2);
   EXPECT_THAT(tell("DDATA/E/pump", many), ElementsAre(HasSubstr("holds more than 100000 metrics")));
   EXPECT_THAT(tell("DDATA/E/pump", std::string(5 << 20, 'x')),
-              ElementsAre(HasSubstr("is the most")));
-  EXPECT_THAT(tell("WHAT/E", ""), ElementsAre(HasSubstr("is none of an edge node")));
-  EXPECT_THAT(tell("NDATA/E/pump", ""), ElementsAre(HasSubstr("is none of an edge node")));
+              ElementsAre(HasSubstr("the limit is")));
+  EXPECT_THAT(tell("WHAT/E", ""), ElementsAre(HasSubstr("is not a topic of an edge node")));
+  EXPECT_THAT(tell("NDATA/E/pump", ""), ElementsAre(HasSubstr("is not a topic of an edge node")));
 }
 
 }  // namespace

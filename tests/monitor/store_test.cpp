@@ -100,16 +100,16 @@ TEST_P(Stores, AreNotReadAsSomethingElse) {
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear", "time"}, {"site"}, true}, Access::read);
               }),
-              HasSubstr("no store yet"));
+              HasSubstr("not a store yet"));
   open();
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear", "force"}, {"site"}, true});
               }),
-              HasSubstr("begin another store"));
+              HasSubstr("use another store"));
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear", "time"}, {"site"}, false});
               }),
-              HasSubstr("tells readings apart by their sequence numbers"));
+              HasSubstr("identifies readings by their sequence numbers"));
 }
 
 TEST_P(Stores, KeepManyWithRepeatsAmongThem) {
@@ -184,12 +184,11 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear"}, {"site"}, true});
               }),
-              HasSubstr("begin another store"));
+              HasSubstr("use another store"));
   std::vector<std::string> reported;
   const auto tell = [&](const std::string& what) { reported.push_back(what); };
   auto store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_THAT(reported,
-              ElementsAre(HasSubstr("was of version 1, and has been brought up to version 2")));
+  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 2")));
   EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
   ASSERT_EQ(store->states("p").size(), 1U);
   EXPECT_EQ(store->states("p")[0].bytes, "old");
@@ -231,7 +230,7 @@ TEST_P(OldStores, OfLaterVersionsAreRefused) {
     run(fmt::format("UPDATE wearwell SET value = '{}' WHERE name = 'version';", version));
     if (server_ && !*version) continue;  // no store at all
     EXPECT_THAT(message_of<InputError>([&] { open(); }),
-                HasSubstr(fmt::format("is a store of version '{}'; this wearwell knows versions 1 "
+                HasSubstr(fmt::format("is a store of version '{}'; this wearwell reads versions 1 "
                                       "to 2",
                                       version)));
   }
@@ -249,7 +248,7 @@ TEST_F(ScratchTest, AFileThatIsNoStoreIsRefused) {
   const std::string other = (folder() / "other.sqlite").string();
   if (run_command("sqlite3 '" + other + "' 'create table t (a)'").exit_code != 0) GTEST_SKIP();
   EXPECT_THAT(message_of<InputError>([&] { open_store("other.sqlite", folder(), {}); }),
-              HasSubstr("no store of wearwell"));
+              HasSubstr("not a store of wearwell"));
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(CarriedState, SaysThatAFolderHasNone) {
     read_state(PROJECT_SOURCE_DIR "/examples/joint");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("holds no state.bin"));
+    EXPECT_THAT(error.what(), HasSubstr("has no state.bin"));
   }
 }
 

@@ -204,7 +204,7 @@ TEST(CommonPopulation, SaysWhereItCannotBeTold) {
   fleet.lives.units[0].in_populations = [] { return std::optional<InPopulations>(); };
   expect_alone(true, "no forecast by population");
   fleet.lives.populations.clear();
-  expect_alone(false, "cannot be separated");
+  expect_alone(false, "do not separate");
 }
 
 }  // namespace

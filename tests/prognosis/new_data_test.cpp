@@ -146,17 +146,17 @@ TEST_F(NewData, ComeInOtherUnits) {
   EXPECT_EQ(std::count(increase.begin(), increase.end(), 1.1), 2);
   EXPECT_THAT(joined.notes, testing::Contains("column 'time [d]' was converted from d to h"));
   EXPECT_THAT(joined.notes,
-              testing::Contains("column 'operator' is not in the study's data and was left out"));
+              testing::Contains("column 'operator' is not in the study's data and is ignored"));
 }
 
 TEST_F(NewData, AreRefusedWhereTheyDoNotFit) {
   const Source to = lasers();
   EXPECT_THAT(refused(to, "laser,hours\nb9,2\n"), HasSubstr("has no column 'increase_percent'"));
   EXPECT_THAT(refused(to, "laser,time,increase_percent\nb9,2,1\n"),
-              HasSubstr("column 'time': has no unit and may be meant in any; the study's data have "
+              HasSubstr("column 'time': has no unit and may be in any unit; the study's data have "
                         "'hours' in h"));
   EXPECT_THAT(refused(to, "laser,time [mm],increase_percent\nb9,2,1\n"),
-              HasSubstr("not units of one quantity"));
+              HasSubstr("these units have different dimensions"));
   EXPECT_THAT(refused(to, "laser,hours,increase_percent\nb9,two,1\n"), HasSubstr("'two'"));
   EXPECT_THAT(refused(to, "laser,time [h],time [d],increase_percent\nb9,2,2,1\n"),
               HasSubstr("may be 'time [h]' or 'time [d]'"));
@@ -169,10 +169,9 @@ TEST_F(NewData, ThatEqualATestMayBeAnother) {
       "life = \"cycles\"\nstatus = \"status\"\n[law]\nmean_stress = \"none\"\n",
       "t.csv", "S [MPa],cycles,status\n300,2e5,failure\n250,1e6,failure\n200,2e6,runout\n");
   const std::string again = "S [MPa],cycles,status\n200,2e6,runout\n210,1.5e6,failure\n";
-  EXPECT_THAT(
-      refused(tests, again),
-      HasSubstr("new.csv, row 1 equals row 3 of what is known: it may be the same test once "
-                "more, or another one"));
+  EXPECT_THAT(refused(tests, again),
+              HasSubstr("new.csv, row 1 equals row 3 of the known data: it may be the same test "
+                        "again, or another one"));
   EXPECT_EQ(join(tests, again, Repeated::once).counted, 1u);
   EXPECT_EQ(data_table(join(tests, again, Repeated::another).source).rows, 5u);
 }

@@ -138,7 +138,7 @@ TEST(LeastSquares, NamesDependentColumns) {
     fit_least_squares(columns, response, {}, {"1", "a", "b", "c"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "'c' is a combination of '1', 'b'; leave one of them out");
+    EXPECT_STREQ(error.what(), "'c' is a combination of '1', 'b'; remove one of them");
   }
   EXPECT_THROW(fit_least_squares(columns.topRows(3), response.head(3)), InputError);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(10);

@@ -497,13 +497,13 @@ TEST(SubsetSearch, NamesWhatIsWrong) {
   EXPECT_EQ(message(wrong, settings), "the response is the same in every row");
   wrong = problem;
   wrong.columns(4, 2) = NAN;
-  EXPECT_EQ(message(wrong, settings), "row 5 holds a value that is not a finite number");
+  EXPECT_EQ(message(wrong, settings), "row 5 has a value that is not a finite number");
   wrong = problem;
   wrong.weights = Eigen::VectorXd::Ones(20);
   wrong.weights[1] = -1;
   EXPECT_EQ(message(wrong, settings), "the weight in row 2 is -1; it must be positive");
   settings.forced = {10};
-  EXPECT_EQ(message(problem, settings), "forced term 10 is none of the 10 terms");
+  EXPECT_EQ(message(problem, settings), "forced term 10 is not one of the 10 terms");
   settings.forced = {};
   settings.criterion = Criterion::cp;
   wrong = problem;

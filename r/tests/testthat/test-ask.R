@@ -21,7 +21,7 @@ test_that("predictions of a formula model are those of a study that asks them", 
   refused(predict(fit, new, kind = "all"), "kind is \"all\"")
   refused(predict(fit, new, level = 1), "level is 1")
   refused(predict(fit, 3), "newdata is double")
-  refused(predict(fit, data.frame(F = Inf, s = 1)), "newdata, row 1, column 'F': Inf is no finite number")
+  refused(predict(fit, data.frame(F = Inf, s = 1)), "newdata, row 1, column 'F': Inf is not a finite number")
 })
 
 test_that("measurements of a joint that was seen lie where its own rate says", {

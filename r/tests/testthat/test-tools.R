@@ -46,7 +46,7 @@ test_that("cycles are those of ASTM E1049's example", {
   counts <- tapply(found$count, found$range, sum)
   expect_identical(as.vector(counts[c("3", "4", "6", "8", "9")]), c(0.5, 1.5, 0.5, 1, 0.5))
   expect_identical(found$range, abs(found$to - found$from))
-  refused(ww_rainflow(c(1, NA)), "signal, row 2: no number")
+  refused(ww_rainflow(c(1, NA)), "signal, row 2: not a number")
   refused(ww_rainflow("a"), "signal holds no numbers")
   refused(ww_rainflow(signal, method = "five"), "method is")
 })

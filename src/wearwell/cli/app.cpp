@@ -24,7 +24,7 @@
 namespace wearwell {
 namespace {
 
-// Under which heading the help shows a command.
+// The heading of the help under which a command stands.
 void group_commands(CLI::App& app) {
   static const std::map<std::string, const char*> groups = {
       {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
@@ -66,7 +66,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_version_command(*app, exit_code);
   add_generate_command(*app, exit_code);
   group_commands(*app);
-  // Now: commands would inherit it.
+  // Set last: commands added later would inherit it.
   app->footer(
       "wearwell help COMMAND describes a command; wearwell new JOB DIR writes a first study.");
   return app;

@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-/// All commands of the program with these models; what a command returns goes to `exit_code`.
+/// All commands of the program for these models; the exit code of the command goes to `exit_code`.
 std::unique_ptr<CLI::App> make_app(Models models, int& exit_code);
 
 }  // namespace wearwell

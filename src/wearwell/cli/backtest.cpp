@@ -28,16 +28,16 @@ struct BacktestOptions {
 
 std::string reported(const Backtest& test, const Tracker& tracker) {
   std::string text = wrapped(fmt::format(
-      "{} readings of {} {}s, {} repeated and counted once, {} refused, {} that contradict those "
-      "before",
+      "{} readings of {} {}s: {} repeated and counted once, {} refused, {} that contradict earlier "
+      "ones",
       test.readings, test.units, tracker.noun(), test.repeated, test.refused, test.contradicting));
-  if (test.refused > 0) text += wrapped("refused first: " + printable(test.first_refused), 2, 4);
+  if (test.refused > 0) text += wrapped("first refused: " + printable(test.first_refused), 2, 4);
   if (test.without_life > 0)
-    text += fmt::format("{} {}s have no life yet and do not count\n", test.without_life,
+    text += fmt::format("{} {}s have no observed end yet and do not count\n", test.without_life,
                         tracker.noun());
   std::vector<std::vector<std::string>> rows = {{"readings so far", tracker.noun() + "s",
-                                                 "forecasts", "90 % held", "held [%]",
-                                                 "chance leaves [%]", "width", "error"}};
+                                                 "forecasts", "covered", "coverage [%]",
+                                                 "by chance [%]", "width", "error"}};
   for (const HeldAt& each : test.ages)
     rows.push_back({"  " + each.age, fmt::format("{}", each.units),
                     fmt::format("{}", each.forecasts), fmt::format("{}", each.held),
@@ -48,9 +48,9 @@ std::string reported(const Backtest& test, const Tracker& tracker) {
   return text + "\nForecasts of remaining useful life against the observed end\n" +
          text_table(rows) +
          wrapped(
-             "Forecasts of one unit hold or fail together: chance leaves is of so many units. "
-             "Width "
-             "and error are medians, over what truly remained.",
+             "Covered: by the 90 % interval. Forecasts of one unit are correlated, so the range by "
+             "chance counts units, not "
+             "forecasts. Width and error are medians, relative to the true remaining useful life.",
              2, 2);
 }
 
@@ -98,7 +98,7 @@ int run_backtest(const BacktestOptions& options, Models models) {
   const auto lives = lives_by_unit(tracker, read_table(options.lives));
   const Backtest test = backtest(tracker, read_table(options.readings), lives);
   if (test.hindcasts.empty())
-    throw InputError(fmt::format("{}: no unit of {} has a life there", options.lives.string(),
+    throw InputError(fmt::format("{}: no unit of {} has a known end there", options.lives.string(),
                                  options.readings.string()));
   if (!options.output.empty()) write_file(options.output, as_csv(test, tracker));
   if (options.json) {
@@ -119,20 +119,20 @@ void add_backtest_command(CLI::App& app, Models models, int& exit_code) {
       "backtest", "Check forecasts of remaining useful life against units whose end is known");
   command
       ->add_option("RESULT", options->result,
-                   "Folder that wearwell fit wrote of a law, of bearings or of a joint, with a "
-                   "limit, or of S-N parts")
+                   "Folder that wearwell fit wrote for a formula model, bearings or a joint with a "
+                   "failure threshold, or for S-N parts")
       ->required();
   command
       ->add_option("READINGS", options->readings,
-                   "Table of readings as they came: the study's names with their units, \"wear "
-                   "[um]\", and who it was")
+                   "Table of readings in the order of arrival: the study's columns with their "
+                   "units, \"wear [um]\", and the unit's label")
       ->required();
   command
-      ->add_option(
-          "LIVES", options->lives,
-          "Table of where lives ended: who it was, and \"life [h]\"; empty where it goes on")
+      ->add_option("LIVES", options->lives,
+                   "Table of observed ends: the unit's label and \"life [h]\"; empty for units "
+                   "that still run")
       ->required();
-  command->add_option("-o,--output", options->output, "Each forecast, as FILE.csv");
+  command->add_option("-o,--output", options->output, "File for each forecast, FILE.csv");
   command->add_flag("--json", options->json, "Print one JSON object and nothing else");
   command->footer(
       "Example:\n  wearwell backtest study-results readings.jsonl truth.csv\n\n"

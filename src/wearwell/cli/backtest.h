@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// wearwell backtest: how often forecasts of units that were followed have held.
+/// wearwell backtest: the coverage of forecasts for units whose end is known.
 void add_backtest_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

@@ -11,7 +11,7 @@
 namespace wearwell {
 namespace {
 
-// summary.json of a folder; nothing where it holds none.
+// summary.json of a folder; empty where the folder has none.
 std::optional<nlohmann::ordered_json> summary_of(const std::filesystem::path& result) {
   const std::filesystem::path file = result / "summary.json";
   std::error_code error;
@@ -28,9 +28,9 @@ prognosis::CarriedState read_carried_data(const std::filesystem::path& result) {
     const auto summary = summary_of(result);
     if (summary && summary->value("model", "") == "clutch-wear")
       throw InputError(fmt::format(
-          "{}: of this clutch campaign no data were kept: it was simulated, an sql asks for one of "
-          "its tables, two of them are one file, or an earlier version fitted it. Add the rows to "
-          "its files and fit it again",
+          "{}: the result does not hold the data of this clutch campaign: the campaign was "
+          "simulated, an sql query reads one of its tables, two of its tables are one file, or an "
+          "earlier version fitted it. Add the rows to its files and fit it again",
           valid_utf8(result.string())));
   }
   return prognosis::read_state(result);
@@ -39,11 +39,11 @@ prognosis::CarriedState read_carried_data(const std::filesystem::path& result) {
 prognosis::CarriedState read_carried(const std::filesystem::path& result) {
   prognosis::CarriedState state = read_carried_data(result);
   if (state.parameters.empty())
-    throw InputError(fmt::format(
-        "{}: a clutch campaign has no posterior that could be carried on. New data: wearwell "
-        "update; the life of a plate: wearwell clutch life; what it has worn goes on with wearwell "
-        "clutch predict --state",
-        valid_utf8(result.string())));
+    throw InputError(
+        fmt::format("{}: a clutch campaign has no posterior to carry on. For new data use wearwell "
+                    "update; for the life of a plate wearwell clutch life; to continue its wear "
+                    "wearwell clutch predict --state",
+                    valid_utf8(result.string())));
   return state;
 }
 

@@ -7,13 +7,15 @@
 
 namespace wearwell {
 
-/// state.bin of a result. Throws InputError as read_state does; of a clutch campaign without one with what to do instead.
+/// Reads state.bin of a result. Throws InputError as read_state does; for a clutch campaign without
+/// state.bin the message names the remedy.
 prognosis::CarriedState read_carried_data(const std::filesystem::path& result);
 
-/// The same with a posterior, which a clutch campaign does not have.
+/// The same for results with a posterior; a clutch campaign has none.
 prognosis::CarriedState read_carried(const std::filesystem::path& result);
 
-/// How the result was fitted, by its summary.json: method, chains and seed. Nothing where there is none.
+/// How the result was fitted, by its summary.json: method, chains and seed. Empty where there is
+/// none.
 SamplerChoice sampler_of(const std::filesystem::path& result);
 
 }  // namespace wearwell

@@ -42,7 +42,7 @@ void check_option(const CLI::App& command, const std::string& argument) {
   if (!name.starts_with("--")) {
     // "-output out" would be -o with the value "utput".
     if (name.size() > 2 && known("-" + name))
-      throw InputError(fmt::format("{} is written with two dashes: -{}", name, name));
+      throw InputError(fmt::format("{} needs two dashes: -{}", name, name));
     return;
   }
   if (known(name)) return;
@@ -66,16 +66,16 @@ std::string what_is_wrong(const CLI::App& command, const CLI::ParseError& error)
     }
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) && colon != what.npos)
-    return fmt::format("'{}' is more than it takes", what.substr(colon + 2));
+    return fmt::format("'{}' is an extra argument", what.substr(colon + 2));
   if (kind == "ArgumentMismatch" && colon != what.npos) {
     const std::string name = what.substr(0, colon);
-    if (has("missing")) return name + " needs a value behind it";
+    if (has("missing")) return name + " needs a value";
     if (has("At Most"))
-      return fmt::format("{} may be given once, and is given {} times", name,
+      return fmt::format("{} may be given once; it is given {} times", name,
                          number_behind("received "));
     if (has("At least"))
       return fmt::format(
-          "{} is given {} times, and is needed {} times at least", name, number_behind("received "),
+          "{} is given {} times; at least {} are needed", name, number_behind("received "),
           what.substr(what.find("least ") + 6, what.find(" required") - what.find("least ") - 6));
   }
   return what;
@@ -104,8 +104,9 @@ const CLI::App& command_named(const CLI::App& parent, const std::string& name) {
   }
   const std::vector<std::string> names = names_of(commands_of(parent));
   if (names.empty())
-    throw InputError(fmt::format("{} has no commands, and so no '{}'", full_name(parent), name));
-  throw InputError(fmt::format("'{}' is no command of {}{} (commands: {}; see {})", name,
+    throw InputError(
+        fmt::format("{} has no subcommands; '{}' is unknown", full_name(parent), name));
+  throw InputError(fmt::format("'{}' is not a command of {}{} (commands: {}; see {})", name,
                                full_name(parent), did_you_mean(name, names), fmt::join(names, ", "),
                                where_to_read(parent)));
 }

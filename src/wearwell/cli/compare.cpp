@@ -54,13 +54,16 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   compare->add_option("DIR", options->folders, "Folders that `wearwell fit` wrote")
       ->required()
       ->expected(2, 100);
-  compare->add_option("-o,--output", options->page,
-                      "Page to write, FILE.html: the tables, and parameters over each other");
+  compare->add_option(
+      "-o,--output", options->page,
+      "Page to write, FILE.html: the tables, and the posteriors of the parameters overlaid");
   compare->add_flag("--json", options->json, "Print one JSON object and nothing else");
   compare->footer(
-      "Example:\n  wearwell compare goodman-results gerber-results -o comparison.html\n\n"
-      "Studies of different data are shown, never ranked. Exit codes: 0 all studies are trusted; 1 "
-      "one is not; 2 a\nfolder holds no result.");
+      "Example:\n"
+      "  wearwell compare goodman-results gerber-results -o comparison.html\n\n"
+      "Studies of different data are shown but not ranked. Exit codes: 0 all studies are trusted; "
+      "1 one is not; 2 a\n"
+      "folder holds no result.");
   compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 

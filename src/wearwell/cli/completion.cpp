@@ -17,7 +17,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-// The words of "METHOD:exact|nuts|metropolis" (one_of); none where anything goes.
+// The choices of "METHOD:exact|nuts|metropolis" (one_of); empty where any text is valid.
 std::vector<std::string> words_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::string words = type.substr(type.find(':') + 1);
@@ -42,7 +42,7 @@ std::string in_quotes(std::string_view text) {
   return result + "'";
 }
 
-// In a specification of zsh's _arguments.
+// As part of a specification of zsh's _arguments.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -110,7 +110,7 @@ std::string bash_completion(const CLI::App& app) {
     for (const CLI::Option* option : options_of(command)) {
       const std::vector<std::string> spelled = names_of(*option), words = words_of(*option);
       names.insert(names.end(), spelled.begin(), spelled.end());
-      // What stands behind an option; "" is a positional.
+      // The value of an option; "" is a positional.
       if (option->get_items_expected_max() == 0) continue;
       if (spelled.empty() && words.empty()) continue;
       for (const std::string& each : spelled.empty() ? std::vector<std::string>{""} : spelled)

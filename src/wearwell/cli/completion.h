@@ -5,10 +5,10 @@
 
 namespace wearwell {
 
-/// A script for bash: commands, options, the words an option takes, and files elsewhere.
+/// A completion script for bash: commands, options, the choices of an option, and files elsewhere.
 std::string bash_completion(const CLI::App& app);
 
-/// The same for zsh, as a file `_wearwell` of its fpath, with what each does.
+/// The same for zsh, as a file `_wearwell` of its fpath, with descriptions.
 std::string zsh_completion(const CLI::App& app);
 
 }  // namespace wearwell

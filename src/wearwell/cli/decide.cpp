@@ -39,7 +39,7 @@ struct DecideOptions {
   bool json = false;
 };
 
-// "12000 EUR": all amounts are of one currency, or of none.
+// "12000 EUR": all amounts are in one currency, or in none.
 double amount(const std::string& option, const std::string& text, std::string& currency,
               bool& first) {
   const std::size_t end = text.find_first_of(" ");
@@ -51,33 +51,34 @@ double amount(const std::string& option, const std::string& text, std::string& c
     first = false;
   } else if (said != currency) {
     throw InputError(fmt::format(
-        "{}: '{}' is in another currency than '{}'; give all amounts in one, or all without",
-        option, printable(text), currency.empty() ? "no word" : printable(currency)));
+        "{}: '{}' is in another currency than '{}'; give all amounts in one currency, or all "
+        "without",
+        option, printable(text), currency.empty() ? "no currency" : printable(currency)));
   }
   return value;
 }
 
-// "50 EUR/h": the amount for so much of the axis.
+// "50 EUR/h": an amount per unit of use.
 double amount_per(const std::string& option, const std::string& text, const Unit& axis,
                   std::string& currency, bool& first) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos)
-    throw InputError(fmt::format("{}: '{}' must be an amount for so much use, like '50 EUR/{}'",
-                                 option, printable(text), axis.text));
+    throw InputError(fmt::format("{}: '{}' must be an amount per use, like '50 EUR/{}'", option,
+                                 printable(text), axis.text));
   const std::string per = text.substr(slash + 1);
   double use = 0;
   try {
     use = read_unit(per, axis.text).scale;
   } catch (const InputError&) {
-    throw InputError(fmt::format("{}: '{}' is no unit like {}, in which lives are counted", option,
-                                 printable(per), axis.text));
+    throw InputError(fmt::format("{}: '{}' is not a unit like {}, in which lives are counted",
+                                 option, printable(per), axis.text));
   }
   std::string before = text.substr(0, slash);
   while (!before.empty() && before.back() == ' ') before.pop_back();
   return amount(option, before, currency, first) / use;
 }
 
-// A number with a unit of the dimension of one that is known, in SI.
+// A number with a unit of the dimension of a known unit, in SI.
 double like_value(const std::string& option, const std::string& text, const Unit& like,
                   Allowed allowed = Allowed::any) {
   Quantity quantity;
@@ -98,18 +99,20 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
   question.costs.replacement =
       amount("--replacement-cost", options.replacement, question.currency, first);
   if (question.costs.replacement <= 0)
-    throw InputError("--replacement-cost: must be above 0, or nothing is worth waiting for");
+    throw InputError("--replacement-cost: must be above 0; otherwise waiting saves nothing");
   if (!options.inspection.empty()) {
     question.costs.inspection =
         amount("--inspection-cost", options.inspection, question.currency, first);
     question.inspected = true;
     if (question.costs.inspection <= 0)
-      throw InputError("--inspection-cost: must be above 0, or one would inspect all the time");
+      throw InputError(
+          "--inspection-cost: must be above 0; otherwise the optimal interval is zero");
   }
   if (!options.downtime.empty()) {
     if (!question.inspected)
       throw InputError(
-          "--downtime-cost: a failure that only an inspection shows needs --inspection-cost");
+          "--downtime-cost: applies to failures that only an inspection shows; it needs "
+          "--inspection-cost");
     question.hidden =
         amount_per("--downtime-cost", options.downtime, axis, question.currency, first);
   }
@@ -120,7 +123,7 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
   return question;
 }
 
-// All readings of a unit that its state has taken; the store outlives it.
+// All readings of a unit that its state has processed; the store outlives it.
 History history_of(monitor::Store& store, const std::string& name, std::int64_t until) {
   return [&store, name, until](const std::function<void(const Reading&)>& visit) {
     store.of_unit(name, 0, until, [&](const monitor::StoredReading& each) {
@@ -132,10 +135,10 @@ History history_of(monitor::Store& store, const std::string& name, std::int64_t 
 struct Read {
   KnownLives lives;
   std::unique_ptr<const Tracker> tracker;  ///< of a result
-  std::unique_ptr<monitor::Store> store;   ///< of a fleet on line
+  std::unique_ptr<monitor::Store> store;   ///< of a monitored fleet
   std::map<std::string, monitor::UnitRecord> stored = {};
 
-  // A unit as it is now, and all that it has read since the study.
+  // A unit in its current state, with all its readings since the study.
   std::unique_ptr<TrackedUnit> unit(const std::string& name) const {
     const auto at = stored.find(name);
     return at == stored.end() ? tracker->begin(name) : tracker->restore(at->second.state->save());
@@ -152,7 +155,7 @@ struct Read {
   }
 };
 
-// Units of a fleet on line, as its store knows them.
+// Units of a monitored fleet, as its store holds them.
 void read_fleet(const DecideOptions& options, Models models, Read& read) {
   MonitoredFleet fleet = monitored_fleet(options.lives, models);
   try {
@@ -164,7 +167,7 @@ void read_fleet(const DecideOptions& options, Models models, Read& read) {
   }
   read.lives = lives_of_new(*fleet.tracker, options.lives.string(), fleet.trusted);
   for (const auto& [name, record] : read.stored) {
-    // `stored` keeps it as long as lives are asked.
+    // `stored` must stay alive as long as lives are requested.
     const std::shared_ptr<const TrackedUnit> unit(std::shared_ptr<void>(), record.state.get());
     read.lives.units.push_back(known_unit(name, unit, history_of(*read.store, name, record.place)));
   }
@@ -197,7 +200,7 @@ std::size_t column_at(const Tracker& tracker, const std::string& name) {
                                fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
-// "force = 20 N": under which the reading ahead is taken.
+// "force = 20 N": the conditions of the next reading.
 void add_given(const Tracker& tracker, const std::string& text, Reading& reading) {
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos)
@@ -217,11 +220,12 @@ void add_given(const Tracker& tracker, const std::string& text, Reading& reading
   reading.numbers[column] = like_value("--given", value, tracker.columns()[column].unit);
 }
 
-// What another reading of one unit is worth.
+// The value of another reading of one unit.
 WorthReport worth_of(const DecideOptions& options, const Read& read, const Question& question,
                      double rate) {
   if (!read.tracker)
-    throw InputError("--inspect-after: a table of lives does not say what a reading would show");
+    throw InputError(
+        "--inspect-after: a table of lives does not predict what a reading would show");
   if (!question.inspected) throw InputError("--inspect-after: needs --inspection-cost");
   const Tracker& tracker = *read.tracker;
   const std::vector<std::string> known = read.names();
@@ -255,12 +259,12 @@ WorthReport worth_of(const DecideOptions& options, const Read& read, const Quest
 int run_decide(const DecideOptions& options, Models models) {
   DecisionsReport report;
   if (options.unit.empty() != options.after.empty())
-    throw InputError("--unit and --inspect-after: one says little without the other");
+    throw InputError("--unit and --inspect-after go together; give both");
   Read read = read_lives(options, models);
   report.lives = std::move(read.lives);
   report.question = question_of(options, report.lives.unit);
   if (report.question.per_month && report.lives.units.empty())
-    throw InputError("--month: there is no running unit to be counted");
+    throw InputError("--month: there is no running unit to count");
   report.decisions = decide(report.lives, report.question);
   if (!options.unit.empty())
     report.worth = worth_of(options, read, report.question, report.decisions.reference);
@@ -292,42 +296,40 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "decide", "Find the cheapest replacement age, inspection interval and stock of spare parts");
   command
-      ->add_option(
-          "LIVES", options->lives,
-          "Folder that wearwell fit wrote of a law or of bearings, with a limit, or of S-N parts; "
-          "configuration of "
-          "a "
-          "monitor (.toml): the units of its store; or a table of lives: column 'life [h]', and "
-          "weight, unit, population where there are such")
+      ->add_option("LIVES", options->lives,
+                   "Folder that wearwell fit wrote for a formula model or bearings with a failure "
+                   "threshold, or for S-N parts; configuration of a monitor (.toml) for the units "
+                   "of its store; or a table of lives with column 'life [h]' and optionally "
+                   "weight, unit, population")
       ->required();
   command
       ->add_option("--failure-cost", options->failure,
-                   "Of a failure in service, its replacement included: '12000 EUR'")
+                   "Cost of a failure in service, including the replacement: '12000 EUR'")
       ->required();
   command
-      ->add_option("--replacement-cost", options->replacement, "Of a replacement before: '900 EUR'")
+      ->add_option("--replacement-cost", options->replacement,
+                   "Cost of a preventive replacement: '900 EUR'")
       ->required();
   command->add_option("--inspection-cost", options->inspection,
-                      "Of one inspection: then also how often to inspect");
-  command->add_option(
-      "--downtime-cost", options->downtime,
-      "Failures show at an inspection only, and cost so much until then: '5 EUR/h'");
+                      "Cost of one inspection; adds the optimal inspection interval");
+  command->add_option("--downtime-cost", options->downtime,
+                      "Cost of an undetected failure per use until the next inspection: '5 EUR/h'");
   command->add_option("--unit", options->unit,
-                      "One unit of a result: what another reading of it is worth");
+                      "One unit of a result: adds the value of another reading of it");
   command->add_option("--inspect-after", options->after,
-                      "So much use from now that reading is taken: '5 km'; '0 km' for now");
+                      "Use from now until that reading is taken: '5 km'; '0 km' for now");
   command->add_option(
       "--given", options->given,
-      "Under which it is taken: 'force = 20 N', for each column that a reading needs");
+      "Conditions of that reading: 'force = 20 N', for each column that a reading needs");
   command->add_option(
       "--month", options->month,
-      "What a unit runs in a month, '600 h': then also the fleet and spare parts by month");
-  command->add_option("--months", options->months, "So many months ahead")
+      "Use of a unit per month, '600 h': adds the failures and spare parts per month");
+  command->add_option("--months", options->months, "Number of months ahead")
       ->check(number_between(1, 600))
       ->capture_default_str();
   command
       ->add_option("--service-level", options->service,
-                   "Probability that the spare parts are enough, %")
+                   "Probability that the spare parts suffice, %")
       ->check(number_between(1, 99.9999))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for the page, tables and JSON");

@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// wearwell decide: what costs least, from distributions of life.
+/// wearwell decide: minimizes cost, given distributions of life.
 void add_decide_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

@@ -12,14 +12,14 @@
 namespace wearwell {
 namespace {
 
-// As an option can name it: commas stand between the columns.
+// In the form that an option accepts: commas separate columns.
 std::string name_for_option(const ColumnRoles& roles, const Column& column) {
   if (column.name.find(',') == column.name.npos) return column.name;
   std::string name = name_and_unit(column, "").name;
   name = name.substr(0, name.find(','));
   try {
     if (&roles.table().column(name) == &column) return name;
-  } catch (const InputError&) {  // two of that name
+  } catch (const InputError&) {  // two columns have that name
   }
   return column.name;
 }
@@ -58,7 +58,7 @@ std::optional<Scaffold> first_selection(ColumnRoles& roles) {
     if (inputs.size() <= fewest) return {};
     TableQuestion question{fmt::format("Which column of {} is the response?", roles.file()), {}};
     for (const Column* each : inputs) {
-      question.readings.push_back({fmt::format("'{}', and all others are inputs", each->name),
+      question.readings.push_back({fmt::format("'{}', with all others as inputs", each->name),
                                    {"--column", "response=" + each->name}});
     }
     roles.questions.push_back(std::move(question));
@@ -79,8 +79,8 @@ std::optional<Scaffold> first_selection(ColumnRoles& roles) {
                                  3 * terms <= roles.table().rows ? 2 : 1);
   if (weights) text += " --weights " + shell_word(name_for_option(roles, *weights->column));
   roles.guesses.push_back(
-      "terms are products of so many inputs as --degree says: the rows are enough for that many");
-  return roles.study("a response with inputs, and which of their products explain it",
+      "terms are products of up to --degree inputs; the number of rows allows this degree");
+  return roles.study("a response with inputs, and the products of inputs that explain it",
                      stated ? ReadingFit::specific : ReadingFit::general, std::move(text));
 }
 

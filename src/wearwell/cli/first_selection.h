@@ -6,10 +6,10 @@
 
 namespace wearwell {
 
-/// A table of a response with inputs: the text is the options of `wearwell select`. Nothing where the table has none.
+/// For a table of a response with inputs: the options of `wearwell select`. Empty for other tables.
 std::optional<Scaffold> first_selection(ColumnRoles& roles);
 
-/// A word as a shell takes it.
+/// A word quoted for a shell.
 std::string shell_word(const std::string& text);
 
 }  // namespace wearwell

@@ -91,9 +91,9 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
       "fit", "Estimate a study's parameters, predict, and check whether to trust the result");
   fit->add_option("STUDY", options->study, "Study file (TOML)")->required();
   fit->add_option("-o,--output", options->output,
-                  "Folder for the results (default: STUDY-results here)");
+                  "Folder for the results (default: STUDY-results in the current folder)");
   fit->add_option("--method", options->method,
-                  "How draws are made (default nuts); exact: by quadrature, up to 4 parameters")
+                  "Sampling method (default nuts); exact: quadrature, up to 4 parameters")
       ->check(one_of({"nuts", "metropolis", "exact"}))
       ->type_name("METHOD");
   fit->add_option("--chains", options->sampler.chains, "Independent chains (default 4)")
@@ -107,14 +107,14 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)")
       ->check(seed_number());
   fit->add_option("--threads", options->threads,
-                  "Threads (default: all); results do not depend on it")
+                  "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   CLI::Option* json = fit->add_flag("--json", options->json, "Print summary.json and nothing else");
   fit->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
-  fit->add_flag("--rows", options->rows, "Print tables with a line for each row of the data too");
+  fit->add_flag("--rows", options->rows, "Include tables with a line for each row of the data");
   fit->add_flag("--no-report", options->no_report, "Write no report.html");
   fit->add_option("--netcdf", options->netcdf,
-                  "Write draws, their statistics and log-likelihoods as NetCDF for ArviZ as well")
+                  "Also write draws, their statistics and log-likelihoods as NetCDF for ArviZ")
       ->type_name("FILE");
   fit->footer(
       "Examples:\n"

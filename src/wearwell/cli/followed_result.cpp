@@ -13,7 +13,7 @@ std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedSta
                                                      Models models) {
   for (const Model& model : models)
     if (model.key == state.model && model.track) return model.track(state);
-  throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
+  throw InputError(fmt::format("{}: single units of a study of model \"{}\" cannot be followed",
                                result.string(), printable(state.model)));
 }
 

@@ -15,13 +15,14 @@ struct FollowedResult {
   bool trusted = true;
 };
 
-/// What follows the units of a state read from `result`. Throws InputError that names it, where it is of a model whose
-/// units cannot be followed.
+/// The tracker for units of a state read from `result`. Throws InputError that names it if single
+/// units of its model cannot be followed.
 std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedState& state,
                                                      const std::filesystem::path& result,
                                                      Models models);
 
-/// Reads RESULT/state.bin. Throws InputError where it holds none, or is of a model whose units cannot be followed.
+/// Reads RESULT/state.bin. Throws InputError if there is none, or if single units of its model
+/// cannot be followed.
 FollowedResult followed_result(const std::filesystem::path& result, Models models);
 
 }  // namespace wearwell

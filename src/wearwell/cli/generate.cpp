@@ -14,7 +14,9 @@ void add_generate_command(CLI::App& app, int& exit_code) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("generate", "Manual page or completions of a shell");
   command->group("");
-  command->add_option("WHAT", *what, "Which")->required()->check(one_of({"man", "bash", "zsh"}));
+  command->add_option("WHAT", *what, "What to write")
+      ->required()
+      ->check(one_of({"man", "bash", "zsh"}));
   command->callback([what, &app, &exit_code] {
     fmt::print("{}", *what == "man"    ? man_page(app, WEARWELL_VERSION)
                      : *what == "bash" ? bash_completion(app)

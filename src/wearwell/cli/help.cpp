@@ -15,7 +15,7 @@ void add_help_command(CLI::App& app, int& exit_code) {
   help->callback([words, &app, &exit_code] {
     const CLI::App* command = &app;
     for (const std::string& word : *words) command = &command_named(*command, word);
-    // App::help would tell of the command that runs, which is this one.
+    // App::help would describe the command that runs, which is this one.
     fmt::print("{}", command->get_formatter()->make_help(command, full_name(*command),
                                                          CLI::AppFormatMode::Normal));
     exit_code = 0;

@@ -4,7 +4,7 @@
 
 namespace wearwell {
 
-/// `wearwell help [COMMAND [SUBCOMMAND]]`. Of all commands that stand in `app` when it runs.
+/// `wearwell help [COMMAND [SUBCOMMAND]]`, for all commands that `app` has when it runs.
 void add_help_command(CLI::App& app, int& exit_code);
 
 /// `wearwell version`.

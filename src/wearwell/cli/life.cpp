@@ -42,7 +42,7 @@ struct LifeOptions {
   bool json = false;
 };
 
-// What readings since then have made of the nodes.
+// The nodes after the readings since then.
 struct Moved {
   std::string how;  // empty without readings
   std::size_t counted = 0, repeated = 0;
@@ -55,7 +55,7 @@ double risk_of(const std::string& text) {
   return risk;
 }
 
-// The nodes' weights are moved; where they resolve the new posterior no more, they are laid anew.
+// Reweights the nodes; where too few carry the weight of the new posterior, rebuilds them.
 Moved take_readings(const LifeOptions& options, Models models, prognosis::CarriedState& state) {
   const Table table = prognosis::read_new_data(state.source, options.readings);
   prognosis::JoinedData joined =
@@ -73,14 +73,15 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
   Moved done{"", joined.counted, joined.repeated, joined.contradictions};
   state.source = std::move(joined.source);
   if (prognosis::resolves(moved)) {
-    done.how = fmt::format("nodes reweighted, {:.0f} effective", moved.effective);
+    done.how = fmt::format("nodes reweighted, effective sample size {:.0f}", moved.effective);
     state.posterior = moved.draws;
     return done;
   }
   const SamplerChoice choice = sampler_of(options.result);
   const Fit fitted = fit(of_all, fit_settings(study, choice));
   if (!proper(fitted))
-    throw InputError("with these readings the posterior has no lives: wearwell update says why");
+    throw InputError(
+        "with these readings the posterior has no lives; run wearwell update for the reason");
   state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
   done.how = "nodes rebuilt";
   return done;
@@ -90,7 +91,7 @@ ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json();
 }
 
-// 0.93, not 0.9299999999999999.
+// 0.93 instead of 0.9299999999999999.
 double survival(double share) {
   constexpr double digits = 1e12;
   return std::round((1 - share) * digits) / digits;
@@ -138,11 +139,12 @@ present::Table table_of(const UnitLife& life) {
   return table;
 }
 
-// What the limit is of, ahead: of the unit's nodes on line, which go on from where it stands.
+// The forecast of the quantity with the failure threshold, from the unit's tracker nodes at its
+// present state.
 present::Table path_ahead(const LifeOptions& options, Models models,
                           const prognosis::CarriedState& state) {
   if (!options.survived.empty())
-    throw InputError("--path: goes on from the last reading; leave out --survived");
+    throw InputError("--path: continues from the last reading; leave out --survived");
   const auto tracker = tracker_of(state, options.result, models);
   const auto seen = tracker->seen();
   const auto is_known = [&](const std::string& name) {
@@ -153,11 +155,11 @@ present::Table path_ahead(const LifeOptions& options, Models models,
                                ? options.unit.substr(named.size())
                                : options.unit;
   std::string name = is_known(bare) ? bare : prognosis::new_name(*tracker);
-  if (!tracker->refusal(name).empty()) name = seen.front();  // a study of one
+  if (!tracker->refusal(name).empty()) name = seen.front();  // a study of one unit
   const auto unit = tracker->begin(name);
   const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
   present::Table table{"path",
-                       "Path ahead",
+                       "Forecast",
                        {{tracker->axis().name, along.text},
                         {tracker->limited() + " 5 %", level.text},
                         {tracker->limited() + " 50 %", level.text},
@@ -178,23 +180,23 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   };
   if (!trusted)
     fmt::print(
-        "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
+        "Not trusted: a check of the fit failed; wearwell report or the summary names it.\n");
   fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
              life.at);
   if (life.from) {
     const double place = std::strtod(fmt::format("{:.6g}", *life.from).c_str(), nullptr);
-    fmt::print("  counted from {} {} on\n", plain_given(place), unit);
+    fmt::print("  counted from {} {}\n", plain_given(place), unit);
   }
   if (!moved.how.empty())
-    fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
+    fmt::print("  with {} new reading{} ({} known already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
   if (life.passed)
-    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
+    fmt::print("  probability of an earlier end: {}; given no earlier end:\n",
                probability_text(*life.passed));
   if (life.never)
-    fmt::print("  with a probability of {} it never ends\n", probability_text(*life.never));
+    fmt::print("  probability that it never ends: {}\n", probability_text(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
-    fmt::print("  look at {}: {}\n", each.place, each.why);
+    fmt::print("  check {}: {}\n", each.place, each.why);
   fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), unit,
              shown(life.quantile(0.05)), shown(life.quantile(0.95)), unit);
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
@@ -203,13 +205,13 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
     fmt::print("  numerical error of these lives: {} %\n",
                plain_number(100 * *life.numerical_error, 2));
   if (life.horizon)
-    fmt::print("  within {} {} the end is reached with a probability of {}\n",
-               plain_given(*life.horizon), unit, probability_text(*life.reached));
+    fmt::print("  probability of reaching the end within {} {}: {}\n", plain_given(*life.horizon),
+               unit, probability_text(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
              shown(life.inspect_within), unit, probability_text(life.risk));
 }
 
-// A name of a part may be that of a stress as well.
+// The name of a part may also be that of a stress.
 void refuse_two_meanings(const prognosis::CarriedState& state, const std::string& name,
                          const std::string& asked) {
   if (name != asked) return;  // "part shaft"
@@ -217,12 +219,12 @@ void refuse_two_meanings(const prognosis::CarriedState& state, const std::string
   const auto stresses = predict ? predict->table("stress") : std::nullopt;
   if (stresses && stresses->has(name))
     throw InputError(
-        fmt::format("--unit: '{0}' is a part of the data and a stress of [predict.stress]: write "
-                    "'part {0}' for the first, or give the stress another name",
+        fmt::format("--unit: '{0}' is both a part of the data and a stress of [predict.stress]: "
+                    "write 'part {0}' for the part, or rename the stress",
                     printable(name)));
 }
 
-// A part of an S-N study that has a name there is asked for by it; all else by what the study tells of lives.
+// A named part of an S-N study is found by its name; all else by the study's lives.
 UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::CarriedState& state,
                     const prognosis::LifeQuestion& question) {
   const prognosis::ReadAsked read = [&](const Source& source) {
@@ -242,7 +244,7 @@ int run_life(const LifeOptions& options, Models models) {
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
                      {{"--output", options.output}, {"--path", options.path}});
   prognosis::LifeQuestion question;
-  question.unit = printable(options.unit);  // as tables are read
+  question.unit = printable(options.unit);  // read as tables are
   if (!options.survived.empty()) question.survived = options.survived;
   if (!options.horizon.empty()) question.horizon = options.horizon;
   if (!options.risk.empty()) question.risk = risk_of(options.risk);
@@ -260,7 +262,7 @@ int run_life(const LifeOptions& options, Models models) {
     print(life, moved, state.trusted);
     if (!options.output.empty())
       fmt::print("The survival curve is in {}\n", options.output.string());
-    if (!options.path.empty()) fmt::print("The path ahead is in {}\n", options.path.string());
+    if (!options.path.empty()) fmt::print("The forecast is in {}\n", options.path.string());
   }
   return state.trusted ? 0 : 1;
 }
@@ -273,23 +275,23 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       app.add_subcommand("life", "Remaining useful life of one unit, or the life of a new one");
   life->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
-  life->add_option("--unit", options->unit,
-                   "Whose life: a label of the data (a machine, a bearing, a part that did not "
-                   "break), or a stress of an S-N study (default: a new one; of a joint, the "
-                   "joint)");
+  life->add_option(
+      "--unit", options->unit,
+      "Whose life: a label of the data (a machine, a bearing, a part that did not break), or a "
+      "stress of an S-N study (default: a new unit; for a joint, the joint)");
   life->add_option("--survived", options->survived,
-                   "What it has come to, with its unit (default: its last reading)");
-  life->add_option("--readings", options->readings, "Table of readings since then")
+                   "Use that it has survived, with its unit (default: its last reading)");
+  life->add_option("--readings", options->readings, "Table of readings since the fit")
       ->type_name("FILE");
   life->add_option("--horizon", options->horizon,
-                   "With which probability is the end reached within that, from then on?");
+                   "Reports the probability that the end is reached within this use, from now on");
   life->add_option("--risk", options->risk,
-                   "Tolerated until the next inspection (default: as the study says, or 1 %)");
+                   "Risk tolerated until the next inspection (default: as in the study, or 1 %)");
   life->add_option("-o,--output", options->output, "Write the survival curve as CSV")
       ->type_name("FILE");
   life->add_option("--path", options->path,
-                   "Write the path ahead as CSV: what the limit is of, 5, 50 and 95 % (of a law, a "
-                   "bearing, a joint, a part)")
+                   "Write the forecast as CSV: 5, 50 and 95 % quantiles of the quantity with the "
+                   "failure threshold (formula model, bearing, joint, part)")
       ->type_name("FILE");
   life->add_flag("--json", options->json, "Print one JSON object and nothing else");
   life->footer(
@@ -300,8 +302,8 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n"
       "  wearwell life fluid-results --horizon \"100 h\"      (does the next one fail within 100 "
       "h?)\n"
-      "  wearwell life fluid-results --survived \"100 h\"     (does it before, and what remains "
-      "then?)\n\n"
+      "  wearwell life fluid-results --survived \"100 h\"     (probability of an earlier end, and "
+      "the RUL)\n\n"
       "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
       "the machine failed.");
   life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });

@@ -7,7 +7,7 @@
 namespace wearwell {
 namespace {
 
-// As roff takes it for text: no escapes, no requests, hyphens that can be copied.
+// Text for roff: escaped, no requests, hyphens that can be copied.
 std::string plain(std::string_view text) {
   std::string result;
   bool line_begins = true;
@@ -73,24 +73,43 @@ void add_command(const CLI::App& command, std::string& page) {
 std::string man_page(const CLI::App& app, const std::string& version) {
   std::string page = fmt::format(
       ".TH WEARWELL 1 \"\" \"wearwell {0}\" \"User Commands\"\n"
-      ".SH NAME\nwearwell \\- {1}\n"
-      ".SH SYNOPSIS\n.B wearwell\nCOMMAND [ARGUMENTS]\n"
+      ".SH NAME\n"
+      "wearwell \\- {1}\n"
+      ".SH SYNOPSIS\n"
+      ".B wearwell\n"
+      "COMMAND [ARGUMENTS]\n"
       ".SH DESCRIPTION\n"
-      "A study is a file in TOML that names a law, a table of measurements, what was known before, "
-      "and what to predict.\n"
-      ".B wearwell new\nwrites one to start from,\n.B wearwell check\nsays what it will fit, and\n"
-      ".B wearwell fit\nfits it.\n.SH COMMANDS\n",
+      "A study is a file in TOML that names a model, a table of measurements, prior knowledge, and "
+      "what to predict.\n"
+      ".B wearwell new\n"
+      "writes a first one,\n"
+      ".B wearwell check\n"
+      "describes it, and\n"
+      ".B wearwell fit\n"
+      "fits it.\n"
+      ".SH COMMANDS\n",
       version, plain(app.get_description()));
   add_command(app, page);
   page +=
       ".SH EXIT STATUS\n"
-      ".TP\n.B 0\nDone, and the result is to be trusted.\n"
-      ".TP\n.B 1\nDone, but a check failed, or a search was stopped before its proof.\n"
-      ".TP\n.B 2\nThe request or the data is wrong; nothing was written.\n"
-      ".TP\n.B 3\nThe machine failed.\n"
-      ".SH EXAMPLES\n.nf\n"
-      "wearwell new joint my\\-joint\nwearwell check my\\-joint/study.toml\n"
-      "wearwell fit my\\-joint/study.toml \\-o results\n.fi\n";
+      ".TP\n"
+      ".B 0\n"
+      "Done, and the result is trusted.\n"
+      ".TP\n"
+      ".B 1\n"
+      "Done, but a check failed, or a search was stopped before its proof.\n"
+      ".TP\n"
+      ".B 2\n"
+      "The request or the data is wrong; nothing was written.\n"
+      ".TP\n"
+      ".B 3\n"
+      "The machine failed.\n"
+      ".SH EXAMPLES\n"
+      ".nf\n"
+      "wearwell new joint my\\-joint\n"
+      "wearwell check my\\-joint/study.toml\n"
+      "wearwell fit my\\-joint/study.toml \\-o results\n"
+      ".fi\n";
   return page;
 }
 

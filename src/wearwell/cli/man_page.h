@@ -5,7 +5,7 @@
 
 namespace wearwell {
 
-/// wearwell(1), in the language of man(7): every command with its options, as `--help` has them.
+/// wearwell(1), in the language of man(7): every command with its options, as in `--help`.
 std::string man_page(const CLI::App& app, const std::string& version);
 
 }  // namespace wearwell

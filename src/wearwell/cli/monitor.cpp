@@ -28,8 +28,8 @@ void export_readings(const MonitoredFleet& read, const MonitorCommand& command) 
   refuse_overwriting({{"the configuration", command.config}}, {{"--export", command.exported}});
   const std::string ending = command.exported.extension().string();
   if (ending != ".parquet" && ending != ".csv")
-    throw InputError(fmt::format("--export: {} ends neither in .parquet nor in .csv",
-                                 command.exported.string()));
+    throw InputError(
+        fmt::format("--export: {} must end in .parquet or .csv", command.exported.string()));
   const auto store = store_to_read(read);
   std::uint64_t count = 0;
   write_file(command.exported, ending == ".csv"
@@ -74,7 +74,7 @@ void run(const MonitorCommand& command, Models models) {
   const MonitoredFleet read = monitored_fleet(command.config, models);
   if (command.check) {
     const std::size_t sources = read.config.sources.size();
-    fmt::print("{} is whole: {} source{}, store {}\n", command.config.string(), sources,
+    fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,
                sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
   } else if (!command.exported.empty()) {
     try {
@@ -92,40 +92,39 @@ void run(const MonitorCommand& command, Models models) {
 void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
   const auto command = std::make_shared<MonitorCommand>();
   CLI::App* monitor = app.add_subcommand(
-      "monitor", "Follow machines on line: wear, remaining useful life and risk of each");
+      "monitor", "Monitor machines: wear, remaining useful life and risk of each");
   monitor->add_option("CONFIG", command->config, "Configuration (TOML, docs/reference/monitor.md)")
       ->required();
   CLI::Option* once = monitor->add_flag(
       "--once", command->run.once,
-      "Read what files and standard input hold, print the fleet and end; no page, no topics");
-  CLI::Option* check = monitor
-                           ->add_flag("--check", command->check,
-                                      "Read the configuration, and say whether it is whole")
-                           ->excludes(once);
+      "Process the files and standard input, print the fleet and end; no page, no topics");
+  CLI::Option* check =
+      monitor->add_flag("--check", command->check, "Check the configuration and end")
+          ->excludes(once);
   monitor
       ->add_option("--export", command->exported,
                    "Write all stored readings to this file (.parquet, .csv) and end; a monitor may "
-                   "be at work")
+                   "be running")
       ->type_name("FILE")
       ->excludes(once)
       ->excludes(check);
   monitor
       ->add_option("--threads", command->run.threads,
-                   "Threads (default: all); results do not depend on it")
+                   "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   CLI::Option* json = monitor->add_flag(
       "--json", command->json, "At the end print the fleet as one JSON object, and nothing else");
-  monitor->add_flag("--quiet", command->quiet, "Print nothing but what goes wrong")->excludes(json);
+  monitor->add_flag("--quiet", command->quiet, "Print errors only")->excludes(json);
   monitor->footer(
-      "Sources are standard input, folders of files, MQTT, Sparkplug B and HTTP POST. "
-      "It ends when standard input does, unless another source goes on, and on SIGINT or SIGTERM; "
-      "what is acknowledged is\n"
-      "stored, and a kill loses nothing of that.\n\n"
+      "Sources are standard input, folders of files, MQTT, Sparkplug B and HTTP POST. It ends on "
+      "SIGINT or SIGTERM, and at the end of standard input if there is no other source. "
+      "Acknowledged\n"
+      "readings are stored and survive a kill.\n\n"
       "Examples:\n"
       "  wearwell monitor fleet.toml\n"
       "  wearwell monitor fleet.toml --once < readings.jsonl\n"
       "  wearwell monitor fleet.toml --export readings.parquet\n\n"
-      "Exit codes: 0 ended as asked; 2 the configuration is wrong, nothing was begun; 3 the "
+      "Exit codes: 0 ended as requested; 2 the configuration is wrong, nothing was started; 3 the "
       "machine failed.");
   monitor->callback([command, models, &exit_code] {
     run(*command, models);

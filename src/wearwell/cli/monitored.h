@@ -11,10 +11,10 @@
 
 namespace wearwell {
 
-/// What a configuration of a monitor says, with what it follows its units with.
+/// A monitor's configuration, with the tracker of its units.
 struct MonitoredFleet {
   std::unique_ptr<const prognosis::Tracker> tracker;
-  std::string fingerprint;  ///< of what was learned
+  std::string fingerprint;  ///< of the fit
   bool trusted = true;
   monitor::MonitorConfig config;
 };
@@ -22,7 +22,8 @@ struct MonitoredFleet {
 /// Throws InputError.
 MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models models);
 
-/// Its store, to be read beside a monitor that may be at work. Throws InputError, monitor::StoreError.
+/// Opens its store for reading while a monitor may be running. Throws InputError,
+/// monitor::StoreError.
 std::unique_ptr<monitor::Store> store_to_read(const MonitoredFleet& fleet);
 
 }  // namespace wearwell

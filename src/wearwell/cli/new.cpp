@@ -21,19 +21,21 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
   for (const Model& model : models) presets.emplace_back(model.preset);
   command
       ->add_option("PRESET", options->preset,
-                   fmt::format("What to start from: {}", fmt::join(presets, ", ")))
+                   fmt::format("Application to start from: {}", fmt::join(presets, ", ")))
       ->type_name(fmt::format("TEXT:{}", fmt::join(presets, "|")));
   command->add_option("DIR", options->folder,
-                      "Folder for it: new or empty (with --from: FILE-study if not said)");
+                      "Folder for the study: new or empty (default with --from: FILE-study)");
   command->add_option("--from", options->from,
-                      "Guess columns and units of the table FILE, and copy it there");
+                      "Guess columns and units of the table FILE, and copy it to the folder");
   command
       ->add_option("--column", options->columns,
-                   "What a column is, ROLE=HEADING: depth='wear [um]'; ROLE= for none")
+                   "Role of a column, ROLE=HEADING: depth='wear [um]'; ROLE= for none")
       ->type_name("ROLE=HEADING");
-  command->add_option("--failure", options->failure, "As what a column of 0 and 1 writes a failure")
+  command
+      ->add_option("--failure", options->failure,
+                   "The value that means failure in a column of 0 and 1")
       ->check(number_between(0, 1));
-  command->add_option("--limit", options->limit, "Wear at which a part has failed: '100 um'");
+  command->add_option("--limit", options->limit, "Failure threshold of the wear: '100 um'");
   for (const auto& [key, help] : table_keys) {
     command->add_option_function<std::string>(
         option_of(key),
@@ -43,11 +45,12 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
         help);
   }
   command->footer(
-      "Examples:\n  wearwell new joint my-joint && wearwell fit my-joint/study.toml\n"
-      "  wearwell new --from lives.csv\n  wearwell new fatigue my-lives --from lives.csv\n"
+      "Examples:\n"
+      "  wearwell new joint my-joint && wearwell fit my-joint/study.toml\n"
+      "  wearwell new --from lives.csv\n"
+      "  wearwell new fatigue my-lives --from lives.csv\n"
       "  wearwell new --from rig.xlsx --sheet Run3 --column unit=Lager --limit '80 um'\n\n"
-      "Exit codes: 0 done; 1 the study that was guessed needs a hand before it runs; 2 the request "
-      "is "
+      "Exit codes: 0 done; 1 the guessed study needs corrections before it runs; 2 the request is "
       "wrong, nothing written.");
   command->callback([options, models, &exit_code] {
     if (!options->from.empty()) {
@@ -59,7 +62,8 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
     const bool of_table = !options->columns.empty() || options->failure ||
                           !options->limit.empty() || !options->table.empty();
     if (of_table)
-      throw InputError("--column, --failure, --limit and how a table is read are for --from FILE");
+      throw InputError(
+          "--column, --failure, --limit and the options for reading a table need --from FILE");
     if (options->folder.empty()) throw CLI::RequiredError("DIR");
     const std::filesystem::path study = write_example(model, options->folder);
     fmt::print("Now run: wearwell fit {}\n", study.string());

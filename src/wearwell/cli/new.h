@@ -8,7 +8,7 @@ class App;
 
 namespace wearwell {
 
-/// `wearwell new PRESET DIR`: sets `exit_code` when it ran.
+/// `wearwell new APPLICATION DIR`: sets `exit_code` when it ran.
 void add_new_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

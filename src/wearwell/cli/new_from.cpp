@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* selection = "select";  // what is no study, but a command of its own
+constexpr const char* selection = "select";  // not a study, but a command
 
 // One way to read the table.
 struct Candidate {
@@ -38,7 +38,7 @@ std::string settings_text(const NewOptions& options) {
   return text;
 }
 
-// The command that was given, with these options more.
+// The given command with these further options.
 std::string command(const NewOptions& options, const std::vector<std::string>& more = {}) {
   std::string text = "wearwell new";
   const auto add = [&](const std::string& word) { text += " " + shell_word(word); };
@@ -63,7 +63,7 @@ std::string command(const NewOptions& options, const std::vector<std::string>& m
   return text;
 }
 
-// Takes the options of a reading as if they had been given.
+// Applies the options of a reading as if the user had given them.
 void choose(NewOptions& options, const std::vector<std::string>& words) {
   for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
     if (words[i] == "--column") options.columns.push_back(words[i + 1]);
@@ -73,7 +73,7 @@ void choose(NewOptions& options, const std::vector<std::string>& words) {
   }
 }
 
-// A question that nobody is there to answer.
+// Throws the question where no terminal is there to answer it.
 struct Unanswered {
   std::string text;
 };
@@ -92,7 +92,7 @@ void ask(NewOptions& options, const TableQuestion& question) {
   throw Unanswered{as_refusal(question, commands)};
 }
 
-// The table; nothing where it was asked which sheet, and the answer is in `options`.
+// The table; empty where the user was asked for the sheet and the answer is in `options`.
 std::optional<Table> read_from(NewOptions& options) {
   options.wide.reset();
   try {
@@ -116,7 +116,7 @@ std::optional<Table> read_from(NewOptions& options) {
     std::vector<std::string> names;
     for (const auto& [key, help] : table_keys) names.push_back(option_of(key));
     throw InputError(
-        fmt::format("{}. Before there is a study, keys of [data] are options of wearwell new: {}",
+        fmt::format("{}. Until the study exists, keys of [data] are options of wearwell new: {}",
                     message, fmt::join(names, ", ")));
   }
 }
@@ -127,12 +127,12 @@ TableChoices choices_of(const NewOptions& options, const Table& table) {
   choices.limit = options.limit;
   choices.settings = settings_text(options);
   if (!options.limit.empty() && !std::isdigit(static_cast<unsigned char>(options.limit.front())))
-    throw InputError(fmt::format("--limit: '{}' is no quantity, as in '100 um'", options.limit));
+    throw InputError(fmt::format("--limit: '{}' is not a quantity like '100 um'", options.limit));
   for (const std::string& each : options.columns) {
     const std::size_t at = each.find('=');
     if (at == each.npos)
       throw InputError(
-          fmt::format("--column: '{}' is not ROLE=HEADING, as in depth='wear [um]'", each));
+          fmt::format("--column: '{}' is not ROLE=HEADING, like depth='wear [um]'", each));
     const std::string role = each.substr(0, at), heading = each.substr(at + 1);
     try {
       if (!heading.empty()) static_cast<void>(table.column(heading));
@@ -172,38 +172,35 @@ std::vector<Candidate> candidates(const NewOptions& options, Models models, cons
   for (const Column& column : table.columns) headings.push_back(column.name);
   const std::string file = options.from.filename().string();
   throw InputError(fmt::format(
-      "{}: no study{} follows from its headings ({}){}. Wanted are lives (life, cycles to failure, "
-      "or hours with a status), "
-      "something measured (wear, volume, mass, crack) along cycles, time or distance, stresses and "
-      "lives, or a "
-      "response with inputs. Say what a column is, as in wearwell new --from {} --column life={}, "
-      "or "
-      "start from an example: wearwell new PRESET DIR",
+      "{}: no study{} follows from its headings ({}){}. A study needs lives (life, cycles to "
+      "failure, or hours with a status), a measurement (wear, volume, mass, crack) against cycles, "
+      "time or distance, stresses and lives, or a response with inputs. Name the columns, for "
+      "example wearwell new --from {} --column life={}, or start from an example: wearwell new "
+      "PRESET DIR",
       file, options.preset.empty() ? "" : " of a " + options.preset, fmt::join(headings, ", "),
       options.columns.empty() ? ""
                               : fmt::format(" with --column {}", fmt::join(options.columns, ", ")),
       shell_word(file), shell_word(headings.front())));
 }
 
-// An option that changes nothing is a mistake.
+// An option without effect is a mistake.
 void require_used(const NewOptions& options, const Scaffold& study) {
   const auto refuse = [&](const char* option, const char* what) {
     throw InputError(fmt::format("{}: {} is read as {}, which has no {}", option,
                                  options.from.filename().string(), study.reading, what));
   };
   if (!options.limit.empty() && study.text.find(toml_text(options.limit)) == std::string::npos)
-    refuse("--limit", "limit of wear that is guessed; state it in the study");
+    refuse("--limit", "guessed failure threshold; state it in the study");
   if (options.failure && study.text.find("failure = ") == std::string::npos)
-    refuse("--failure", "column of codes that say how a life ended");
+    refuse("--failure", "column of codes for how a life ended");
 }
 
 std::string description(const WideTable& wide) {
-  return fmt::format(
-      "columns {} are units with a column each: `sql` puts their readings below each other",
-      fmt::join(wide.units, ", "));
+  return fmt::format("columns {} are units with one column each: `sql` stacks their readings",
+                     fmt::join(wide.units, ", "));
 }
 
-// The one reading that fits best; nothing where a question was asked, and the answer is in `options`.
+// The best reading; empty where the user was asked and the answer is in `options`.
 std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
                                              const Table& table) {
   const TableChoices choices = choices_of(options, table);
@@ -251,8 +248,8 @@ std::string description(const NewOptions& options, const std::vector<Candidate>&
     others.push_back(fmt::format("{}: {}", found[i].study.reading, command(other)));
   }
   return fmt::format("Read as {}.\n", first.reading) + listed("From the headings", first.taken) +
-         listed("Look at what is a guess", first.guesses) +
-         listed("State what no heading says", first.unstated) +
+         listed("Check these guesses", first.guesses) +
+         listed("State what no heading tells", first.unstated) +
          listed("Other readings of this table", others);
 }
 
@@ -261,13 +258,13 @@ int run(NewOptions options, Models models) {
     return word == selection || std::any_of(models.begin(), models.end(),
                                             [&](const Model& each) { return each.preset == word; });
   };
-  // One word is the folder, where it is no trade.
+  // A single word is the folder, unless it names an application.
   if (!options.preset.empty() && options.folder.empty() && !is_preset(options.preset))
     options.folder = std::exchange(options.preset, "");
   if (!options.preset.empty() && options.preset != selection &&
       !model_of(models, options.preset).scaffold)
     throw InputError(
-        fmt::format("--from: no study of a {} is guessed from one table; start from the "
+        fmt::format("--from: a study of a {} cannot be guessed from one table; start from the "
                     "example: wearwell new {} DIR",
                     options.preset, options.preset));
   std::optional<std::vector<Candidate>> found;
@@ -279,8 +276,7 @@ int run(NewOptions options, Models models) {
   fmt::print("{}", printable_lines(description(options, *found)));
   if (found->front().preset == selection) {
     if (!options.table.empty())
-      throw InputError(
-          "wearwell select reads a table as it is: save the sheet or range as a CSV of its own");
+      throw InputError("wearwell select reads plain tables: save the sheet or range as a CSV file");
     fmt::print("Now run: wearwell select {} {}\n", shell_word(options.from.string()),
                printable(first.text));
     return 0;
@@ -291,11 +287,15 @@ int run(NewOptions options, Models models) {
   try {
     read_study(source_of(study), models)->description();
   } catch (const InputError& error) {
-    fmt::print("It does not run yet:\n{}Correct {}, then run: wearwell check {}\n",
-               wrapped(printable(error.what()), 2, 4), study.string(), file);
+    fmt::print(
+        "The study does not run yet:\n"
+        "{}Correct {}, then run: wearwell check {}\n",
+        wrapped(printable(error.what()), 2, 4), study.string(), file);
     return 1;
   }
-  fmt::print("Now run: wearwell fit {0}    (wearwell check {0} shows what will be fitted)\n", file);
+  fmt::print(
+      "Now run: wearwell fit {0}    (wearwell check {0} describes the model without fitting)\n",
+      file);
   return 0;
 }
 

@@ -45,7 +45,7 @@ CLI::Validator seed_number() {
         const auto [rest, failure] = std::from_chars(text.data(), end, seed);
         return failure == std::errc{} && rest == end
                    ? std::string()
-                   : fmt::format("{} is no whole number from 0 to {}", text,
+                   : fmt::format("{} is not a whole number from 0 to {}", text,
                                  std::numeric_limits<std::uint64_t>::max());
       },
       "", "seed");

@@ -32,22 +32,22 @@ int complain(const std::string& message, int exit_code) {
   return exit_code;
 }
 
-// A file opened where a standard stream is closed would take what is printed.
+// If a standard stream is closed, the next file opened would receive the output.
 void fill_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd) {
     if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDONLY) < 0) _exit(machine_failed);
   }
 }
 
-// Empty when all that was printed has arrived. `error`: why printing ended early, where it did; what
-// was to be printed then is not in the buffer any more, and flushing it fails no second time.
+// Empty if all output arrived. `error` is the reason why printing ended early, if it did; that
+// output is no longer in the buffer, and flushing does not fail again.
 std::string trouble_with_output(int error) {
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return {};
   if (error == 0) error = errno;
   return fmt::format("cannot write to standard output: {}",
-                     error ? std::strerror(error) : "what was printed is not complete");
+                     error ? std::strerror(error) : "the output is incomplete");
 }
 
 int run(int argc, char** argv, Models models, int& output_error) {
@@ -69,7 +69,7 @@ int run(int argc, char** argv, Models models, int& output_error) {
     return complain(error.what(), machine_failed);
   } catch (const std::system_error& error) {
     if (!std::ferror(stdout)) return complain(error.what(), machine_failed);
-    output_error = error.code().value();  // said in main
+    output_error = error.code().value();  // reported in main
     return machine_failed;
   } catch (const std::bad_alloc&) {
     return complain("out of memory", machine_failed);
@@ -84,7 +84,7 @@ int run(int argc, char** argv, Models models, int& output_error) {
 
 int run_program(int argc, char** argv, Models models) {
   fill_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a full disk, not an abort
   remove_half_written_on_signals();
   int output_error = 0;
   const int exit_code = run(argc, argv, models, output_error);

@@ -4,8 +4,8 @@
 
 namespace wearwell {
 
-/// The program `wearwell` with these models: reads the command line, does what it asks, and returns
-/// the exit code. Standard output is flushed, and whether all of it arrived is part of the answer.
+/// The program `wearwell` with these models: reads the command line, runs the command and returns
+/// the exit code. Flushes standard output; incomplete output is an error.
 int run_program(int argc, char** argv, Models models);
 
 }  // namespace wearwell

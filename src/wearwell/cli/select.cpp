@@ -26,7 +26,7 @@
 namespace wearwell {
 namespace {
 
-// Up to so many free terms, a report shows all models and every size is proven without being asked.
+// Up to this number of free terms, a report shows all models and every size is proven by default.
 constexpr int few_terms = 20;
 
 struct SelectOptions {
@@ -38,9 +38,9 @@ struct SelectOptions {
 };
 
 std::atomic<bool> stop_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);  // so a signal may set it
+static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
 
-/// While it lives, the first Ctrl-C asks the search to stop; the second ends the program.
+/// While it lives, the first Ctrl-C stops the search; the second ends the program.
 class StopOnInterrupt {
  public:
   StopOnInterrupt() {
@@ -120,7 +120,7 @@ CLI::Validator nested_parts() {
   return CLI::Validator(
       [](std::string& text) {
         const bool fits = CLI::Range(2, 1'000'000)(text).empty() || text == "0";
-        return fits ? std::string() : "'" + text + "' is neither 0 nor 2 to 1000000";
+        return fits ? std::string() : "'" + text + "' must be 0 or 2 to 1000000";
       },
       "0 or 2 to 1000000");
 }
@@ -137,10 +137,10 @@ void add_data_options(CLI::App* select, SelectData& data) {
   select
       ->add_option(
           "--terms", data.terms,
-          "Terms as given, instead: columns and products like A*A*B; the constant is added")
+          "Terms, instead of --inputs: columns and products like A*A*B; the constant is added")
       ->delimiter(',')
       ->type_name("A,B,A*B");
-  select->add_option("--force", data.forced, "Terms that every model holds; the constant is 1")
+  select->add_option("--force", data.forced, "Terms of every model; the constant is 1")
       ->delimiter(',')
       ->type_name("T,T");
   select->add_option("--weights", data.weights, "Column of weights: 1 / variance of a row")
@@ -154,40 +154,41 @@ void add_search_options(CLI::App* select, SelectOptions& options) {
                    "loo (PRESS, so R2p), aic, aicc, bic, cp or adjr2")
       ->capture_default_str()
       ->type_name("NAME");
-  select->add_option("--keep", search.keep, "How many best models")
+  select->add_option("--keep", search.keep, "Number of best models")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   select
       ->add_option("--near", search.near,
-                   "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
+                   "Also every model this near to the best: for loo relative (0.01: PRESS 1 % "
                    "above), else in units of the criterion")
       ->check(number_between(0, 1e9));
-  select->add_flag("--cloud", options.cloud,
-                   "Look at every model, for the report's picture of them all (30 free terms or "
-                   "fewer)");
+  select->add_flag(
+      "--cloud", options.cloud,
+      "Evaluate every model, for the report's figure of all models (up to 30 free terms)");
   select->add_flag("--prove-sizes", search.prove_sizes,
-                   "Prove the best model of every size too (done anyway for 20 free terms or "
-                   "fewer); may take much longer");
+                   "Prove the best model of every size too (default for up to 20 free terms); may "
+                   "take much longer");
   select
-      ->add_option("--folds", options.settings.folds,
-                   "k-fold cross-validation of the models found; a heuristic beside the criterion")
+      ->add_option(
+          "--folds", options.settings.folds,
+          "k-fold cross-validation of the models found; a heuristic in addition to the criterion")
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("K");
   select
-      ->add_option("--nested", options.settings.nested,
-                   "Parts of the rows that are left out of the whole search in turn, to know how "
-                   "well rows are predicted that it has not seen; 0: none (default: 10, up to "
-                   "2000 rows)")
+      ->add_option(
+          "--nested", options.settings.nested,
+          "Number of folds of the nested cross-validation, which repeats the whole search without "
+          "each fold to estimate the prediction error; 0: none (default: 10, up to 2000 rows)")
       ->check(nested_parts())
       ->type_name("K");
-  select->add_option("--seed", options.settings.seed, "Seed of folds and parts (default 1)")
+  select->add_option("--seed", options.settings.seed, "Seed of folds (default 1)")
       ->check(seed_number());
-  select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
+  select->add_option("--time", search.seconds, "Stop after this many seconds, proven or not")
       ->check(number_between(0, 1e9))
       ->type_name("S");
   select
       ->add_option("--threads", search.threads,
-                   "Threads (default: all); answers do not depend on it")
+                   "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
 }
 
@@ -199,7 +200,8 @@ void add_select_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("select", "Find the best subset of regression terms, proven optimal");
   add_data_options(select, options->data);
   add_search_options(select, *options);
-  CLI::Option* json = select->add_flag("--json", options->json, "Print summary.json, nothing else");
+  CLI::Option* json =
+      select->add_flag("--json", options->json, "Print summary.json and nothing else");
   select->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   select->add_option("-o,--output", options->output,
                      "Folder for summary.json, models.csv and report.html (default: none)");

@@ -34,7 +34,7 @@ std::size_t read_choice(const TableQuestion& question) {
 }
 
 std::string as_refusal(const TableQuestion& question, const std::vector<std::string>& commands) {
-  std::string text = question.text + " Run the one that is right:";
+  std::string text = question.text + " Run the right one:";
   for (std::size_t i = 0; i < question.readings.size(); ++i)
     text += fmt::format("\n  {}\n      {}", question.readings[i].text, commands[i]);
   return text;

@@ -8,13 +8,13 @@
 
 namespace wearwell {
 
-/// Whether somebody can be asked.
+/// Whether a terminal is there to ask.
 bool is_somebody_there();
 
-/// Prints the question and reads a number; throws InputError where the input ends first.
+/// Prints the question and reads a number; throws InputError if the input ends first.
 std::size_t read_choice(const TableQuestion& question);
 
-/// The refusal: the question, and below it each reading with its command.
+/// The error message: the question, and below it each reading with its command.
 std::string as_refusal(const TableQuestion& question, const std::vector<std::string>& commands);
 
 }  // namespace wearwell

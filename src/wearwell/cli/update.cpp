@@ -68,10 +68,10 @@ void write_updated(const UpdateOptions& options, const Result& result, const std
   }
 }
 
-// A study without a posterior: all of its tables, old and new rows, fitted.
+// A study without a posterior: all its tables, old and new rows, are fitted.
 int update_campaign(const UpdateOptions& options, const Source& source, Models models) {
   if (!options.repeated.empty())
-    throw InputError("--repeated: a row of a campaign that is there already counts once");
+    throw InputError("--repeated: a repeated row of a campaign counts once");
   const prognosis::JoinedData joined = prognosis::joined_campaign(source, options.data);
   const auto study = read_study(joined.source, models);
   ResultFolder folder(options.output);
@@ -117,12 +117,12 @@ void add_update_command(CLI::App& app, Models models, int& exit_code) {
   update->add_option("-o,--output", options->output, "Folder for the results")->required();
   update
       ->add_option("--repeated", options->repeated,
-                   "What a test is that equals one that is there: the same once more, or another")
+                   "Meaning of a test that equals an earlier one: the same test again, or another")
       ->check(one_of({"once", "another"}))
       ->type_name("WHAT");
   update
       ->add_option("--threads", options->threads,
-                   "Threads (default: all); results do not depend on it")
+                   "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   CLI::Option* json =
       update->add_flag("--json", options->json, "Print summary.json and nothing else");
@@ -132,10 +132,10 @@ void add_update_command(CLI::App& app, Models models, int& exit_code) {
       "Examples:\n"
       "  wearwell update study-results june.csv -o june\n"
       "  wearwell update june july.csv august.csv -o august --json | jq .update\n\n"
-      "A reading that is there already counts once; order does not matter; one that contradicts "
-      "what was known is\n"
-      "counted, and reported by the check new-data. Method and seed are those of RESULT.\n\n"
-      "Exit codes: as fit has them.");
+      "A repeated reading counts once; order does not matter; a reading that contradicts the "
+      "posterior is counted,\n"
+      "and reported by the check new-data. Method and seed are those of RESULT.\n\n"
+      "Exit codes: as for fit.");
   update->callback([options, models, &exit_code] { exit_code = run_update(*options, models); });
 }
 

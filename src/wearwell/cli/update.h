@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// `wearwell update`: a result and new data make the result of all data (docs/how-to/state.md).
+/// `wearwell update`: fits a result's data and new data together (docs/how-to/state.md).
 void add_update_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

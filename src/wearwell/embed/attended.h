@@ -15,19 +15,21 @@
 
 namespace wearwell::embed {
 
-/// How far work is, as it may be told on another thread.
+/// The progress of work, to be read on another thread.
 struct ProgressSnapshot {
   std::string what;
   long long done = 0, total = 0;
   double seconds = 0;
 };
 
-/// Called on the thread that waits, some twenty times a second, with what is new; what it throws stops the work.
+/// Called on the waiting thread, some twenty times a second, with new progress; an exception stops
+/// the work.
 using Look = std::function<void(const std::optional<ProgressSnapshot>&)>;
 
-/// Does `work`, a function of a Monitor, on a thread of its own, while this one looks after its user. `Away` is what this
-/// thread holds while it waits: an interpreter's lock let go, or nothing. Returns when the work has ended, with what it
-/// threw; or, where `look` threw meanwhile, with that.
+/// Runs `work`, a function of a Monitor, on its own thread, while this thread serves its user.
+/// `Away` is what this thread holds while it waits: a released interpreter lock, or nothing.
+/// Returns when the work has ended, and rethrows its exception, or that of `look` if it threw
+/// meanwhile.
 template <class Away, class Work>
 void attended(const Work& work, const Look& look) {
   constexpr std::chrono::milliseconds look_every{50};

@@ -19,7 +19,7 @@ std::size_t PlateCycles::add(const Table& table) {
   const bool named = !table.column("plate").is_number;
   if (any_ && named != named_) {
     throw InputError(table.source + ": plates are " + (named ? "names" : "numbers") +
-                     " here, and were not before");
+                     " here, but not before");
   }
   clutch::CycleSum::Rates rates;
   sum_.rates(cycles, rates);

@@ -10,18 +10,19 @@
 
 namespace wearwell::embed {
 
-/// A wear model of a clutch and the plates that went through it. Threads may share it.
+/// A wear model of a clutch with the state of its plates. Threads may share it.
 class PlateCycles {
  public:
   /// `model`: the path of a model.json. Throws InputError.
   PlateCycles(const std::string& model, bool scatter_only, bool skip_not_finite);
 
-  /// All cycles of the table or, where one is refused (InputError), none of them. Returns how many.
+  /// Adds all cycles of the table or, if one is refused (InputError), none of them. Returns their
+  /// number.
   std::size_t add(const Table& table);
-  /// The same of a file that may be larger than memory.
+  /// The same for a file that may be larger than memory.
   std::size_t add_file(const std::string& file);
 
-  /// As `wearwell clutch predict --json` prints it.
+  /// In the format of `wearwell clutch predict --json`.
   nlohmann::ordered_json json() const;
 
  private:

@@ -4,7 +4,8 @@
 
 namespace wearwell::embed {
 
-/// While it lives, a process that was forked after the library had started its threads uses one: the others are not there.
+/// While it lives, a process that was forked after the library had started its threads uses one
+/// thread: the others do not exist there.
 class ForkGuard {
  public:
   ForkGuard();

@@ -50,7 +50,8 @@ Run run(const ReadStudy& read, const RunOptions& options, Monitor monitor) {
   try {
     carried = prognosis::carried_source(*read.source, *of_posterior);
   } catch (const InputError&) {
-    // The files are not there any more, or others: the study was read before, and there is nothing to go on from.
+    // The files no longer exist or have changed since the study was read, so that no state can be
+    // carried on.
   }
   Run run{read, std::make_shared<const Result>(read.study->run(options, monitor))};
   if (carried) {

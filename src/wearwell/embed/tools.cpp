@@ -31,7 +31,7 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
   search.near = options.near;
   search.seconds = options.seconds;
   search.threads = guard.most(monitor.threads);
-  constexpr int few_terms = 20;  // as the command has it
+  constexpr int few_terms = 20;  // as in the command
   if (static_cast<int>(result.design.terms.size() - search.forced.size()) <= few_terms) {
     search.prove_sizes = true;
     if (options.report) search.cloud = CloudKind::bins;
@@ -54,7 +54,7 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
 Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat) {
   for (std::size_t i = 0; i < signal.size(); ++i) {
     if (!std::isfinite(signal[i]))
-      throw InputError(fmt::format("signal, row {}: no number", i + 1));
+      throw InputError(fmt::format("signal, row {}: not a number", i + 1));
   }
   Cycles cycles;
   fatigue::Rainflow counted(

@@ -11,7 +11,7 @@
 
 namespace wearwell::embed {
 
-/// What `wearwell select` is asked beside its data.
+/// The settings of `wearwell select` besides its data.
 struct SelectOptions {
   std::string criterion = "loo";
   int keep = 10;
@@ -22,11 +22,12 @@ struct SelectOptions {
   bool report = false;
 };
 
-/// summary.json, what the terminal shows, models.csv, and the page where one was asked for and a model was found.
+/// summary.json, the terminal output, models.csv, and the page if it was requested and a model was
+/// found.
 struct Selected {
   std::string summary, text, models, page;
 };
-/// Of `table` where there is one, else of the file that `asked` names. Throws InputError.
+/// From `table` if given, else from the file that `asked` names. Throws InputError.
 Selected select(const SelectData& asked, const Table* table, const SelectOptions& options,
                 const Monitor& monitor);
 
@@ -34,7 +35,7 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
 struct Cycles {
   std::vector<double> from, to, count;
 };
-/// Throws InputError naming the row of what is not finite.
+/// Throws InputError naming the first row that is not finite.
 Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat);
 
 }  // namespace wearwell::embed

@@ -17,9 +17,9 @@ namespace wearwell::fleet {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw InputError(
-      "--engine: " + why +
-      "; an address is clickhouse://USER:PASSWORD@HOST:PORT/DATABASE, by TLS clickhouses://...");
+  throw InputError("--engine: " + why +
+                   "; an address is clickhouse://USER:PASSWORD@HOST:PORT/DATABASE, or "
+                   "clickhouses://... with TLS");
 }
 
 std::string plain(const std::string& text) {
@@ -34,7 +34,7 @@ std::string plain(const std::string& text) {
     const char* const to = text.data() + std::min(text.size(), i + 3);
     const auto read = std::from_chars(from, to, byte, 16);
     if (to - from != 2 || read.ptr != to || byte == 0)
-      refuse("a % is no sign of a byte ('%25' is %)");
+      refuse("a % must start an encoded byte ('%25' is %)");
     out += static_cast<char>(byte);
     i += 2;
   }
@@ -53,11 +53,11 @@ HttpPlace place_of(const std::string& text, bool tls) {
   unsigned number = 0;
   const auto read = std::from_chars(port.data(), port.data() + port.size(), number);
   if (read.ptr != port.data() + port.size() || number < 1 || number > 65535)
-    refuse(fmt::format("'{}' is no port", printable(shortened(port))));
+    refuse(fmt::format("'{}' is not a port", printable(shortened(port))));
   const bool good = !host.empty() && std::all_of(host.begin(), host.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '.' || c == '-' || c == '_' || c == ':' || c == '%';
   });
-  if (!good) refuse(fmt::format("'{}' is no name of a host", printable(shortened(host))));
+  if (!good) refuse(fmt::format("'{}' is not a host name", printable(shortened(host))));
   return {host, port, tls};
 }
 
@@ -65,7 +65,7 @@ HttpPlace place_of(const std::string& text, bool tls) {
 
 ClickhouseAddress read_clickhouse_address(const std::string& text) {
   const std::size_t begin = text.find("://");
-  if (begin == text.npos) refuse("no '://' stands there");
+  if (begin == text.npos) refuse("'://' is missing");
   const std::string scheme = text.substr(0, begin);
   const bool tls = scheme == "clickhouses" || scheme == "https";
   std::string hosts = text.substr(begin + 3);
@@ -82,13 +82,13 @@ ClickhouseAddress read_clickhouse_address(const std::string& text) {
   }
   for (const std::string* each : {&address.user, &address.password})
     if (std::any_of(each->begin(), each->end(), [](unsigned char c) { return std::iscntrl(c); }))
-      refuse("user and password hold no control characters");
+      refuse("user and password must not contain control characters");
   if (const std::size_t slash = hosts.find('/'); slash != hosts.npos) {
     if (slash + 1 < hosts.size()) address.database = plain(hosts.substr(slash + 1));
     hosts.erase(slash);
   }
   if (address.database.find_first_of("/?#") != std::string::npos)
-    refuse(fmt::format("'{}' is no name of a database", printable(shortened(address.database))));
+    refuse(fmt::format("'{}' is not a database name", printable(shortened(address.database))));
   std::vector<std::string> all;
   boost::algorithm::split(all, hosts, boost::algorithm::is_any_of(","));
   for (const std::string& each : all) address.hosts.push_back(place_of(each, tls));

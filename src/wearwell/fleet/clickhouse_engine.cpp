@@ -21,8 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What would make a part of an answer of it, whatever a user's profile says; statements of thousands of columns, in blocks of few rows
-/// (groups come in one block each only where they might be spilled).
+/// Settings that prevent partial answers, whatever a user's profile says; and allow statements of
+/// thousands of columns, in blocks of few rows (groups come in one block each only if they may be
+/// spilled).
 constexpr const char* settings =
     "&wait_end_of_query=1&skip_unavailable_shards=0&max_parallel_replicas=1"
     "&fallback_to_stale_replicas_for_distributed_queries=0&read_overflow_mode=throw"
@@ -33,7 +34,7 @@ constexpr const char* settings =
     "&max_expanded_ast_elements=10000000&group_by_two_level_threshold=1&max_bytes_before_external_"
     "group_by=1000000000"
     "&max_block_size=8192";
-constexpr int session_seconds = 3600;  // the most that a server allows unless told otherwise
+constexpr int session_seconds = 3600;  // the default maximum of a server
 constexpr double poll_seconds = 20;
 constexpr int polls_in_vain = 3;
 
@@ -101,13 +102,13 @@ class ClickhouseEngine : public Engine {
 
 HttpRequest ClickhouseEngine::request(const std::string& statement,
                                       const std::string& parameters) const {
-  // Not in the target, which servers keep a log of.
+  // Not in the target, which servers log.
   return {.target = "/?database=" + url_part(address_.database) + parameters,
           .fields = {{"X-ClickHouse-User", address_.user}, {"X-ClickHouse-Key", address_.password}},
           .body = statement};
 }
 
-/// A short question beside the session.
+/// A short query outside the session.
 std::string ClickhouseEngine::quick(const std::string& statement) const {
   HttpRequest asked = request(statement, "");
   asked.seconds = poll_seconds;
@@ -121,7 +122,7 @@ std::string ClickhouseEngine::quick(const std::string& statement) const {
   return answer;
 }
 
-/// The next host that answers, and a session of its own: what another held went with it.
+/// The next host that answers, with a new session: the state of the previous one is lost.
 void ClickhouseEngine::begin() {
   std::string why;
   if (lost_) host_ = (host_ + 1) % address_.hosts.size();
@@ -141,7 +142,7 @@ void ClickhouseEngine::begin() {
       host_ = (host_ + 1) % address_.hosts.size();
     }
   }
-  throw InputError(fmt::format("ClickHouse is not reached: {}", why));
+  throw InputError(fmt::format("ClickHouse cannot be reached: {}", why));
 }
 
 void ClickhouseEngine::fail(const std::string& said) const {
@@ -153,7 +154,7 @@ void ClickhouseEngine::fail(const std::string& said) const {
     case 241:  // MEMORY_LIMIT_EXCEEDED
     case 243:  // NOT_ENOUGH_SPACE
       throw MachineError(sentence);
-    case 395:  // FUNCTION_THROW_IF_VALUE_IS_NON_ZERO, which the statements ask for
+    case 395:  // FUNCTION_THROW_IF_VALUE_IS_NON_ZERO, which the statements use
       throw InputError(sentence + ": a number is out of range");
     case 32:    // ATTEMPT_TO_READ_AFTER_EOF
     case 101:   // UNEXPECTED_PACKET_FROM_SERVER
@@ -162,13 +163,13 @@ void ClickhouseEngine::fail(const std::string& said) const {
     case 279:   // ALL_CONNECTION_TRIES_FAILED
     case 372:   // SESSION_NOT_FOUND
     case 1000:  // of its network library
-      throw Lost(sentence + "; there is no answer of a part of the table");
+      throw Lost(sentence + "; a part of the table does not answer");
     default:
       throw InputError(sentence);
   }
 }
 
-/// Ten times a second while an answer is waited for.
+/// Ten times a second while waiting for an answer.
 void ClickhouseEngine::watch(const std::string& query_id, const ProgressReport* reported,
                              Clock::time_point start) {
   if (reported && reported->monitor.stop.stop_requested()) {
@@ -189,10 +190,10 @@ void ClickhouseEngine::watch(const std::string& query_id, const ProgressReport* 
     read = std::strtod(answer.c_str(), nullptr);
     in_vain_ = 0;
   } catch (const HttpBroken&) {
-    // A machine that is gone says nothing to those who wait.
+    // A machine that is gone sends nothing.
     if (++in_vain_ >= polls_in_vain) throw;
   } catch (const std::exception&) {
-    in_vain_ = 0;  // It answers, if only that it may not tell.
+    in_vain_ = 0;  // It answers, even if only to refuse the query.
   }
   polled_ = Clock::now();
   if (reported && reported->monitor.progress)
@@ -274,16 +275,16 @@ std::vector<EngineColumn> ClickhouseEngine::columns() {
   return found;
 }
 
-/// Each shard gives its own units, which nobody puts together.
+/// Each shard returns its own units; the outer query combines them.
 void ClickhouseEngine::refuse_split_units(const std::string& unit) {
   rows(fmt::format("select unit from (select toString({}) as unit from {} group by unit) group by "
                    "unit having count() > 1 order by unit limit 1",
                    identifier(Dialect::clickhouse, unit), table_),
        "&distributed_group_by_no_merge=1", 1, [&](const Row& row) {
-         throw InputError(fmt::format(
-             "{}: unit {} has cycles in more than one shard: all rows of a unit must lie in one "
-             "(shard the table by a hash of the unit)",
-             source(), printable(row.texts.front())));
+         throw InputError(
+             fmt::format("{}: unit {} has cycles in more than one shard: all rows of a unit must "
+                         "be in one (shard the table by a hash of the unit)",
+                         source(), printable(row.texts.front())));
        });
 }
 

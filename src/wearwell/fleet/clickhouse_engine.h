@@ -7,18 +7,21 @@
 
 namespace wearwell::fleet {
 
-/// A server of ClickHouse by its HTTP interface, and the table of cycles in it, as `table_identifier` reads its name:
+/// A server of ClickHouse through its HTTP interface, and the table of cycles in it, by a name as
+/// `table_identifier` reads it:
 ///
-///   clickhouse://USER:PASSWORD@HOST:8123,HOST:8123/DATABASE     clickhouses:// or https:// by TLS, port 8443
+///   clickhouse://USER:PASSWORD@HOST:8123,HOST:8123/DATABASE     clickhouses:// or https:// with
+///   TLS, port 8443
 ///
-/// Several hosts are replicas of each other: the first that answers is asked, and where it is lost the next, from the beginning. Without a
-/// password in the address it is that of CLICKHOUSE_PASSWORD. All that is done is one session of its server with temporary tables.
-/// A part of an answer is none: settings that would give one (skip_unavailable_shards, replicas that stay behind, limits that
-/// break off) are overruled, answers begin when a query is through. Where the table is Distributed a unit must lie on one
-/// shard. Throws InputError, `Lost` where trying again may help.
+/// Several hosts are replicas of each other: the first that answers is used, and if it is lost the
+/// next, from the beginning. The default password is CLICKHOUSE_PASSWORD. The work is one session
+/// with temporary tables. Partial answers are refused: settings that would allow them
+/// (skip_unavailable_shards, replicas that lag behind, limits that truncate) are overridden, and
+/// answers start when a query is complete. If the table is Distributed a unit must be on one shard.
+/// Throws InputError, or `Lost` if a retry may help.
 std::unique_ptr<Engine> clickhouse_engine(const std::string& address, const std::string& table);
 
-/// Whether an address is of ClickHouse.
+/// Whether an address is one of ClickHouse.
 bool is_clickhouse(const std::string& address);
 
 }  // namespace wearwell::fleet

@@ -12,7 +12,7 @@
 namespace wearwell::fleet {
 namespace {
 
-/// From behind `from` to the first of what may follow a message.
+/// The text after `from` up to the first of what may follow a message.
 std::string message_at(std::string_view said, std::size_t from) {
   std::size_t to = said.size();
   for (const char* end : {", e.what()", "\n", " (version ", ". Stack trace", " Stack trace:"})
@@ -26,7 +26,7 @@ std::string message_at(std::string_view said, std::size_t from) {
   return text;
 }
 
-/// Without a backslash before its sign.
+/// With backslash escapes removed.
 char escaped(char c) {
   switch (c) {
     case 'b':
@@ -70,7 +70,7 @@ std::string error_sentence(std::string_view said) {
   std::size_t after = 0;
   for (const std::string_view begin : begins) {
     const std::size_t at = said.find(begin);
-    const bool last = begin == begins[2];  // which stands before either of the others
+    const bool last = begin == begins[2];  // which precedes either of the others
     if (at == said.npos || (!text.empty() && (last || at >= after))) continue;
     after = at + begin.size();
     text = message_at(said, after);
@@ -139,7 +139,7 @@ double separated_number(const std::string& cell) {
   double x = 0;
   const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), x);
   if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
-    throw InputError(fmt::format("'{}' is no number", printable(shortened(cell))));
+    throw InputError(fmt::format("'{}' is not a number", printable(shortened(cell))));
   return x;
 }
 

@@ -7,25 +7,27 @@
 
 namespace wearwell::fleet {
 
-/// More of an error is not kept.
+/// Longer errors are truncated.
 inline constexpr std::size_t most_said = 1 << 16;
 
-/// What a server of ClickHouse says of an error: "Code: 60, e.displayText() = DB::Exception: Table default.x doesn't exist., e.what()
-/// = DB::Exception", today "Code: 60. DB::Exception: Table default.x does not exist. (UNKNOWN_TABLE) (version 24.8)". 0 where no code
-/// stands there.
+/// The error message of a ClickHouse server: "Code: 60, e.displayText() = DB::Exception: Table
+/// default.x doesn't exist., e.what() = DB::Exception", in current versions "Code: 60.
+/// DB::Exception: Table default.x does not exist. (UNKNOWN_TABLE) (version 24.8)". 0 if it has no
+/// code.
 int error_code(std::string_view said);
-/// For people, on one line; behind it the cause that another server gave.
+/// For messages, on one line; followed by the cause from another server.
 std::string error_sentence(std::string_view said);
 
-/// The statements of a text, which its HTTP interface takes one by one; quoted texts and names may hold semicolons.
+/// The statements of a text, which the HTTP interface takes one by one; quoted texts and names may
+/// contain semicolons.
 std::vector<std::string> single_statements(std::string_view text);
 
-/// Rows of its format TabSeparated, as their bytes arrive.
+/// Rows in the format TabSeparated, as their bytes arrive.
 class SeparatedText {
  public:
   void add(std::string_view piece,
            const std::function<void(const std::vector<std::string>&)>& take);
-  /// The last row was whole.
+  /// Whether the last row is complete.
   bool at_end() const { return rest_.empty(); }
 
  private:
@@ -33,7 +35,7 @@ class SeparatedText {
   std::vector<std::string> cells_;
 };
 
-/// NaN for nothing (an empty cell). Throws InputError for what is no number.
+/// NaN for an empty cell. Throws InputError for text that is not a number.
 double separated_number(const std::string& cell);
 
 }  // namespace wearwell::fleet

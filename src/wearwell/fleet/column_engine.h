@@ -10,43 +10,43 @@
 
 namespace wearwell::fleet {
 
-/// Some rows by column. What it points to is there until the next are asked for.
+/// Some rows by column. The pointers are valid until the next rows are requested.
 struct ColumnChunk {
   std::size_t rows = 0;
   bool has_words = false;  ///< `words` name units; else `numbers` do
   std::vector<std::string_view> words;
   std::vector<std::int64_t> numbers;
   std::vector<char> named;            ///< whether the row has a unit
-  std::vector<const double*> values;  ///< NaN where there is none
+  std::vector<const double*> values;  ///< NaN if missing
 };
 
-/// A query that goes on, in the order of the table's rows where it asks for no other.
+/// A running query, in the order of the table's rows unless it has another.
 class ColumnScan {
  public:
   virtual ~ColumnScan() = default;
-  /// False behind the last row.
+  /// False after the last row.
   virtual bool next(ColumnChunk& chunk) = 0;
 };
 
-/// What an engine within the program can do besides: give columns as they are, and take rows.
+/// Further functions of an engine within the program: it gives columns, and takes rows.
 class ColumnEngine {
  public:
   virtual ~ColumnEngine() = default;
-  /// Rows of the table of cycles; 0 where they are not known without reading it.
+  /// Rows of the table of cycles; 0 if they are not known without reading it.
   virtual long long known_rows() = 0;
-  /// MB that all may take.
+  /// Memory limit in MB.
   virtual long memory() const = 0;
   /// The first column is `unit`, all others are doubles.
   virtual std::unique_ptr<ColumnScan> scan(const std::string& query) = 0;
 
-  /// A whole number of 128 bits.
+  /// A 128-bit integer.
   __extension__ typedef __int128 Whole;
   struct WholeRow {
     std::string_view word;
     const std::vector<std::int64_t>& small;
     const std::vector<Whole>& large;
   };
-  /// Into a temporary table of one text, then numbers of 64 and of 128 bits.
+  /// Into a temporary table of one text, then 64-bit and 128-bit numbers.
   class Appender {
    public:
     virtual ~Appender() = default;

@@ -26,7 +26,7 @@ Dialect read_dialect(const std::string& name) {
   for (const Dialect each : {Dialect::duckdb, Dialect::postgresql, Dialect::clickhouse}) {
     if (name == name_of(each)) return each;
   }
-  throw InputError(fmt::format("'{}' is none of 'duckdb', 'postgresql', 'clickhouse'",
+  throw InputError(fmt::format("'{}' is unknown; use 'duckdb', 'postgresql' or 'clickhouse'",
                                printable(shortened(name))));
 }
 
@@ -34,7 +34,7 @@ std::string identifier(Dialect dialect, std::string_view name) {
   constexpr std::size_t postgresql_most = 63;
   if (name.empty()) throw InputError("the name of a table or column is empty");
   if (name.find('\0') != std::string_view::npos)
-    throw InputError(fmt::format("the name '{}' holds a zero byte", printable(name)));
+    throw InputError(fmt::format("the name '{}' has a zero byte", printable(name)));
   if (dialect == Dialect::postgresql && name.size() > postgresql_most)
     throw InputError(fmt::format("the name '{}' has {} bytes; PostgreSQL cuts names off at {}",
                                  printable(name), name.size(), postgresql_most));
@@ -67,14 +67,15 @@ std::string table_identifier(Dialect dialect, std::string_view name) {
     } else if (c == '.' && !quoted) {
       finish();
     } else if (was_quoted && !quoted) {
-      throw InputError(fmt::format("'{}' is no name of a table: '{}' stands behind a closing quote",
+      throw InputError(fmt::format("'{}' is not a table name: '{}' follows a closing quote",
                                    printable(name), printable(std::string(1, c))));
     } else {
       part += c;
     }
   }
   if (quoted)
-    throw InputError(fmt::format("'{}' is no name of a table: a quote is open", printable(name)));
+    throw InputError(
+        fmt::format("'{}' is not a table name: it has an unclosed quote", printable(name)));
   finish();
   return out;
 }
@@ -86,16 +87,16 @@ void refuse_alike(Dialect dialect, const std::vector<std::string>& names) {
     const auto at =
         seen.emplace(boost::algorithm::to_lower_copy(name, std::locale::classic()), name).first;
     if (at->second != name)
-      throw InputError(fmt::format(
-          "the columns '{}' and '{}' are one name for DuckDB, which does not tell cases "
-          "apart: call one of them otherwise (--columns)",
-          printable(at->second), printable(name)));
+      throw InputError(
+          fmt::format("the columns '{}' and '{}' are the same name for DuckDB, which ignores case: "
+                      "rename one of them (--columns)",
+                      printable(at->second), printable(name)));
   }
 }
 
 std::string literal(Dialect dialect, std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
-    throw InputError(fmt::format("the text '{}' holds a zero byte", printable(text)));
+    throw InputError(fmt::format("the text '{}' has a zero byte", printable(text)));
   std::string inside(text);
   if (dialect == Dialect::clickhouse) {
     boost::algorithm::replace_all(inside, "\\", "\\\\");
@@ -105,7 +106,7 @@ std::string literal(Dialect dialect, std::string_view text) {
   boost::algorithm::replace_all(inside, "'", "''");
   if (dialect == Dialect::duckdb || inside.find('\\') == std::string::npos)
     return "'" + inside + "'";
-  // Whatever standard_conforming_strings says.
+  // For any standard_conforming_strings.
   boost::algorithm::replace_all(inside, "\\", "\\\\");
   return " E'" + inside + "'";
 }

@@ -11,7 +11,7 @@ void append_whole(const void* data, idx_t size, std::vector<std::int64_t>& out) 
   out.assign(x, x + size);
 }
 
-/// False for a type that is neither text nor a whole number of 64 bits.
+/// False for a type that is neither text nor a 64-bit integer.
 bool is_key(duckdb_type type) {
   switch (type) {
     case DUCKDB_TYPE_VARCHAR:

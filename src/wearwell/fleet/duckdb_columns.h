@@ -10,10 +10,10 @@
 
 namespace wearwell::fleet {
 
-/// Throws for what DuckDB says.
+/// Throws DuckDB's error.
 using DuckdbFailure = std::function<void(const std::string&)>;
 
-/// As ColumnEngine has them. The connection is the scan's alone while it goes on.
+/// As in ColumnEngine. The connection belongs to the scan while it runs.
 std::unique_ptr<ColumnScan> duckdb_scan(duckdb_connection connection, const std::string& query,
                                         const DuckdbFailure& fail);
 std::unique_ptr<ColumnEngine::Appender> duckdb_append(duckdb_connection connection,

@@ -81,7 +81,7 @@ class DuckdbEngine : public Engine, public ColumnEngine {
   std::string source_, view_;
   bool csv_ = false;
   duckdb_database database_ = nullptr;
-  /// The second one scans, while the first keeps what was found.
+  /// The second connection scans, while the first keeps the results.
   duckdb_connection connection_ = nullptr, scanning_ = nullptr;
 };
 
@@ -146,11 +146,10 @@ void DuckdbEngine::fail(const std::string& message) const {
   const auto has = [&](const char* part) { return message.find(part) != std::string::npos; };
   if (has("INTERRUPT")) throw Cancelled();
   if (boost::algorithm::starts_with(message, "Out of Memory"))
-    throw MachineError(
-        fmt::format("DuckDB needs more than the {} MB that it may take (--memory): {}", memory_,
-                    printable(duckdb_sentence(message))));
+    throw MachineError(fmt::format("DuckDB needs more than its limit of {} MB (--memory): {}",
+                                   memory_, printable(duckdb_sentence(message))));
   if (has("No space left"))
-    throw MachineError(fmt::format("no space left in {} for what does not fit into memory",
+    throw MachineError(fmt::format("no space left in {} for data that do not fit into memory",
                                    spill_.path().parent_path().parent_path().string()));
   throw InputError(fmt::format("{}: {}", source_, printable(duckdb_sentence(message))));
 }
@@ -165,7 +164,7 @@ std::vector<std::string> DuckdbEngine::expand(const std::vector<std::string>& pa
   std::vector<std::string> files;
   for (const std::string& pattern : patterns) {
     std::error_code ignored;
-    // A file is a file, whatever signs are in its name.
+    // Special characters in a file name are literal.
     if (fs::is_regular_file(pattern, ignored)) {
       files.push_back(fs::absolute(pattern).string());
       continue;
@@ -195,11 +194,11 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const s
   }
   if (!parquet && !csv)
     throw InputError(fmt::format(
-        "{}: a fleet's cycles are Parquet files or CSV files, all of one kind", source_));
+        "{}: a fleet's cycles must be Parquet files or CSV files, all of one kind", source_));
   csv_ = csv;
   if (parquet)
     return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
-  // Without BIGINT: where the first thousands of cells are whole numbers, 2.5 would be read as 3.
+  // Without BIGINT: if the first thousands of cells are integers, 2.5 would be read as 3.
   return fmt::format(
       "read_csv([{}], header = true, delim = ',', quote = '\"', escape = '\"', strict_mode = true, "
       "null_padding = false, ignore_errors = false, hive_partitioning = false, "
@@ -208,7 +207,7 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const s
       unit.empty() ? "" : fmt::format(", types = {{{}: 'VARCHAR'}}", quoted(unit, '\'')));
 }
 
-// DuckDB gives the second of two columns of one name another name, and takes capital and small letters for the same.
+// DuckDB renames the second of two columns with the same name, and ignores case.
 void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
   Answer answer;
   std::vector<std::string> names;
@@ -226,7 +225,7 @@ void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
     if (duckdb_row_count(&answer.result) == 0) return;
     for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) text(c, 0);
   } else {
-    // The first row is the schema itself; what has children is no column that could be asked for.
+    // The first row is the schema itself; an element with children is not a column.
     execute(fmt::format("select name from parquet_schema({}) where coalesce(num_children, 0) = 0",
                         quoted(file, '\'')),
             answer);

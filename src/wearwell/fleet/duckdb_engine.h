@@ -9,20 +9,21 @@
 
 namespace wearwell::fleet {
 
-/// DuckDB within the program, over files of cycles (Parquet, CSV). What does not fit into memory goes
-/// to a folder of its own, which is gone at the end.
+/// DuckDB within the program, over files of cycles (Parquet, CSV). Data that do not fit into memory
+/// go to a temporary folder, which is removed at the end.
 struct DuckdbSettings {
-  std::vector<std::string> files;  ///< names, or patterns as of a shell: "cycles/*.parquet"
-  std::string unit = {};  ///< the column that names units: words in CSV, whatever they look like
-  std::filesystem::path state = {};  ///< a database that keeps sums; empty: none
-  std::filesystem::path spill = {};  ///< a folder where that one is made
+  std::vector<std::string> files;  ///< names, or shell patterns: "cycles/*.parquet"
+  std::string unit = {};  ///< the column that names units: text in CSV, whatever it looks like
+  std::filesystem::path state = {};  ///< a database that stores sums; empty: none
+  std::filesystem::path spill = {};  ///< parent of the temporary folder
   int threads = 0;                   ///< 0: all
   long memory = 0;                   ///< MB; 0: half of the machine's
-  bool progress = false;             ///< of statements, which costs a little
+  /// whether to report progress of statements, which costs a little time
+  bool progress = false;
 };
 
-/// The files are the table `cycles`; nothing else can be read or written. Throws InputError where a pattern
-/// meets no file, or files have different columns.
+/// The files are the table `cycles`; nothing else can be read or written. Throws InputError if a
+/// pattern matches no file, or files have different columns.
 std::unique_ptr<Engine> duckdb_engine(const DuckdbSettings& settings);
 
 }  // namespace wearwell::fleet

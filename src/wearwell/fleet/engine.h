@@ -10,46 +10,47 @@
 
 namespace wearwell::fleet {
 
-/// One row of an answer: its texts and its numbers, in the order in which they were asked for.
+/// One row of an answer: its texts and its numbers, in the order of the query.
 struct Row {
   std::vector<std::string> texts;
-  std::vector<double> numbers;  ///< NaN where there is none
+  std::vector<double> numbers;  ///< NaN if missing
 };
 
-/// A column of a table, and whether it holds numbers.
+/// A column of a table, and whether it is numeric.
 struct EngineColumn {
   std::string name;
   bool is_number = false;
-  bool is_real = false;                   ///< a number with a fraction, perhaps
-  bool is_date = false, is_time = false;  ///< a day; a moment of it
+  bool is_real = false;                   ///< may have a fraction
+  bool is_date = false, is_time = false;  ///< a date; a timestamp
 };
 
-/// A server, or one behind it, went away in the middle of the work. After another `begin` all may be done anew, by a
-/// replica perhaps.
+/// A server, or one behind it, was lost during the work. After another `begin` all of it may be
+/// repeated, perhaps by a replica.
 struct Lost : InputError {
   using InputError::InputError;
 };
 
-/// A database with a fleet's cycles in it. Everything throws InputError with what the engine says, as
-/// far as it is for people, and MachineError where memory or disk is at fault; an answer is whole or there is none.
+/// A database with a fleet's cycles. All functions throw InputError with the engine's message, and
+/// MachineError if memory or disk is the cause; an answer is complete or there is none.
 class Engine {
  public:
   virtual ~Engine() = default;
   virtual Dialect dialect() const = 0;
   virtual std::string description() const = 0;  ///< "DuckDB 1.4.4"
-  /// What a query calls the table of cycles.
+  /// The name of the table of cycles in queries.
   virtual std::string table() const = 0;
-  /// What people call it.
+  /// Its name in messages.
   virtual std::string source() const = 0;
   virtual std::vector<EngineColumn> columns() = 0;
-  /// What follows is done whole or not at all, and sees the table as it is now; undone without `commit`.
-  /// ClickHouse has nothing of the kind: what is not to be kept belongs into temporary tables there, which the next `begin`
-  /// leaves behind.
+  /// The following work is atomic and sees the table as it is now; without `commit` it is undone.
+  /// ClickHouse has no transactions: there, uncommitted data belongs into temporary tables, which
+  /// the next `begin` discards.
   virtual void begin() = 0;
   virtual void commit() = 0;
-  /// Throws where the table lies in parts that hold some of the rows of one unit each. `unit`: the column that names units.
+  /// Throws if the rows of one unit are divided between parts of the table. `unit`: the column that
+  /// names units.
   virtual void refuse_split_units(const std::string& /*unit*/) {}
-  /// Statements, one after the other, without an answer. `what`: the steps that progress is told in,
+  /// Statements, one after the other, without an answer. `what`: names of the steps for progress,
   /// of which there are `total`. Throws Cancelled.
   virtual void run(const std::string& statements, const Monitor& monitor, const std::string& what,
                    long long total) = 0;

@@ -35,8 +35,8 @@ class Driver {
 
   net::io_context io{1};
 
-  /// `start` begins an operation with the handler that it is given; `cancel` ends it early. `seconds`: 0 for no
-  /// limit but the request's.
+  /// `start` begins an operation with the given handler; `cancel` ends it early. `seconds`: 0 for
+  /// the request's limit only.
   template <class Start, class Cancel>
   Error run(const Start& start, const Cancel& cancel, double seconds = 0) {
     std::optional<Error> outcome;
@@ -99,7 +99,7 @@ void connect(Driver& driver, Plain& stream, const HttpPlace& place) {
         stream.async_connect(found, [done](Error error, const tcp::endpoint&) { done(error); });
       },
       [&] { stream.close(); }, connect_seconds));
-  // A request is one write and an answer is waited for: nothing is to be gathered.
+  // A request is one write followed by waiting: no need to coalesce packets.
   stream.socket().set_option(tcp::no_delay(true));
   stream.socket().set_option(net::socket_base::keep_alive(true));
 }
@@ -153,9 +153,9 @@ void http_post(const HttpPlace& place, const HttpRequest& request,
   TlsStream stream(driver.io, context);
   Error bad_address;
   net::ip::make_address(place.host, bad_address);
-  // A server of several names is told which; an address is none.
+  // SNI for servers with several names; an address is not a name.
   if (bad_address && !SSL_set_tlsext_host_name(stream.native_handle(), place.host.c_str()))
-    throw HttpBroken("OpenSSL takes no such name of a host");
+    throw HttpBroken("OpenSSL does not accept this host name");
   Plain& tcp = beast::get_lowest_layer(stream);
   connect(driver, tcp, place);
   demand(driver.run([&](auto done) { stream.async_handshake(net::ssl::stream_base::client, done); },

@@ -9,14 +9,16 @@
 
 namespace wearwell::fleet {
 
-/// A server that speaks HTTP.
+/// An HTTP server.
 struct HttpPlace {
   std::string host, port;
   bool tls =
-      false;  ///< its certificate is held against this machine's (or SSL_CERT_FILE) and the host's name
+      /// its certificate is verified against this machine's authorities (or SSL_CERT_FILE) and the
+      /// host name
+      false;
 };
 
-/// No answer, or not all of one: nobody listens, no connection, no certificate that can be trusted, cut off.
+/// No complete answer: nothing listens, no connection, no trusted certificate, or truncated.
 struct HttpBroken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,13 +27,14 @@ struct HttpRequest {
   std::string target;  ///< "/?query_id=1"
   std::vector<std::pair<std::string, std::string>> fields = {};
   std::string body = {};
-  double seconds = 0;  ///< for all of it; 0: as long as `wait` lets it
-  /// Called ten times a second; what it throws ends the exchange. May be empty.
+  double seconds = 0;  ///< for all of it; 0: no limit except `wait`
+  /// Called ten times a second; an exception ends the exchange. May be empty.
   std::function<void()> wait = {};
 };
 
-/// Sends a request on a connection of its own and hands on the pieces of the answer as they come, with its status. Throws HttpBroken,
-/// after some pieces perhaps, and whatever `wait` or `take` throws.
+/// Sends a request on its own connection and passes on the pieces of the answer as they arrive,
+/// with its status. Throws HttpBroken, perhaps after some pieces, and exceptions of `wait` and
+/// `take`.
 void http_post(const HttpPlace& place, const HttpRequest& request,
                const std::function<void(int status, std::string_view piece)>& take);
 

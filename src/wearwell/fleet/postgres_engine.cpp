@@ -17,15 +17,15 @@
 namespace wearwell::fleet {
 namespace {
 
-/// The first line of what the server says, without its "ERROR: ".
+/// The first line of the server's error, without "ERROR: ".
 std::string sentence(const std::string& message) {
   std::string line = message.substr(0, message.find('\n'));
   if (boost::algorithm::starts_with(line, "ERROR:")) line.erase(0, 6);
   return printable(boost::algorithm::trim_copy(line));
 }
 
-/// Types of numbers in pg_type, which no version changes: bigint, smallint, integer, real, double precision,
-/// numeric.
+/// Types of numbers in pg_type, the same in every version: bigint, smallint, integer, real, double
+/// precision, numeric.
 constexpr unsigned numbers[] = {20, 21, 23, 700, 701, 1700};
 constexpr unsigned reals[] = {700, 701, 1700};
 /// date; timestamp, timestamp with time zone.
@@ -37,10 +37,10 @@ class PostgresEngine : public Engine {
       : name_(table), table_(table_identifier(Dialect::postgresql, table)) {
     try {
       connection_ = std::make_unique<pqxx::connection>(address);
-      // Compiling expressions of a thousand columns takes longer than they do.
+      // JIT compilation of a thousand expressions takes longer than running them.
       execute("set jit = off; set client_min_messages = error; set datestyle = iso");
     } catch (const pqxx::broken_connection& error) {
-      throw InputError(fmt::format("PostgreSQL is not reached: {}", sentence(error.what())));
+      throw InputError(fmt::format("PostgreSQL cannot be reached: {}", sentence(error.what())));
     }
   }
 
@@ -107,7 +107,7 @@ void PostgresEngine::run(const std::string& statements, const Monitor& monitor,
   auto work = std::async(std::launch::async, [&] { execute(statements); });
   while (work.wait_for(std::chrono::milliseconds(200)) != std::future_status::ready) {
     if (monitor.stop.stop_requested()) connection_->cancel_query();
-    // The server does not tell how far it is.
+    // The server does not report its progress.
     if (monitor.progress)
       monitor.progress({what, 0, 0, std::chrono::duration<double>(Clock::now() - start).count()});
   }

@@ -7,9 +7,9 @@
 
 namespace wearwell::fleet {
 
-/// A server of PostgreSQL, reached as libpq has it ("postgresql://user@host/database"; passwords
-/// belong into ~/.pgpass), and the table of cycles in it, as `table_identifier` reads its name. All that is
-/// done is one transaction of isolation level repeatable read. Throws InputError.
+/// A server of PostgreSQL, by a libpq address ("postgresql://user@host/database"; passwords belong
+/// into ~/.pgpass), and the table of cycles in it, by a name as `table_identifier` reads it. The
+/// work is one transaction of isolation level repeatable read. Throws InputError.
 std::unique_ptr<Engine> postgres_engine(const std::string& address, const std::string& table);
 
 }  // namespace wearwell::fleet

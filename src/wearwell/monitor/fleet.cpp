@@ -15,8 +15,8 @@ namespace wearwell::monitor {
 
 struct Fleet::Unit {
   UnitRecord record;
-  mutable std::mutex moving;  ///< held where `record.state` changes, and by who else reads it
-  bool lost = false;          ///< the record must be made anew
+  mutable std::mutex moving;  ///< locked when `record.state` changes, and by other readers of it
+  bool lost = false;          ///< the record must be rebuilt
   bool unsaved = false, stale = false, queued = false;
   Alarm alarm = Alarm::ok;  ///< of its risk alone
   Alarm shown = Alarm::ok, logged = Alarm::ok;
@@ -26,7 +26,8 @@ struct Fleet::Unit {
 
 namespace {
 
-/// The curve that people see: a forecast itself is a hundred times as large, and there is one of every unit.
+/// The displayed curve: the forecast itself is a hundred times as large, and there is one for every
+/// unit.
 std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
     const prognosis::WeightedLives& lives, const TrackerUnits& reported) {
   auto curve = std::make_shared<std::vector<UnitDetail::CurvePoint>>();
@@ -64,7 +65,7 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
       stale_.push_back(&unit);
     } catch (const InputError& error) {
       unit.lost = any_lost_ = true;
-      notices_.tell("store", fmt::format("{}; it is made anew from the readings", error.what()));
+      notices_.tell("store", fmt::format("{}; it is rebuilt from the readings", error.what()));
     }
     hear(unit, unit.record.last_received_ms);
   }
@@ -83,13 +84,14 @@ Fleet::Unit& Fleet::unit_named(const std::string& name) {
   if (!unit) {
     unit = std::make_unique<Unit>();
     unit->record.unit = name;
-    unit->lost = true;  // until it is begun, by the thread that takes its readings
+    unit->lost = true;  // until it is started, by the thread that processes its readings
     static_cast<void>(tally_.admit(name));
   }
   return *unit;
 }
 
-// What arrived before this program began is as old as the machine's clock says, and from then on ages by a clock that does not jump.
+// The age of readings from before the start of this program follows the system clock; from then on
+// a monotonic clock.
 void Fleet::hear(Unit& unit, std::int64_t received_ms) {
   const std::int64_t age = live_ ? 0 : std::max<std::int64_t>(0, unix_ms_now() - received_ms);
   unit.heard = Clock::now() - std::chrono::milliseconds(age);
@@ -128,7 +130,8 @@ std::size_t Fleet::apply() {
   place_ = readings.back().place;
   using std::chrono::milliseconds;
   std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
-  // None of them was there when all was known, however far the machine's clock has jumped since.
+  // No reading from before the start is newer than the start, even if the system clock has jumped
+  // since.
   if (live_)
     lag = std::min<std::int64_t>(
         lag, std::chrono::duration_cast<milliseconds>(Clock::now() - all_known_).count());
@@ -144,7 +147,7 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
     try {
       take(unit.record, each, reported_, store_);
     } catch (const StoreError&) {
-      unit.lost = true;  // in the middle of a reading, perhaps
+      unit.lost = true;  // possibly in the middle of a reading
       throw;
     } catch (const std::exception& error) {
       ++unit.record.not_counted;
@@ -159,7 +162,7 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
       {
         const std::lock_guard lock(unit.moving);
         unit.record = begun_record(unit.record.unit, tracker_);
-        unit.lost = false;  // from here on it is whole, if not up to date
+        unit.lost = false;  // from here on it is consistent, if not up to date
       }
       if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
     }
@@ -182,7 +185,7 @@ void Fleet::forecast(Unit& unit) {
   view.unit = record.unit;
   view.known = known;
   view.at = reported_.at(forecast.now);
-  // No reading is younger than its message, whatever the clock of its sender says.
+  // A reading cannot be newer than its message, even if the sender's clock says so.
   view.last_reading_ms = record.last_time_ms
                              ? std::min(record.last_time_ms, record.last_received_ms)
                              : record.last_received_ms;
@@ -212,7 +215,7 @@ void Fleet::forecast(Unit& unit) {
   unit.forecast_at = Clock::now();
 }
 
-// By who reads: a state stands still meanwhile, and is asked once for each forecast that is shown.
+// For readers: the state is locked meanwhile, and computed once for each displayed forecast.
 std::vector<UnitDetail::PathPoint> Fleet::path_ahead(const Seen& seen) const {
   const std::lock_guard lock(seen.ahead->lock);
   if (seen.ahead->known) return seen.ahead->path;
@@ -238,8 +241,8 @@ Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) c
 
 bool Fleet::refresh(bool all) {
   constexpr auto slice = std::chrono::milliseconds(100);
-  // Where so many change that forecasting all of them each second would take more than a tenth of the threads, nobody looks at
-  // all of them: they take turns.
+  // If forecasting all changed units each second takes more than a tenth of the threads' time, they
+  // take turns.
   constexpr double most_of_threads = 0.1;
   const std::chrono::duration<double> between(std::max(
       1.0,
@@ -250,7 +253,7 @@ bool Fleet::refresh(bool all) {
     if (unit->stale && !unit->lost && (all || begin - unit->forecast_at >= between))
       due.push_back(unit);
   }
-  // Who has waited longest comes first.
+  // The longest waiting unit comes first.
   std::sort(due.begin(), due.end(), [](const Unit* a, const Unit* b) {
     return std::pair(a->forecast_at, std::string_view(a->record.unit)) <
            std::pair(b->forecast_at, std::string_view(b->record.unit));
@@ -324,12 +327,12 @@ void Fleet::fall_silent() {
 }
 
 void Fleet::save() {
-  // Only what has changed; the others' states are there.
+  // Only changed states; the others are stored already.
   constexpr std::size_t at_once = 500;
   const std::int64_t all_up_to = place_;
   std::vector<Unit*> unsaved;
   for (const auto& [name, unit] : units_) {
-    if (unit->lost) return;  // what is made anew is saved the next time, and all with it
+    if (unit->lost) return;  // a rebuilt state is saved next time with all readings
     if (unit->unsaved) unsaved.push_back(unit.get());
   }
   const std::int64_t before = store_.all_up_to(settings_.population);

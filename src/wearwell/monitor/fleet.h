@@ -21,29 +21,33 @@ namespace wearwell::monitor {
 
 struct FleetSettings {
   std::string title;
-  bool trusted = true;     ///< the result that the population was learned from
-  std::string population;  ///< SHA-1 of what was learned
+  bool trusted = true;     ///< the result that the population comes from
+  std::string population;  ///< SHA-1 of the population
   AlarmSettings alarm;
   int threads = 1;
-  /// Called with a change of alarm and what was before.
+  /// Called with a change of alarm and the previous alarm.
   std::function<void(const AlarmChange& change, Alarm before)> on_alarm = {};
 };
 
-/// All units, as they follow from the readings of a store in its order, and as people look at them. One thread calls what is not const;
-/// any thread may read. Silence is counted on a clock that does not jump.
+/// All units, as they follow from the readings of a store in their order, and as readers see them.
+/// One thread calls non-const functions; any thread may read. Silence is measured on a monotonic
+/// clock.
 class Fleet : public FleetReader {
  public:
-  /// All outlive it. Takes up states and alarms that the store has. Throws StoreError.
+  /// All arguments must outlive it. Loads the states and alarms of the store. Throws StoreError.
   Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Notices& notices,
         FleetSettings settings);
   ~Fleet() override;
 
-  /// Takes the next readings of the store; how many. Throws StoreError: then it goes on from there when it is called again.
+  /// Processes the next readings of the store; returns their number. Throws StoreError: the next
+  /// call then continues from there.
   std::size_t apply();
-  /// Forecasts of units that have changed, each once a second at most, and together in a tenth of the threads' time where that is
-  /// less often; for about a tenth of a second; `all`: of every one now. Returns whether none is left that is due. Throws StoreError where a change of alarm cannot be kept; it is told again.
+  /// Forecasts changed units, each at most once a second, and together at most in a tenth of the
+  /// threads' time; runs for about a tenth of a second; `all`: every one now. Returns whether none
+  /// is left that is due. Throws StoreError if a change of alarm cannot be stored; it is reported
+  /// again.
   bool refresh(bool all = false);
-  /// States into the store, of the units that have changed since. Throws StoreError.
+  /// Saves the states of changed units to the store. Throws StoreError.
   void save();
   std::int64_t place() const { return place_; }
 
@@ -79,11 +83,11 @@ class Fleet : public FleetReader {
   std::unordered_map<std::string, std::unique_ptr<Unit>> units_;
   std::vector<AlarmChange> unlogged_;
   std::int64_t place_ = 0;
-  std::vector<Unit*> stale_;  ///< whose forecast is older than their readings, each once
+  std::vector<Unit*> stale_;  ///< units whose forecast is older than their readings, each once
   std::atomic<bool> any_lost_ = false;
-  double forecast_s_ = 0;            ///< of one thread, on the average of the last
-  bool live_ = false;                ///< what the store held at the beginning has been taken
-  std::uint64_t stored_before_ = 0;  ///< this monitor began
+  double forecast_s_ = 0;            ///< of one thread, moving average
+  bool live_ = false;                ///< everything that the store held at the start is processed
+  std::uint64_t stored_before_ = 0;  ///< start of this monitor
   Clock::time_point silence_checked_ = {}, all_known_ = {};
 
   mutable std::mutex lock_;  ///< of what follows

@@ -1,5 +1,5 @@
 'use strict';
-// One unit: where it stands, where it goes, and how good earlier forecasts were.
+// One unit: its present state, its forecast, and the coverage of earlier forecasts.
 (() => {
   const {element, given, quantity, range, probability, unit: words} = wearwell;
   const detail = document.getElementById('detail');
@@ -8,7 +8,7 @@
   const finite = (x) => typeof x === 'number' && Number.isFinite(x);
   const name = (what, unit) => (words(unit) ? `${wearwell.capital(what)} (${words(unit)})` : wearwell.capital(what));
 
-  // From 0 where that is near; what is far beyond the rest is cut off.
+  // Starts at 0 if that is near; clips values far beyond the rest.
   function domain(values) {
     const seen = values.filter(finite);
     if (seen.length === 0) return [0, 1];
@@ -23,12 +23,12 @@
     const read = view.moments.filter((each) => finite(each.measured)).map((each) => ({x: each.at, y: each.measured}));
     const split = points.findIndex((each) => each.x > view.at);
     const behind = split < 0 ? points : points.slice(0, split + 1), ahead = split < 0 ? [] : points.slice(Math.max(0, split - 1));
-    // When the limit is reached lies on it. A wedge leads there where no path ahead is known.
+    // The interval of the life lies on the limit. A wedge leads there if there is no forecast band.
     const life = view.passed > 0.5 ? null : {low: view.at + view.remaining.q05, y: finite(view.remaining.q50) ? view.at + view.remaining.q50 : null,
                                             high: finite(view.remaining.q95) ? view.at + view.remaining.q95 : null};
     const far = life ? Math.min(life.high ?? Infinity, view.at + 3 * (view.remaining.q50 ?? view.remaining.q05 ?? 0)) : 0;
     const x = domain([...points.map((each) => each.x), ...read.map((each) => each.x), view.at]);
-    // Of a path ahead as much as the life needs; a limit that is never reached needs all of it.
+    // The forecast band up to the end of the life interval; all of it if the limit is never reached.
     const reach = finite(far) && far > view.at ? 1.04 * far : Infinity;
     x[1] = Math.max(view.at, finite(reach) && ahead.length < 3 ? reach : 0, ...points.map((each) => each.x).filter((each) => finite(each) && each <= Math.max(reach, view.at)), ...read.map((each) => each.x));
     const wedge = life && ahead.length < 3 && finite(life.low);
@@ -36,7 +36,7 @@
                       ...ahead.filter((each) => each.y < 1.3 * fleet.limit).map((each) => each.y), ...read.map((each) => each.y)]);
     const stops = points.filter((each) => finite(each.x) && each.x <= x[1]);
     return {
-      id: 'path', title: `${wearwell.capital(fleet.limited)}, behind and ahead`,
+      id: 'path', title: `${wearwell.capital(fleet.limited)}, past and forecast`,
       description: `${wearwell.capital(fleet.limited)} along ${fleet.axis}: now ${range(view.level.q05, view.level.q95, fleet.level_unit)} (90 %), limit ${given(fleet.limit, fleet.level_unit)}. ${read.length} readings.`,
       x: {name: name(fleet.axis, fleet.axis_unit), domain: x}, y: {name: name(fleet.limited, fleet.level_unit), domain: y},
       marks: [
@@ -51,7 +51,7 @@
       at: stops.map((each) => each.x), start: Math.max(0, split - 1),
       read: (i) => `At ${quantity(stops[i].x, fleet.axis_unit)}: ${fleet.limited} ${quantity(stops[i].y, fleet.level_unit)}, 90 % within ${range(stops[i].low, stops[i].high, fleet.level_unit)}`,
       hint: 'Point at it, or use the arrow keys, to read values.',
-      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ...(life ? [['life', 'when the limit is reached, 90 %']] : []), ...(ahead.length < 3 ? [] : [['ahead', 'median and 90 %, ahead']])],
+      legend: [['reading', 'readings'], ['behind', 'median and 90 %, past'], ...(life ? [['life', 'time of reaching the limit, 90 %']] : []), ...(ahead.length < 3 ? [] : [['ahead', 'median and 90 %, forecast']])],
     };
   }
 
@@ -61,9 +61,9 @@
     const marks = [{kind: 'band', look: 'behind', points}, {kind: 'line', look: 'behind', points}];
     if (fleet.horizon < end) marks.push({kind: 'rule', look: 'horizon', x: fleet.horizon, word: `horizon ${given(fleet.horizon, fleet.axis_unit)}`});
     return {
-      id: 'survival', title: 'How long it lasts',
-      description: `Probability that the limit is not reached, by remaining useful life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
-      x: {name: `Remaining life (${words(fleet.axis_unit) || fleet.axis})`, domain: [0, end]},
+      id: 'survival', title: 'Remaining useful life',
+      description: `Probability of not reaching the limit, by remaining useful life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
+      x: {name: `Remaining useful life (${words(fleet.axis_unit) || fleet.axis})`, domain: [0, end]},
       y: {name: 'Probability of lasting longer', domain: [0, 1], percent: true}, marks,
       at: points.map((each) => each.x), start: 0,
       read: (i) => `${probability(points[i].y)} last longer than ${quantity(points[i].x, fleet.axis_unit)}`,
@@ -80,20 +80,20 @@
     const top = Math.max(...later.map((each) => each.high).filter(finite), finite(last?.y) ? 1.2 * last.y : 0, x[1]);
     const y = [0, finite(last?.y) ? Math.min(top, 4 * Math.max(last.y, x[1])) : top];
     return {
-      id: 'history', title: 'What was forecast, and when',
-      description: `Expected life at each of ${points.length} moments, with 90 % intervals. Last: ${range(view.moments.at(-1)?.life.q05 ?? null, view.moments.at(-1)?.life.q95 ?? null, fleet.axis_unit)}.`,
+      id: 'history', title: 'Earlier forecasts',
+      description: `Predicted life at ${points.length} times, with 90 % intervals. Last: ${range(view.moments.at(-1)?.life.q05 ?? null, view.moments.at(-1)?.life.q95 ?? null, fleet.axis_unit)}.`,
       x: {name: `Forecast at ${name(fleet.axis, fleet.axis_unit).toLowerCase().replace(/\((.*)\)/, () => `(${words(fleet.axis_unit)})`)}`, domain: x},
-      y: {name: `Limit expected at (${words(fleet.axis_unit) || fleet.axis})`, domain: y},
+      y: {name: `Predicted life (${words(fleet.axis_unit) || fleet.axis})`, domain: y},
       marks: [{kind: 'band', look: 'forecast', points}, {kind: 'line', look: 'forecast', points},
               {kind: 'line', look: 'age', points: [{x: 0, y: 0}, {x: x[1], y: x[1]}]}],
       at: points.map((each) => each.x), start: points.length - 1,
-      read: (i) => `At ${quantity(points[i].x, fleet.axis_unit)} the limit was expected at ${quantity(points[i].y, fleet.axis_unit)}, 90 % within ${range(points[i].low, points[i].high, fleet.axis_unit)} (${wearwell.clock(moments[i].time_ms)})`,
-      hint: 'Bands that narrow about one line are forecasts that held.',
-      legend: [['forecast', 'median and 90 % of the life'], ['age', 'age at that moment']],
+      read: (i) => `At ${quantity(points[i].x, fleet.axis_unit)} the predicted life was ${quantity(points[i].y, fleet.axis_unit)}, 90 % within ${range(points[i].low, points[i].high, fleet.axis_unit)} (${wearwell.clock(moments[i].time_ms)})`,
+      hint: 'If forecasts are correct, the band narrows around one life.',
+      legend: [['forecast', 'median and 90 % of the life'], ['age', 'age at that time']],
     };
   }
 
-  // P(X <= k) of n forecasts that hold with probability 0.9 each.
+  // P(X <= k) for n forecasts with a coverage of 0.9 each.
   function binomial(k, n) {
     let sum = 0, logarithm = n * Math.log(0.1);
     for (let i = 0; i <= k; ++i) {
@@ -104,31 +104,31 @@
   }
 
   function tally({judged, held}) {
-    if (!judged) return element('p', {class: 'tally'}, 'No forecast has met its reading yet.');
+    if (!judged) return element('p', {class: 'tally'}, 'No forecast has been compared with a reading yet.');
     const low = binomial(held, judged) < 0.01;
-    const text = `Of ${wearwell.count(judged)} earlier forecasts of the next reading, ${wearwell.count(held)} held within their 90 % interval; ` +
-                 `about ${wearwell.count(Math.round(0.9 * judged))} were to be expected.`;
-    return element('p', {class: low ? 'tally callout warn' : 'tally'}, low ? element('strong', {}, 'Fewer than chance explains. ') : null, text);
+    const text = `Of ${wearwell.count(judged)} earlier forecasts of the next reading, ${wearwell.count(held)} covered it with their 90 % interval; ` +
+                 `about ${wearwell.count(Math.round(0.9 * judged))} are expected.`;
+    return element('p', {class: low ? 'tally callout warn' : 'tally'}, low ? element('strong', {}, 'Fewer than expected by chance. ') : null, text);
   }
 
   const tile = (what, value, note) => element('div', {}, element('dt', {}, what), element('dd', {class: 'value'}, value), element('dd', {class: 'note'}, note));
 
   function lead(view) {
-    if (!view.known) return element('p', {class: 'lead'}, `Nothing is known of this ${fleet.noun} yet: no reading says how it goes on.`);
-    const sure = view.passed > 0.5 ? `With probability ${probability(view.passed)} this ${fleet.noun} has reached its limit of ${given(fleet.limit, fleet.level_unit)} already.`
+    if (!view.known) return element('p', {class: 'lead'}, `There is no forecast for this ${fleet.noun} yet: its readings do not determine how it continues.`);
+    const sure = view.passed > 0.5 ? `This ${fleet.noun} has already reached its limit of ${given(fleet.limit, fleet.level_unit)} with probability ${probability(view.passed)}.`
                                    : `This ${fleet.noun} reaches its limit of ${given(fleet.limit, fleet.level_unit)} within the next ${given(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
     return element('p', {class: 'lead'}, sure);
   }
 
   function tiles(view) {
     const last = view.last_reading_ms;
-    if (!view.known) return element('dl', {class: 'tiles'}, tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? wearwell.clock(last) : 'none came yet'));
+    if (!view.known) return element('dl', {class: 'tiles'}, tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? wearwell.clock(last) : 'none yet'));
     return element('dl', {class: 'tiles'},
-        tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not behind it' : ''}`),
-        tile('B10', quantity(view.b10, fleet.axis_unit), '90 % of its like last longer'),
+        tile('Remaining useful life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not reached yet' : ''}`),
+        tile('B10', quantity(view.b10, fleet.axis_unit), '90 % last longer'),
         tile(`${wearwell.capital(fleet.limited)} now`, quantity(view.level.q50, fleet.level_unit),
              view.level.q05 === view.level.q95 ? `limit: ${given(fleet.limit, fleet.level_unit)}` : `90 %: ${range(view.level.q05, view.level.q95, fleet.level_unit)}`),
-        tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? `at ${quantity(view.at, fleet.axis_unit)}, ${wearwell.clock(last)}` : 'what is shown is of the population'));
+        tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? `at ${quantity(view.at, fleet.axis_unit)}, ${wearwell.clock(last)}` : 'the values are those of the population'));
   }
 
   function quality({readings, repeated, late, contradicting, refused, last_problem: problem}) {
@@ -146,7 +146,7 @@
         lead(view), tiles(view));
   }
 
-  // While somebody reads a plot it stays; the figures above it go on.
+  // A plot stays while the user reads it; the values above it are updated.
   const busy = () => detail.querySelector('svg.plot:hover, svg.plot:focus') !== null;
 
   function figures(view) {
@@ -207,7 +207,7 @@
       opened = '';
       ++serial;
       delete detail.dataset.unit;
-      detail.replaceChildren(element('h2', {id: 'unit-name', class: 'none'}, `No ${fleet?.noun ?? 'unit'} is chosen.`));
+      detail.replaceChildren(element('h2', {id: 'unit-name', class: 'none'}, `No ${fleet?.noun ?? 'unit'} is selected.`));
     },
     refresh: (view) => {
       fleet = view;

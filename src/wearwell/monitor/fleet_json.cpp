@@ -17,7 +17,7 @@ Json json_of_interval(const Interval& interval) {
       {"q05", number(interval.q05)}, {"q50", number(interval.q50)}, {"q95", number(interval.q95)}};
 }
 
-// Of a unit of which nothing is known there is no number.
+// For a unit of unknown state there are no numbers.
 Json json_of_known(const UnitView& unit, double x) {
   return unit.known ? number(x) : Json(nullptr);
 }

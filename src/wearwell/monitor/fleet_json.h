@@ -6,7 +6,7 @@
 
 #include "wearwell/monitor/fleet_view.h"
 
-/// The JSON API's answers (docs/reference/monitor-api.md). A number that is not finite is null.
+/// The JSON API's answers (docs/reference/monitor-api.md). Numbers that are not finite become null.
 namespace wearwell::monitor {
 
 nlohmann::ordered_json json_of(const FleetView& fleet);

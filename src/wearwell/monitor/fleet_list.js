@@ -1,6 +1,6 @@
 'use strict';
-// The fleet by risk. Only rows on the screen are elements, and only pages on the screen are asked for, so that a
-// thousand units cost what twenty do.
+// The fleet by risk. Only visible rows are elements, and only visible pages are requested, so that a
+// thousand units cost as little as twenty.
 (() => {
   const {element} = wearwell;
   const page = 60;
@@ -14,7 +14,7 @@
   const unit = (i) => pages.get(Math.floor(i / page))?.[i % page];
   const path = (number) => `/api/units?search=${encodeURIComponent(search.value)}&offset=${number * page}&count=${page}`;
 
-  // Where a life lies beside the horizon: that in the middle, what never ends at the right.
+  // Position of a life relative to the horizon: the horizon in the middle, infinity at the right.
   const place = (x) => (x === null ? 100 : 100 * Math.max(0, x) / (Math.max(0, x) + fleet.horizon || 1));
 
   function interval(remaining) {
@@ -34,10 +34,10 @@
   function cells(each) {
     const risk = element('span', {class: 'meter', 'aria-hidden': 'true'}, element('span', {}));
     risk.firstChild.style.width = `${100 * (each.risk ?? 0)}%`;
-    // What remains if the limit is not behind it says little where it most likely is.
+    // The remaining life given that the limit is not reached is irrelevant if it most likely is.
     const past = each.passed > 0.5;
     const life = past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
-                 : !each.known ? 'not known'
+                 : !each.known ? 'unknown'
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
       wearwell.badge(each.alarm),
@@ -49,8 +49,8 @@
               each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none')];
   }
 
-  // A row stays the element that it is, whatever it shows: one that were made anew while the pointer is down
-  // would not be clicked.
+  // Rows keep their elements: a row that is recreated while the pointer is down
+  // would not receive the click.
   const made = new Map();
   function row(i) {
     const each = unit(i);
@@ -93,7 +93,7 @@
     list.dataset.drawn = 'true';
   }
 
-  // Pages on the screen that are not there yet, or all of them anew; what came meanwhile is not taken for newer.
+  // Requests missing visible pages, or all of them again; discards answers that are outdated.
   async function load(anew) {
     const [first, last] = visible();
     const wanted = new Set([Math.floor(first / page), Math.floor(Math.max(first, last - 1) / page)]);
@@ -108,7 +108,7 @@
       total = answer.matching;
     }
     pages = fresh;
-    // The mark stays with its unit where the order changed.
+    // The selection stays with its unit when the order changes.
     if (kept !== undefined) {
       for (const [number, units] of pages) {
         const at = units.findIndex((each) => each.unit === kept);
@@ -135,10 +135,10 @@
   const open = (name) => { location.hash = `unit=${encodeURIComponent(name)}`; };
 
   list.addEventListener('scroll', () => { touched = Date.now(); draw(); shown(false); }, {passive: true});
-  // A row does not move away under the pointer that is about to press it.
+  // Rows do not move while the pointer is about to press one.
   list.addEventListener('pointermove', () => { touched = Date.now(); }, {passive: true});
   list.addEventListener('click', (event) => {
-    // By its place: the element that was pressed may have been drawn anew by now.
+    // By its position: the pressed element may have been redrawn since.
     const at = Math.floor((event.clientY - rows.getBoundingClientRect().top) / height());
     if (!unit(at)) return;
     active = at;
@@ -183,7 +183,7 @@
       await load(true);
       return unit(0)?.unit;
     },
-    // Ages grow also where nothing else changes.
+    // Ages grow even if nothing else changes.
     refresh: (view, news) => {
       fleet = view;
       if (!news) return draw();

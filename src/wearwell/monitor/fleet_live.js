@@ -1,5 +1,5 @@
 'use strict';
-// What is shown follows the server's events, and says so when it cannot.
+// Updates the page from the server's events, and reports a lost connection.
 (() => {
   const {element} = wearwell;
   const connection = document.getElementById('connection'), banners = document.getElementById('banners');
@@ -37,11 +37,11 @@
 
   function complaints() {
     const all = [];
-    if (lost) all.push(['fail', 'Connection lost.', `What is shown is as of ${wearwell.clock(lost)}; it is tried again.`]);
-    if (fleet && !fleet.trusted) all.push(['warn', 'Not to be trusted.', 'The result that the population was learned from did not pass its checks: numbers here may mislead.']);
-    if (fleet && fleet.units.all > 0 && fleet.units.unknown === fleet.units.all) all.push(['warn', 'No news.', `No ${fleet.noun} has reported for long.`]);
-    if (fleet && fleet.messages.lag_ms > 5000) all.push(['warn', 'Behind.', `Readings come faster than they are worked through: what is shown lags behind those that are stored.`]);
-    // An alert is told once, not whenever something else changes.
+    if (lost) all.push(['fail', 'Connection lost.', `The page shows the state of ${wearwell.clock(lost)} and tries to reconnect.`]);
+    if (fleet && !fleet.trusted) all.push(['warn', 'Not trusted.', 'The result that the population comes from did not pass its checks: the values here may be wrong.']);
+    if (fleet && fleet.units.all > 0 && fleet.units.unknown === fleet.units.all) all.push(['warn', 'No news.', `No ${fleet.noun} has reported for a long time.`]);
+    if (fleet && fleet.messages.lag_ms > 5000) all.push(['warn', 'Behind.', `Readings arrive faster than they are processed: the page lags behind the stored readings.`]);
+    // An alert is announced once, not whenever something else changes.
     const text = JSON.stringify(all);
     if (banners.dataset.text === text) return;
     banners.dataset.text = text;
@@ -55,7 +55,7 @@
     document.title = `${fleet.units.act ? `(${fleet.units.act}) ` : ''}${fleet.title || 'wearwell monitor'}`;
     const noun = fleet.units.all === 1 ? fleet.noun : wearwell.plural(fleet.noun);
     document.getElementById('subtitle').textContent = `${wearwell.count(fleet.units.all)} ${noun}, ` +
-        (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : `no message since its start ${wearwell.age(wearwell.now() - fleet.started_ms)} ago`);
+        (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : `no message since the start ${wearwell.age(wearwell.now() - fleet.started_ms)} ago`);
     complaints();
   }
 
@@ -93,7 +93,7 @@
     if (all || changed.includes(wearwell.detail.opened())) wearwell.detail.refresh(fleet);
   }
 
-  // Where all streams are taken it is asked now and then.
+  // If no event stream is free, the page polls.
   async function poll() {
     try {
       news(await wearwell.ask('/api/fleet'), true, []);

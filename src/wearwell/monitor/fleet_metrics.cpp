@@ -15,7 +15,7 @@ std::string number(double x) {
   return fmt::format("{}", x);
 }
 
-/// A value of a label, in quotes.
+/// A quoted label value.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char each : text) {
@@ -50,13 +50,14 @@ double seconds(std::int64_t milliseconds) {
 }
 
 void add_fleet(const FleetView& fleet, Text* text) {
-  text->family("wearwell_fleet_info", "gauge", "What is monitored, and in which units; always 1.");
+  text->family("wearwell_fleet_info", "gauge",
+               "The quantity that is monitored, and its units; always 1.");
   text->sample(fmt::format("axis={},axis_unit={},level={},level_unit={},title={}",
                            quoted(fleet.axis), quoted(fleet.axis_unit), quoted(fleet.limited),
                            quoted(fleet.level_unit), quoted(fleet.title)),
                1);
   text->family("wearwell_fleet_trusted", "gauge",
-               "Whether the result that the population was learned from passed its checks.");
+               "Whether the result that the population comes from passed its checks.");
   text->sample("", fleet.trusted ? 1 : 0);
   text->family("wearwell_fleet_units", "gauge", "Units by alarm.");
   for (const auto& [alarm, count] :
@@ -64,7 +65,7 @@ void add_fleet(const FleetView& fleet, Text* text) {
         std::pair(Alarm::act, fleet.act), std::pair(Alarm::unknown, fleet.unknown)}) {
     text->sample(fmt::format("alarm=\"{}\"", name(alarm)), static_cast<double>(count));
   }
-  text->family("wearwell_fleet_limit", "gauge", "The limit, in level_unit.");
+  text->family("wearwell_fleet_limit", "gauge", "The failure threshold, in level_unit.");
   text->sample("", fleet.limit);
   text->family("wearwell_fleet_horizon", "gauge", "The horizon of the risk, in axis_unit.");
   text->sample("", fleet.horizon);
@@ -72,17 +73,17 @@ void add_fleet(const FleetView& fleet, Text* text) {
     text->family(name, "counter", help);
     text->sample("", static_cast<double>(value));
   };
-  count("wearwell_messages_received_total", "Messages that came in.", fleet.messages);
-  count("wearwell_messages_stored_total", "Messages that are stored.", fleet.stored);
-  count("wearwell_messages_refused_total", "Messages that were refused.", fleet.refused);
-  count("wearwell_messages_repeated_total", "Messages that had come before.", fleet.repeated);
+  count("wearwell_messages_received_total", "Messages received.", fleet.messages);
+  count("wearwell_messages_stored_total", "Messages stored.", fleet.stored);
+  count("wearwell_messages_refused_total", "Messages refused.", fleet.refused);
+  count("wearwell_messages_repeated_total", "Messages repeated.", fleet.repeated);
   text->family("wearwell_state_lag_seconds", "gauge",
-               "How long what states were last told had lain in the store; 0: they know all.");
+               "Age in the store of the last processed reading; 0: all are processed.");
   text->sample("", seconds(fleet.lag_ms));
   text->family("wearwell_last_message_timestamp_seconds", "gauge",
-               "When a message last came, Unix time; 0: none yet.");
+               "Time of the last message, Unix time; 0: none yet.");
   text->sample("", seconds(fleet.last_message_ms));
-  text->family("wearwell_start_timestamp_seconds", "gauge", "When the monitor began, Unix time.");
+  text->family("wearwell_start_timestamp_seconds", "gauge", "Start of the monitor, Unix time.");
   text->sample("", seconds(fleet.started_ms));
 }
 
@@ -108,7 +109,7 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
     text->family(name, "gauge", help);
     for (std::size_t i = 0; i < units.size(); ++i) text->sample(labels[i], value(units[i]));
   };
-  // A sample that is missing is what is not known.
+  // A missing sample means an unknown value.
   const auto known = [&](const char* name, const char* help,
                          const std::function<double(const UnitView&)>& value) {
     text->family(name, "gauge", help);
@@ -126,24 +127,27 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
     }
   };
   text->family("wearwell_fleet_units_shown", "gauge",
-               "Units that have samples of their own here, the riskiest.");
+               "Units with their own samples here, the riskiest ones.");
   text->sample("", static_cast<double>(units.size()));
   gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, -1: unknown.",
         [](const UnitView& unit) { return code(unit.alarm); });
-  known("wearwell_unit_risk_ratio", "Probability that the limit is reached within the horizon.",
+  known("wearwell_unit_risk_ratio",
+        "Probability that the failure threshold is reached within the horizon.",
         [](const UnitView& unit) { return unit.risk; });
-  known("wearwell_unit_passed_ratio", "Probability that the limit is reached already.",
+  known("wearwell_unit_passed_ratio", "Probability that the failure threshold is already reached.",
         [](const UnitView& unit) { return unit.passed; });
-  known("wearwell_unit_position", "How far the unit has come, in axis_unit.",
+  known("wearwell_unit_position", "Use of the unit so far, in axis_unit.",
         [](const UnitView& unit) { return unit.at; });
-  interval("wearwell_unit_level", "What the limit is of, now, in level_unit.", &UnitView::level);
-  interval("wearwell_unit_remaining", "Remaining life, in axis_unit.", &UnitView::remaining);
-  known("wearwell_unit_remaining_b10", "Remaining life that 90 % exceed, in axis_unit.",
+  interval("wearwell_unit_level",
+           "Present value of the quantity with the failure threshold, in level_unit.",
+           &UnitView::level);
+  interval("wearwell_unit_remaining", "Remaining useful life, in axis_unit.", &UnitView::remaining);
+  known("wearwell_unit_remaining_b10", "Remaining useful life that 90 % exceed, in axis_unit.",
         [](const UnitView& unit) { return unit.b10; });
   gauge("wearwell_unit_last_reading_timestamp_seconds",
-        "When a reading last came, Unix time; 0: none yet.",
+        "Time of the last reading, Unix time; 0: none yet.",
         [](const UnitView& unit) { return seconds(unit.last_reading_ms); });
-  text->family("wearwell_unit_readings_total", "counter", "Readings by what became of them.");
+  text->family("wearwell_unit_readings_total", "counter", "Readings by outcome.");
   for (std::size_t i = 0; i < units.size(); ++i) {
     const Quality& of = units[i].quality;
     for (const auto& [outcome, count] :
@@ -157,11 +161,11 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
 }
 
 void add_http(const HttpCounts& http, Text* text) {
-  text->family("wearwell_http_connections", "gauge", "Connections that are open.");
+  text->family("wearwell_http_connections", "gauge", "Open connections.");
   text->sample("", static_cast<double>(http.connections));
-  text->family("wearwell_http_event_streams", "gauge", "Of these, how many listen to events.");
+  text->family("wearwell_http_event_streams", "gauge", "Open connections that listen to events.");
   text->sample("", static_cast<double>(http.streams));
-  text->family("wearwell_http_responses_total", "counter", "Answers by status.");
+  text->family("wearwell_http_responses_total", "counter", "Responses by status.");
   for (const auto& [status, count] : http.answers) {
     text->sample(fmt::format("code=\"{}\"", status), static_cast<double>(count));
   }

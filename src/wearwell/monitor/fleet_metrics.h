@@ -9,13 +9,14 @@
 
 namespace wearwell::monitor {
 
-/// What the server counts of itself.
+/// The server's statistics of itself.
 struct HttpCounts {
   std::uint64_t connections = 0, streams = 0;      ///< open now
   std::map<unsigned, std::uint64_t> answers = {};  ///< so far, by status
 };
 
-/// The text that Prometheus reads, with `units` one by one (text format 0.0.4; names and units: docs/reference/monitor-api.md).
+/// Text in the Prometheus format, with `units` as separate samples (text format 0.0.4; names and
+/// units: docs/reference/monitor-api.md).
 std::string metrics_text(const FleetView& fleet, const std::vector<UnitView>& units,
                          const HttpCounts& http);
 

@@ -20,7 +20,7 @@ int digit(char hexadecimal) {
   return hexadecimal <= '9' ? hexadecimal - '0' : hexadecimal - 'a' + 10;
 }
 
-// As browsers want hashes: in base 64.
+// In base 64, as browsers need hashes.
 std::string source_of(const Part& part) {
   std::array<unsigned char, 32> bytes;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -60,7 +60,7 @@ ServedPage page_of(const std::string& title, std::string_view body, const Part& 
 </html>
 )",
                           title, style.text, body, code);
-  // Enough of the hash to tell one version of the page from another.
+  // Part of the hash, enough to distinguish versions of the page.
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
   unsigned length = 0;
   EVP_Digest(page.html.data(), page.html.size(), digest.data(), &length, EVP_sha256(), nullptr);

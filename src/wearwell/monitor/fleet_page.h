@@ -4,17 +4,17 @@
 
 namespace wearwell::monitor {
 
-/// A page with all that it needs inside; it fetches nothing but what its own server answers.
+/// A self-contained page; it requests nothing except from its own server.
 struct ServedPage {
   std::string html;
   std::string policy;  ///< its Content-Security-Policy
   std::string tag;     ///< its ETag
 };
 
-/// The fleet and its units. `token`: whether who looks at it has signed in, and may sign out.
+/// The fleet and its units. `token`: whether the viewer has signed in, and may sign out.
 ServedPage fleet_page(bool token);
 
-/// Asks for the token, and says what is wrong with the one that was given.
+/// Asks for the token, and reports a wrong one.
 ServedPage login_page(bool wrong);
 
 }  // namespace wearwell::monitor

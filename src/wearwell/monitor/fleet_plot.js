@@ -13,7 +13,7 @@
     return {found, step};
   }
 
-  // As many decimals as tell neighbours apart.
+  // As many decimals as distinguish neighbors.
   function label(x, step) {
     if (Math.abs(x) >= 1e7 || (step < 1e-3 && x !== 0)) return wearwell.number(x);
     const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (/^25/.test(String(step).replace(/[0.]/g, '') + '0') ? 1 : 0));
@@ -23,7 +23,7 @@
 
   const finite = (x) => typeof x === 'number' && Number.isFinite(x);
 
-  // What is cut off by a null begins anew behind it.
+  // A null interrupts the line.
   function outline(points, x, y, key) {
     let path = '', pen = false;
     for (const each of points) {
@@ -35,7 +35,7 @@
     return path;
   }
 
-  // An end that is not finite lies beyond the frame.
+  // An infinite end lies outside the frame.
   function area(points, x, y, beyond) {
     const seen = points.filter((each) => finite(each.x) && (finite(each.low) || finite(each.high)));
     if (seen.length < 2) return '';
@@ -96,7 +96,7 @@
     return group;
   }
 
-  // `specification.at`: values of x at which there is something to read, in order; `read`: what stands there, in words.
+  // `specification.at`: values of x with a readout, in order; `read`: its text.
   function crossHair(svg, box, x, specification, readout) {
     const hair = element('line', {class: 'hair', y1: box.top, y2: box.bottom, visibility: 'hidden'});
     svg.append(hair);

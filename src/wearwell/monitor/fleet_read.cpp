@@ -7,7 +7,7 @@
 #include "wearwell/monitor/fleet_seen.h"
 #include "wearwell/monitor/time_text.h"
 
-// What a fleet tells: everything here reads what is whole already.
+// Queries of a fleet: everything here reads immutable snapshots.
 namespace wearwell::monitor {
 namespace {
 
@@ -16,7 +16,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The view with what its messages came to, which is counted elsewhere.
+/// The view with the message counts, which are kept elsewhere.
 UnitView counted(UnitView view, const Tally& tally) {
   const Tally::Counts counts = tally.counts(view.unit);
   view.quality.repeated = counts.repeated;
@@ -69,7 +69,8 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
       if (wanted.empty() || lower(name).find(wanted) != std::string::npos) found.push_back(seen);
     }
   }
-  // Where risks are equal, who has less before it; then by name, as they stand. Of whom nothing is known comes last.
+  // With equal risk, the unit with less remaining life first; then by name. Units of unknown state
+  // come last.
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     const auto order = [](const UnitView& view) {
       return std::tuple(!view.known, -view.risk, view.remaining.q05);
@@ -97,7 +98,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   detail.held = seen->held;
   detail.judged = seen->judged;
   detail.moments = *seen->moments;
-  // The last reading need not be among those that are kept; what is known now stands for it.
+  // The last reading may not be among the kept ones; the present state stands for it.
   const UnitView& view = seen->view;
   if (view.known && (detail.moments.empty() || detail.moments.back().at < view.at)) {
     UnitMoment now;

@@ -8,15 +8,15 @@
 
 namespace wearwell::monitor {
 
-/// What readers see of a unit: made whole, never changed.
+/// A unit as readers see it: built completely, never changed.
 struct Fleet::Seen {
   UnitView view;
   std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival;
   std::shared_ptr<const std::vector<UnitMoment>> moments;
   std::uint64_t held = 0, judged = 0;
-  std::int64_t place = 0;  ///< of the last reading that is in it
+  std::int64_t place = 0;  ///< of its last processed reading
 
-  /// The path ahead, computed when it is first asked for; of the state as it is then.
+  /// The forecast band, computed at the first request, for the state at that time.
   struct Ahead {
     explicit Ahead(const Unit& of) : unit(of) {}
 

@@ -7,10 +7,10 @@
 
 namespace wearwell::monitor {
 
-/// The units by risk, as a terminal shows them; `most` of them.
+/// The units by risk, for a terminal; at most `most`.
 present::Table fleet_table(const FleetReader& reader, std::size_t most);
 
-/// The table and what it is of.
+/// The table with its description.
 std::string fleet_text(const FleetReader& reader);
 
 }  // namespace wearwell::monitor

@@ -10,23 +10,23 @@ namespace wearwell::monitor {
 enum class Alarm { ok, watch, act, unknown };
 const char* name(Alarm alarm);
 
-/// Three quantiles, in the units that `FleetView` names; infinite where a limit is never reached.
+/// Three quantiles, in the units that `FleetView` names; infinite if a threshold is never reached.
 struct Interval {
   double q05 = 0, q50 = 0, q95 = 0;
 };
 
-/// What became of a unit's messages.
+/// Outcomes of a unit's messages.
 struct Quality {
   std::uint64_t readings = 0, repeated = 0, late = 0, contradicting = 0, refused = 0;
   std::string last_problem = {};
 };
 
-/// One unit as people look at it.
+/// One unit as readers see it.
 struct UnitView {
   std::string unit;
   Alarm alarm = Alarm::unknown;
-  /// False: no reading and no word of the study says how it goes on; then `at`, `level`, `remaining`, `b10`, `risk` and
-  /// `passed` mean nothing, and nobody shows them.
+  /// False: neither a reading nor the study determines how it continues; then `at`, `level`,
+  /// `remaining`, `b10`, `risk` and `passed` are undefined, and not shown.
   bool known = true;
   double at = 0;                     ///< along the axis
   std::int64_t last_reading_ms = 0;  ///< Unix time of its last message; 0: none
@@ -34,17 +34,17 @@ struct UnitView {
   Interval remaining;                ///< life, from now on
   double b10 = 0;                    ///< remaining useful life that 90 % exceed
   double numerical_error = 0;  ///< of both, relative, the largest (Tracker::probability_error)
-  double risk = 0;             ///< probability that the limit is reached within the horizon
-  double passed = 0;           ///< probability that it is reached already
+  double risk = 0;             ///< probability that the threshold is reached within the horizon
+  double passed = 0;           ///< probability that it is already reached
   Quality quality;
 };
 
-/// One moment in the history of a unit: what it read, and what was forecast then.
+/// One point in the history of a unit: its reading, and the forecast at that time.
 struct UnitMoment {
   std::int64_t time_ms = 0;
   double at = 0;
   std::optional<double> measured;
-  Interval level, life;  ///< `life`: where along the axis the limit was expected, not what remained
+  Interval level, life;  ///< `life`: predicted end on the axis, not the remaining life
 };
 
 struct UnitDetail {
@@ -54,44 +54,45 @@ struct UnitDetail {
     double at;
     Interval level;
   };
-  std::vector<PathPoint> path;  ///< behind and ahead
+  std::vector<PathPoint> path;  ///< past and future
   struct CurvePoint {
     double remaining, survival;
   };
   std::vector<CurvePoint> survival;
-  /// Of earlier forecasts of `level` (5 to 95 %) at the next reading: how many held, of how many.
+  /// Earlier forecasts of `level` (5 to 95 %) compared with the next reading: number covered,
+  /// number in all.
   std::uint64_t held = 0, judged = 0;
 };
 
-/// What all have in common.
+/// The properties common to all units.
 struct FleetView {
   std::string title, noun, axis, axis_unit, limited, level_unit;
   double limit = 0, horizon = 0;  ///< in these units
-  bool trusted = true;            ///< the result that the population was learned from
+  bool trusted = true;            ///< the result that the population comes from
   std::uint64_t units = 0, ok = 0, watch = 0, act = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;
   std::int64_t lag_ms =
-      0;  ///< how long what states were last told had lain in the store; 0: they know all
-  std::int64_t last_message_ms = 0;  ///< when one last came, whatever became of it; 0: none yet
+      0;  ///< age in the store of the last processed reading; 0: all are processed
+  std::int64_t last_message_ms = 0;  ///< time of the last one, for any outcome; 0: none yet
 };
 
-/// What the page, the API and the metrics read: any thread may ask; answers are copies.
+/// The data that the page, the API and the metrics read: any thread may ask; answers are copies.
 class FleetReader {
  public:
   virtual ~FleetReader() = default;
   virtual FleetView fleet() const = 0;
-  /// Sorted by risk, highest first; units whose name holds `search` (any case).
+  /// Sorted by risk, highest first; units whose name contains `search` (case-insensitive).
   virtual std::vector<UnitView> units(const std::string& search, std::size_t offset,
                                       std::size_t count,
                                       std::uint64_t* matching = nullptr) const = 0;
   virtual std::optional<UnitDetail> unit(const std::string& name) const = 0;
-  /// Grows with every change; `changed_since` names the units that changed after that.
+  /// Increases with every change; `changed_since` names the units that changed after it.
   virtual std::uint64_t version() const = 0;
   virtual std::vector<std::string> changed_since(std::uint64_t version) const = 0;
 };
 
-/// Where messages from elsewhere enter (HTTP POST, MQTT, files): stored when it returns true.
+/// Entry of external messages (HTTP POST, MQTT, files): stored when it returns true.
 struct Delivery {
   bool stored = false;
   std::uint64_t readings = 0, repeated = 0, refused = 0;
@@ -100,7 +101,8 @@ struct Delivery {
 class Inbox {
  public:
   virtual ~Inbox() = default;
-  /// One message: JSON (an object, or lines of objects) or CSV with a heading; `topic` as MQTT has it, "" elsewhere.
+  /// One message: JSON (an object, or lines of objects) or CSV with a heading; `topic` for MQTT,
+  /// otherwise "".
   virtual Delivery deliver(const std::string& topic, const std::string& payload) = 0;
 };
 

@@ -1,8 +1,8 @@
 'use strict';
-// What the other scripts share: elements, numbers and times in words.
+// Functions that the other scripts share: elements, and texts of numbers and times.
 const wearwell = {};
 
-// Text is text: nothing from outside becomes markup.
+// Text is inserted as text: no input becomes markup.
 wearwell.element = (name, attributes = {}, ...children) => {
   const svg = ['svg', 'g', 'path', 'line', 'circle', 'text', 'rect', 'clipPath', 'defs', 'title'].includes(name);
   const made = svg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
@@ -18,7 +18,7 @@ wearwell.element = (name, attributes = {}, ...children) => {
   const group = (digits) => digits.replace(/\B(?=(\d{3})+(?!\d))/g, digits.length > 4 ? thin : '');
   const raised = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
 
-  // Three significant digits as people write them; null is what is not finite: never.
+  // Three significant digits; null stands for infinity.
   wearwell.number = (x, digits = 3) => {
     if (x === null || x === undefined) return '∞';
     if (x === 0) return '0';
@@ -33,7 +33,7 @@ wearwell.element = (name, attributes = {}, ...children) => {
     return group(whole) + (part ? `.${part}` : '');
   };
 
-  // Numbers that are counts, or were given: all their digits.
+  // Counts and given numbers: all their digits.
   wearwell.count = (x) => group(String(x));
   wearwell.given = (x, unit) => {
     if (x === null || x === undefined) return 'never';
@@ -51,7 +51,7 @@ wearwell.element = (name, attributes = {}, ...children) => {
     if (x === null || x === undefined) return 'never';
     return `${wearwell.number(x, digits)}${wearwell.unit(unit) ? thin + wearwell.unit(unit) : ''}`;
   };
-  // 800 – 1900 h. An end that is not finite is one without end.
+  // 800 – 1900 h. null is an infinite end.
   wearwell.range = (low, high, unit) => {
     if (low === null && high === null) return 'never';
     if (high === null) return `more than ${wearwell.quantity(low, unit)}`;
@@ -73,10 +73,10 @@ wearwell.element = (name, attributes = {}, ...children) => {
   };
   wearwell.clock = (milliseconds) => new Date(milliseconds).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'});
   wearwell.capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
-  // "machine" -> "machines", also where a noun is of the user's own.
+  // "machine" -> "machines", also for a user's own noun.
   wearwell.plural = (noun) => /(s|x|ch|sh)$/.test(noun) ? `${noun}es` : /[^aeiou]y$/.test(noun) ? `${noun.slice(0, -1)}ies` : `${noun}s`;
 
-  // An alarm is seen by its shape and its word, not by its colour alone.
+  // An alarm is distinguished by its shape and its word, not only by its color.
   const shapes = {
     ok: 'M8 2a6 6 0 1 0 .01 0z M5 8.2l2.2 2.2 4-4.6',
     watch: 'M8 1.8l6.6 12H1.4z M8 6v4 M8 11.6v.6',
@@ -91,7 +91,7 @@ wearwell.element = (name, attributes = {}, ...children) => {
         wearwell.element('span', {}, word));
   };
 
-  // The clock of the server, as far as it is known: its ages are right on a machine whose clock is not.
+  // The server's clock: ages are correct even if this machine's clock is wrong.
   let ahead = 0;
   wearwell.hear = (now) => { ahead = now - Date.now(); };
   wearwell.now = () => Date.now() + ahead;
@@ -101,7 +101,7 @@ wearwell.element = (name, attributes = {}, ...children) => {
     if (response.status === 401) location.assign('/login');
     if (!response.ok) {
       const {error} = await response.json().catch(() => ({}));
-      throw Object.assign(new Error(error || `the server answers ${response.status}`), {status: response.status});
+      throw Object.assign(new Error(error || `the server responds with status ${response.status}`), {status: response.status});
     }
     return response.json();
   };

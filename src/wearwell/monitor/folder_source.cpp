@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One file and how far it has been read.
+/// One file and the position read so far.
 struct GrowingFile {
   explicit GrowingFile(const ReadingMapping& mapping) : feed(needed_fields(mapping)) {}
   LineFeed feed;
-  std::int64_t offset = 0;  ///< of what is stored
-  std::int64_t noted = 0;   ///< of that, what the store was told
-  bool resumed = false;     ///< the heading must be looked up
+  std::int64_t offset = 0;  ///< of the stored part
+  std::int64_t noted = 0;   ///< the part recorded in the store
+  bool resumed = false;     ///< the heading must be read
 };
 
 class FolderReader {
@@ -71,7 +71,7 @@ void FolderReader::look() {
     if (stop_.stop_requested()) return;
     read_file(path);
   }
-  // What has gone comes back as another file.
+  // A deleted file that reappears is a new file.
   std::erase_if(files_, [&](const auto& each) { return !seen_.contains(each.first); });
 }
 
@@ -84,7 +84,7 @@ void FolderReader::read_file(const fs::path& path) {
     return;
   }
   if (!S_ISREG(about.st_mode)) return;
-  // A file that takes the place of another of its name is another.
+  // A file that replaces another of the same name is a new file.
   const std::string key = fmt::format("{}/{}#{}", context_.settings.name,
                                       valid_utf8(path.filename().string()), about.st_ino);
   seen_.insert(key);
@@ -99,14 +99,14 @@ void FolderReader::read_file(const fs::path& path) {
   if (about.st_size < state.offset) {
     context_.notices.tell(
         "source." + context_.settings.name,
-        fmt::format("{} has become shorter; it is read from its beginning", path.string()));
+        fmt::format("{} has become shorter; it is read again from its beginning", path.string()));
     state = GrowingFile(context_.settings.mapping);
   }
   while (state.offset < about.st_size && read_on(path, file, state, about.st_size)) {
   }
 }
 
-// Of CSV the heading stands where it always stood.
+// The heading of CSV stays at its place.
 void FolderReader::resume(const Descriptor& file, GrowingFile& state) {
   std::string begin(longest_row, '\0');
   const ssize_t count = pread(file.get(), begin.data(), begin.size(), 0);
@@ -114,7 +114,7 @@ void FolderReader::resume(const Descriptor& file, GrowingFile& state) {
   state.feed.set_heading(begin);
 }
 
-// One piece; whether there may be more.
+// One piece; returns whether there may be more.
 bool FolderReader::read_on(const fs::path& path, const Descriptor& file, GrowingFile& state,
                            std::int64_t size) {
   if (state.resumed) resume(file, state);
@@ -123,7 +123,7 @@ bool FolderReader::read_on(const fs::path& path, const Descriptor& file, Growing
   const ssize_t count = pread(file.get(), bytes.data(), bytes.size(), state.offset);
   if (count <= 0) return false;
   bytes.resize(static_cast<std::size_t>(count));
-  LineFeed feed = state.feed;  // as it was, should this not be stored
+  LineFeed feed = state.feed;  // restored, should this not be stored
   feed.push(bytes);
   const bool last = context_.once && state.offset + count >= size;
   const auto piece = feed.next(last);
@@ -162,7 +162,7 @@ void read_folder(SourceContext& context, std::stop_token stop) {
       try {
         folder.note();
       } catch (const StoreError& error) {
-        // Only costs time: what is read again is found to be there.
+        // Only costs time: readings that are read again are found as repeats.
         context.notices.tell("store", error.what());
       }
     }

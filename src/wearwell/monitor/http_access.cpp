@@ -62,7 +62,7 @@ std::string_view cookie_value(std::string_view field, std::string_view name) {
 }  // namespace
 
 HttpResponse refusal(unsigned status, const std::string& problem) {
-  // Quoted as JSON by hand: `printable` leaves nothing but quotes and backslashes to escape.
+  // Quoted as JSON by hand: after `printable` only quotes and backslashes need escapes.
   std::string text;
   for (const char each : printable(problem)) {
     if (each == '"' || each == '\\') text += '\\';
@@ -71,7 +71,7 @@ HttpResponse refusal(unsigned status, const std::string& problem) {
   return {status, "application/json", fmt::format("{{\"error\":\"{}\"}}\n", text)};
 }
 
-// Hashes are of one length and tell nothing of the text, so that neither its length shows.
+// Hashes have equal length and reveal nothing about the text, not even its length.
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
   const auto of_a = hmac("wearwell", a), of_b = hmac("wearwell", b);
   return CRYPTO_memcmp(of_a.data(), of_b.data(), of_a.size()) == 0;
@@ -82,13 +82,12 @@ void check_token(const std::string& token) {
   const bool visible =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (!visible) {
-    throw InputError(
-        "the token holds others than visible ASCII characters: no header can carry it");
+    throw InputError("the token has characters other than visible ASCII: no header can carry it");
   }
   if (token.size() < least) {
     throw InputError(
-        fmt::format("the token has {} characters: at least {}, made by chance, as "
-                    "\"openssl rand -hex 16\" does",
+        fmt::format("the token has {} characters: use at least {} random ones, for example from "
+                    "\"openssl rand -hex 16\"",
                     token.size(), least));
   }
 }
@@ -101,7 +100,7 @@ HttpAccess::HttpAccess(const HttpSettings& settings,
   for (const std::string& each : settings.names) names_.push_back(lower(each));
 }
 
-// An address is always ours: only a name can be made to point elsewhere.
+// An address is always ours: only a name can be pointed elsewhere.
 bool HttpAccess::is_ours(const std::string& name) const {
   return is_address(name) || std::find(names_.begin(), names_.end(), name) != names_.end() ||
          (covered_ && covered_(name));
@@ -111,9 +110,10 @@ std::optional<HttpResponse> HttpAccess::refuse(const HttpRequest& question) cons
   if (question.host.empty()) return refusal(400, "the request has no Host, or more than one");
   const std::string name = name_of(question.host);
   if (!is_ours(name)) {
-    return refusal(421, fmt::format("\"{}\" is no name of this server; names it goes by are set as "
-                                    "names in its configuration",
-                                    shortened(name)));
+    return refusal(
+        421,
+        fmt::format("\"{}\" is not a name of this server; add it to names in the configuration",
+                    shortened(name)));
   }
   const std::string& origin = question.origin;
   if (!origin.empty()) {
@@ -121,15 +121,15 @@ std::optional<HttpResponse> HttpAccess::refuse(const HttpRequest& question) cons
     const std::string from = at == origin.npos ? "" : lower(origin.substr(at + 3));
     const bool listed = std::find(names_.begin() + 1, names_.end(), name_of(from)) != names_.end();
     if (from != lower(question.host) && !listed) {
-      return refusal(403, "a page from elsewhere sends this: only this server's own page may");
+      return refusal(403, "a page of another site sends this: only this server's own page may");
     }
   }
-  // A link from elsewhere may lead to the page; nothing else may come from there.
+  // A link on another site may lead to the page; all else from other sites is refused.
   const bool elsewhere = question.fetch_site == "cross-site" || question.fetch_site == "same-site";
   const bool page =
       question.method == "GET" && question.target.substr(0, question.target.find('?')) == "/";
   if (elsewhere && !page) {
-    return refusal(403, "a page from elsewhere asks this: only this server's own page may");
+    return refusal(403, "a page of another site asks this: only this server's own page may");
   }
   return {};
 }

@@ -12,28 +12,29 @@
 
 namespace wearwell::monitor {
 
-/// Whom the server answers.
+/// The access rules of the server.
 ///
-/// A page from elsewhere that runs in the browser of somebody who may ask is held off threefold: its name is
-/// not one of ours, also where its owner lets it point to our address (DNS rebinding: `Host`); what it sends
-/// says where it comes from (`Origin`, `Sec-Fetch-Site`); and it gets no leave to read answers (no CORS).
+/// Three measures protect against pages of other sites in the browser of an authorized user: their
+/// name is not one of ours, even if their owner points it to our address (DNS rebinding: `Host`);
+/// their requests carry their origin (`Origin`, `Sec-Fetch-Site`); and they may not read answers
+/// (no CORS).
 class HttpAccess {
  public:
-  /// `covered`: whether a name is one of the certificate's; empty without TLS.
+  /// `covered`: whether a name is in the certificate; empty without TLS.
   HttpAccess(const HttpSettings& settings, std::function<bool(const std::string&)> covered);
 
-  /// Why a request is refused, whoever sends it: 400, 403 or 421.
+  /// Why a request is refused, for any sender: 400, 403 or 421.
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
 
-  /// Whether it bears the token, or the cookie that `cookie` gave within its time. `now`: Unix time in s.
+  /// Whether it has the token, or a valid cookie from `cookie`. `now`: Unix time in s.
   bool authorized(const HttpRequest& question, std::int64_t now) const;
   bool needs_token() const { return !token_.empty(); }
   bool is_token(std::string_view text) const;
 
-  /// `Set-Cookie` for who has shown the token: it holds the time when it ends and a keyed hash (HMAC-SHA-256)
-  /// of that, not the token, and another token makes it worthless.
+  /// `Set-Cookie` for a client that has shown the token: it contains its expiry time and a keyed
+  /// hash (HMAC-SHA-256) of it, not the token; a new token invalidates it.
   std::string cookie(std::int64_t now) const;
-  std::string no_cookie() const;  ///< takes it away
+  std::string no_cookie() const;  ///< removes it
 
  private:
   bool is_ours(const std::string& name) const;
@@ -45,11 +46,11 @@ class HttpAccess {
   bool secure_;
 };
 
-/// Equal texts, in a time that does not depend on where they differ.
+/// Compares texts in a time that does not depend on where they differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// Throws InputError for a token that could be guessed or sent in no header: fewer than 16 characters, or
-/// others than visible ASCII.
+/// Throws InputError for a token that could be guessed or that no header can carry: fewer than 16
+/// characters, or characters other than visible ASCII.
 void check_token(const std::string& token);
 
 }  // namespace wearwell::monitor

@@ -52,7 +52,7 @@ void set_common_fields(Message* message, bool tls) {
   message->set(http::field::cache_control, "no-store");
   message->set("X-Content-Type-Options", "nosniff");
   message->set("X-Frame-Options", "DENY");
-  message->set("Referrer-Policy", "same-origin");  // without one a form sends no Origin
+  message->set("Referrer-Policy", "same-origin");  // without it a form sends no Origin
   message->set("Cross-Origin-Resource-Policy", "same-origin");
   message->set("Cross-Origin-Opener-Policy", "same-origin");
   if (tls) message->set("Strict-Transport-Security", "max-age=31536000");
@@ -61,10 +61,10 @@ void set_common_fields(Message* message, bool tls) {
 HttpResponse answer_to_error(const Error& error) {
   if (error == http::error::body_limit) return refusal(413, "the body is too long");
   if (error == http::error::header_limit) return refusal(431, "the header is too long");
-  return refusal(400, fmt::format("this is no HTTP request: {}", error.message()));
+  return refusal(400, fmt::format("this is not an HTTP request: {}", error.message()));
 }
 
-/// Of what the parser says, only this means that something came that is no request.
+/// Of the parser's errors, only these mean that the input is not a request.
 bool is_of_http(const Error& error) {
   return error.category() == http::make_error_code(http::error::bad_method).category() &&
          error != http::error::end_of_stream && error != http::error::partial_message;
@@ -110,7 +110,7 @@ class Connection final : public HttpConnection,
             std::optional<std::uint64_t> reached) override {
     writing_ = true;
     event_ = std::move(event);
-    tcp().expires_after(hub_.limits.write);  // of what is written: the reading below waits for ever
+    tcp().expires_after(hub_.limits.write);  // for writing: the read below waits without a limit
     net::async_write(stream_, net::buffer(*event_),
                      [self = self(), reached](Error error, std::size_t) {
                        self->writing_ = false;
@@ -143,7 +143,7 @@ class Connection final : public HttpConnection,
     if (HttpRoutes::is_events(question_)) return listen();
     if (is_large()) {
       if (hub_.large_bodies >= hub_.limits.large_bodies) {
-        HttpResponse answer = refusal(503, "too much is being sent already");
+        HttpResponse answer = refusal(503, "too many large requests at once");
         answer.fields.emplace_back("Retry-After", "5");
         return respond(std::move(answer));
       }
@@ -176,7 +176,7 @@ class Connection final : public HttpConnection,
     });
   }
 
-  // On a thread that may wait; the answer comes back to this one.
+  // On a thread that may wait; the answer returns to this one.
   void ask() {
     auto& pool = HttpRoutes::is_delivery(question_) ? hub_.deliveries : hub_.readers;
     HttpCounts counts{hub_.connections.size(), hub_.streams.size(), hub_.answers};
@@ -199,7 +199,8 @@ class Connection final : public HttpConnection,
     if (std::exchange(large_, false)) --hub_.large_bodies;
     const bool read = parser_->is_done();
     response_ = {};
-    response_.version(parser_->get().version() == 10 ? 10 : 11);  // the older is told what is kept
+    // the older stream gets the stored event
+    response_.version(parser_->get().version() == 10 ? 10 : 11);
     response_.result(answer.status);
     set_common_fields(&response_, is_tls);
     response_.set(http::field::content_type, answer.type);
@@ -217,7 +218,7 @@ class Connection final : public HttpConnection,
     });
   }
 
-  // A client that still sends would not see the answer, were the connection closed under it.
+  // A client that is still sending would not see the answer if the connection closed immediately.
   void drain(std::size_t so_far) {
     if (so_far == 0) tcp().expires_after(std::chrono::seconds(2));
     if (so_far > hub_.limits.body_bytes) return close();
@@ -241,7 +242,7 @@ class Connection final : public HttpConnection,
 
   void listen() {
     if (hub_.streams.size() >= hub_.limits.streams) {
-      HttpResponse answer = refusal(503, "too many listen to events already");
+      HttpResponse answer = refusal(503, "too many clients listen to events already");
       answer.fields.emplace_back("Retry-After", "10");
       return respond(std::move(answer));
     }
@@ -252,10 +253,10 @@ class Connection final : public HttpConnection,
     set_common_fields(&head, is_tls);
     head.set(http::field::content_type, "text/event-stream; charset=utf-8");
     head.keep_alive(false);
-    // Who does not read holds little, of the kernel's memory too.
+    // A client that does not read may hold only little memory, including the kernel's.
     Error ignored;
     tcp().socket().set_option(net::socket_base::send_buffer_size(64 * 1024), ignored);
-    // Nothing is expected; that the client has gone is read, not waited for.
+    // No data is expected; the read only detects that the client has gone.
     tcp().expires_never();
     stream_.async_read_some(net::buffer(scrap_), [self = self()](Error, std::size_t) {
       self->hub_.streams.erase(self.get());

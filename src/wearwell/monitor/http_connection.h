@@ -22,15 +22,15 @@ class HttpConnection {
   virtual ~HttpConnection() = default;
   virtual void start() = 0;
   virtual void close() = 0;
-  /// Of a stream of events: whether it has taken what it was sent last, the version it has reached, and the
-  /// next event for it.
+  /// Of a stream of events: whether it has received the last event, its version, and the next
+  /// event.
   virtual bool waits() const = 0;
   virtual std::optional<std::uint64_t> version() const = 0;
   virtual void send(std::shared_ptr<const std::string> event,
                     std::optional<std::uint64_t> reached) = 0;
 };
 
-/// What connections share.
+/// The parts that connections share.
 struct HttpHub {
   HttpHub(const HttpRoutes& all_routes, const HttpLimits& all_limits)
       : routes(all_routes), limits(all_limits) {}
@@ -38,10 +38,10 @@ struct HttpHub {
   const HttpRoutes& routes;
   const HttpLimits limits;
   std::unique_ptr<boost::asio::ssl::context> tls;  ///< null: plain HTTP
-  // Of the thread of `io` alone; connections that end with it take themselves off.
+  // Only for the thread of `io`; connections remove themselves when they end.
   std::set<HttpConnection*> connections, streams;
   std::map<unsigned, std::uint64_t> answers;
-  std::size_t large_bodies = 0;  ///< that are being sent or worked on
+  std::size_t large_bodies = 0;  ///< being sent or processed
   boost::asio::io_context io{1};
   boost::asio::thread_pool readers{2}, deliveries{2};
 };

@@ -6,7 +6,7 @@
 
 namespace wearwell::monitor {
 
-/// What of a request the answers depend on. Fields that it does not have are "".
+/// The parts of a request that answers depend on. Missing fields are "".
 struct HttpRequest {
   std::string method, target;  ///< "GET", "/api/units?count=20"
   std::string host, origin, fetch_site, authorization, cookie, content_type, content_encoding;
@@ -21,7 +21,7 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> fields = {};  ///< further ones
 };
 
-/// {"error": "..."}: what is wrong, in one sentence.
+/// {"error": "..."}: the error, in one sentence.
 HttpResponse refusal(unsigned status, const std::string& problem);
 
 }  // namespace wearwell::monitor

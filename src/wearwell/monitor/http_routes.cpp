@@ -14,9 +14,10 @@ namespace wearwell::monitor {
 namespace {
 
 constexpr std::size_t units_at_once = 500;
-/// Of more the metrics show the riskiest: each has some twenty lines, and Prometheus keeps every one.
+/// The metrics show only this many of the riskiest units: each has some twenty lines, and
+/// Prometheus keeps every one.
 constexpr std::size_t units_measured = 10'000;
-/// Beyond so many an event says that many changed, not which.
+/// With more changes an event says only that many units changed, not which.
 constexpr std::size_t names_at_once = 200;
 constexpr std::string_view unit_prefix = "/api/units/";
 
@@ -24,7 +25,7 @@ std::string_view path_of(const HttpRequest& question) {
   return std::string_view(question.target).substr(0, question.target.find('?'));
 }
 
-/// Which methods a path takes; "" where there is no such path.
+/// The methods of a path; "" if there is no such path.
 std::string methods_of(std::string_view path) {
   if (path == "/api/events") return "GET";
   if (path == "/api/readings" || path == "/logout") return "POST";
@@ -67,7 +68,7 @@ std::string media_type(const std::string& field) {
 
 std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
   if (!question.content_encoding.empty() && question.content_encoding != "identity") {
-    return refusal(415, "the body is compressed: it is taken as it is only");
+    return refusal(415, "the body is compressed; send it uncompressed");
   }
   static constexpr std::string_view kinds[] = {
       "",
@@ -78,11 +79,11 @@ std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
       "application/csv",
       "text/plain",
       "application/octet-stream",
-      "application/x-www-form-urlencoded"};  // curl calls everything by the last one
+      "application/x-www-form-urlencoded"};  // curl uses the last one by default
   const std::string type = media_type(question.content_type);
   if (std::find(std::begin(kinds), std::end(kinds), type) != std::end(kinds)) return {};
-  return refusal(415, fmt::format("Content-Type \"{}\": JSON, lines of JSON or CSV is taken",
-                                  shortened(type)));
+  return refusal(
+      415, fmt::format("Content-Type \"{}\": send JSON, lines of JSON or CSV", shortened(type)));
 }
 
 }  // namespace
@@ -117,7 +118,7 @@ std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) cons
     return answer;
   }
   if (methods.empty()) {
-    return refusal(404, fmt::format("nothing is at {}", shortened(std::string(path))));
+    return refusal(404, fmt::format("there is nothing at {}", shortened(std::string(path))));
   }
   if (!is_taken(methods, question.method)) {
     HttpResponse answer = refusal(405, fmt::format("{} takes {}", path, methods));
@@ -177,7 +178,7 @@ HttpResponse HttpRoutes::login(const HttpRequest& question) const {
 HttpResponse HttpRoutes::units(const HttpTarget& target) const {
   for (const auto& [key, value] : target.query) {
     if (key != "search" && key != "offset" && key != "count") {
-      throw InputError(fmt::format("{}: search, offset and count are known", shortened(key)));
+      throw InputError(fmt::format("{}: use search, offset and count", shortened(key)));
     }
   }
   const auto search = target.query.find("search");
@@ -197,15 +198,15 @@ HttpResponse HttpRoutes::unit(const std::string& encoded) const {
   const std::string name = percent_decoded(encoded);
   const std::uint64_t version = reader_.version();
   const std::optional<UnitDetail> detail = reader_.unit(name);
-  if (!detail) return refusal(404, fmt::format("\"{}\" is no unit", shortened(name)));
+  if (!detail) return refusal(404, fmt::format("\"{}\" is not a unit", shortened(name)));
   nlohmann::ordered_json json = {{"version", version}};
   json.update(json_of(*detail));
   return {200, "application/json", text_of(json)};
 }
 
-// Refused for good with 400, to be sent again with 503.
+// Rejected permanently with 400, to be repeated with 503.
 HttpResponse HttpRoutes::readings(const std::string& body) const {
-  if (!inbox_) return refusal(404, "readings are not taken by HTTP here");
+  if (!inbox_) return refusal(404, "this monitor takes no readings by HTTP");
   Delivery delivery = inbox_->deliver("", body);
   HttpResponse answer;
   if (!delivery.stored) {
@@ -213,7 +214,7 @@ HttpResponse HttpRoutes::readings(const std::string& body) const {
     answer.fields.emplace_back("Retry-After", "5");
   } else if (delivery.readings + delivery.repeated == 0) {
     answer.status = 400;
-    if (delivery.problem.empty()) delivery.problem = "there is no reading in it";
+    if (delivery.problem.empty()) delivery.problem = "it contains no reading";
   }
   answer.body = text_of(json_of(delivery));
   return answer;
@@ -225,7 +226,7 @@ HttpResponse HttpRoutes::metrics(const HttpCounts& http) const {
 }
 
 std::string HttpRoutes::event(std::optional<std::uint64_t> version, std::uint64_t* reached) const {
-  // The version first: what changes meanwhile is told once more by the next event.
+  // The version first: later changes are sent again with the next event.
   *reached = reader_.version();
   std::vector<std::string> changed;
   if (version) changed = reader_.changed_since(*version);

@@ -12,26 +12,26 @@
 
 namespace wearwell::monitor {
 
-/// Which path is answered how (docs/reference/monitor-api.md). Any thread may ask.
+/// The routes and their answers (docs/reference/monitor-api.md). Any thread may ask.
 class HttpRoutes {
  public:
-  /// `inbox`: null where readings are not taken by HTTP.
+  /// `inbox`: null if readings are not accepted by HTTP.
   HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* inbox);
 
-  /// What stands in the header is enough to refuse it: who asks, which path and method, what kind of body.
+  /// The header is enough to refuse a request: sender, path and method, type of body.
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
-  /// Whether what is asked for is the stream of events.
+  /// Whether the request is for the stream of events.
   static bool is_events(const HttpRequest& question);
   /// Whether the answer waits for the store.
   static bool is_delivery(const HttpRequest& question);
 
   HttpResponse answer(const HttpRequest& question, const HttpCounts& http) const;
 
-  /// An event of what changed since `version`, that ends with an empty line; of all where there is none.
-  /// `*reached`: the version that it leads to.
+  /// An event with the changes since `version`, which ends with an empty line; with everything if
+  /// there is no version. `*reached`: the version after it.
   std::string event(std::optional<std::uint64_t> version, std::uint64_t* reached) const;
   std::string beat() const;
-  /// The version that `Last-Event-ID` names, when it is one of this run of the monitor.
+  /// The version in `Last-Event-ID`, if it belongs to this run of the monitor.
   std::optional<std::uint64_t> version_of(const std::string& event_id) const;
 
  private:

@@ -26,7 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 Tcp::endpoint endpoint_of(const HttpSettings& settings, net::io_context* io) {
   if (settings.port < 0 || settings.port > 65535) {
-    throw InputError(fmt::format("port = {}: from 0 (any that is free) to 65535", settings.port));
+    throw InputError(
+        fmt::format("port = {}: must be from 0 (any free port) to 65535", settings.port));
   }
   const auto port = static_cast<unsigned short>(settings.port);
   Error error;
@@ -34,7 +35,7 @@ Tcp::endpoint endpoint_of(const HttpSettings& settings, net::io_context* io) {
   if (!error) return {address, port};
   const auto found = Tcp::resolver(*io).resolve(settings.host, "", error);
   if (error || found.empty()) {
-    throw InputError(fmt::format("host = \"{}\" is neither an address nor a name that is known: {}",
+    throw InputError(fmt::format("host = \"{}\" is neither an address nor a known name: {}",
                                  printable(settings.host), error.message()));
   }
   return {found.begin()->endpoint().address(), port};
@@ -42,7 +43,7 @@ Tcp::endpoint endpoint_of(const HttpSettings& settings, net::io_context* io) {
 
 std::optional<HttpTls> tls_of(const HttpSettings& settings) {
   if (settings.certificate.empty() != settings.key.empty()) {
-    throw InputError("certificate and key: TLS needs both, and one is missing");
+    throw InputError("certificate and key: TLS needs both; one is missing");
   }
   if (settings.certificate.empty()) return {};
   return HttpTls(settings.certificate, settings.key);
@@ -58,8 +59,8 @@ void check_reach(const HttpSettings& settings, const Tcp::endpoint& endpoint) {
   }
   if (missing.empty()) return;
   throw InputError(
-      fmt::format("host = \"{}\" is reached from other machines: there {} must be set; "
-                  "127.0.0.1 is reached from this one alone",
+      fmt::format("host = \"{}\" is reachable from other machines: set {}; or use 127.0.0.1, which "
+                  "only this machine can reach",
                   printable(settings.host), missing));
 }
 
@@ -72,8 +73,8 @@ Tcp::acceptor listening(const HttpSettings& settings, const Tcp::endpoint& endpo
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
   if (error) {
-    throw MachineError(fmt::format("nothing can listen at {}, port {}: {}",
-                                   printable(settings.host), settings.port, error.message()));
+    throw MachineError(fmt::format("cannot listen at {}, port {}: {}", printable(settings.host),
+                                   settings.port, error.message()));
   }
   return acceptor;
 }
@@ -106,7 +107,7 @@ struct HttpServer::State {
     address = fmt::format("{}://{}:{}/", tls ? "https" : "http", host, port);
   }
 
-  // What one connection runs into, memory that is not to be had above all, is not the end of the others.
+  // A failure of one connection, such as lack of memory, must not end the others.
   void run() {
     for (;;) {
       try {
@@ -120,7 +121,7 @@ struct HttpServer::State {
   void accept() {
     acceptor.async_accept([this](Error error, Tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
-      if (error) {  // no descriptors are left, perhaps: they come back
+      if (error) {  // perhaps no descriptors are left: they become free again
         pause.expires_after(std::chrono::milliseconds(100));
         return pause.async_wait([this](Error stopped) {
           if (!stopped) accept();
@@ -135,7 +136,7 @@ struct HttpServer::State {
     });
   }
 
-  // As far as it can be said without waiting.
+  // If it can be sent without waiting.
   void turn_away(Tcp::socket socket) {
     ++hub.answers[503];
     if (tls) return;
@@ -160,7 +161,7 @@ struct HttpServer::State {
     });
   }
 
-  /// An event for streams that have reached the same version is made once.
+  /// One event for all streams at the same version.
   struct Event {
     std::shared_ptr<const std::string> text;
     std::uint64_t reached = 0;

@@ -8,15 +8,16 @@
 
 namespace wearwell::monitor {
 
-/// The page, the JSON API, events and metrics of a fleet (docs/reference/monitor-api.md), on threads of its own: one
-/// that moves bytes and never waits, two that ask the reader, two that hand to the inbox. What a client is
-/// slow to take or to send costs others nothing: a stream of events holds one event, and the next tells all
-/// that changed since.
+/// The page, the JSON API, events and metrics of a fleet (docs/reference/monitor-api.md), on its
+/// own threads: one that moves bytes and never waits, two that query the reader, two that pass
+/// messages to the inbox. A slow client does not affect others: a stream of events holds one event,
+/// and the next contains all changes since.
 class HttpServer {
  public:
-  /// Listens when it returns. `inbox`: null where readings are not taken by HTTP. Reader and inbox outlive it.
-  /// Throws InputError for settings that cannot be (beyond loopback without token or TLS, a certificate that
-  /// does not fit its key, no such address), MachineError where the port cannot be had.
+  /// Listening when it returns. `inbox`: null if readings are not accepted by HTTP. Reader and
+  /// inbox must outlive it. Throws InputError for invalid settings (beyond loopback without token
+  /// or TLS, a certificate that does not match its key, an unknown address), MachineError if the
+  /// port is not available.
   HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox);
   /// Stops.
   ~HttpServer();
@@ -26,8 +27,8 @@ class HttpServer {
   unsigned short port() const;
   /// "https://machine:8443/".
   std::string address() const;
-  /// Closes all connections and waits for its threads: at once, but for a reader or an inbox that is being
-  /// asked.
+  /// Closes all connections and waits for its threads: immediate, unless a reader or an inbox is
+  /// busy.
   void stop();
 
  private:

@@ -35,7 +35,7 @@ std::string percent_decoded(std::string_view text, bool form) {
       const int high = i + 2 < text.size() ? digit(text[i + 1]) : -1;
       const int low = i + 2 < text.size() ? digit(text[i + 2]) : -1;
       if (high < 0 || low < 0) {
-        throw InputError(fmt::format("\"{}\": after % stand two hexadecimal digits", shown(text)));
+        throw InputError(fmt::format("\"{}\": two hexadecimal digits must follow %", shown(text)));
       }
       out += static_cast<char>(high * 16 + low);
       i += 2;
@@ -56,7 +56,7 @@ std::map<std::string, std::string> form_fields(std::string_view text) {
     const std::string key = percent_decoded(field.substr(0, equals), true);
     const std::string_view value = field.substr(std::min(equals + 1, field.size()));
     if (!fields.try_emplace(key, percent_decoded(value, true)).second) {
-      throw InputError(fmt::format("{} stands twice", shown(key)));
+      throw InputError(fmt::format("{} occurs twice", shown(key)));
     }
   }
   return fields;
@@ -64,7 +64,7 @@ std::map<std::string, std::string> form_fields(std::string_view text) {
 
 HttpTarget http_target(std::string_view target) {
   if (!target.starts_with('/')) {
-    throw InputError(fmt::format("\"{}\" is no path: it begins with /", shown(target)));
+    throw InputError(fmt::format("\"{}\" is not a path: a path begins with /", shown(target)));
   }
   const std::size_t end = std::min(target.find('?'), target.size());
   const std::string_view query = target.substr(std::min(end + 1, target.size()));
@@ -80,7 +80,7 @@ std::size_t HttpTarget::number(const std::string& key, std::size_t otherwise,
   const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || last != text.data() + text.size() || value > most) {
     throw InputError(
-        fmt::format("{} = \"{}\": a whole number from 0 to {}", key, shown(text), most));
+        fmt::format("{} = \"{}\": must be a whole number from 0 to {}", key, shown(text), most));
   }
   return value;
 }

@@ -6,21 +6,21 @@
 
 namespace wearwell::monitor {
 
-/// "/api/units?search=J%207&count=20" taken apart.
+/// "/api/units?search=J%207&count=20", parsed.
 struct HttpTarget {
-  std::string path;                          ///< as it stands, percent signs and all
+  std::string path;                          ///< as received, with percent signs
   std::map<std::string, std::string> query;  ///< decoded
 
-  /// A whole number of the query, `otherwise` where it does not stand there. Throws InputError beyond `most`
-  /// and for what is no number.
+  /// A whole number in the query, `otherwise` if it is missing. Throws InputError beyond `most` and
+  /// for other texts.
   std::size_t number(const std::string& key, std::size_t otherwise, std::size_t most) const;
 };
 
-/// Throws InputError for what is no path of this server's kind, for a key that stands twice, and for what is
-/// not percent-encoded UTF-8.
+/// Throws InputError for an invalid path, a repeated key, and invalid percent-encoded UTF-8.
 HttpTarget http_target(std::string_view target);
 
-/// "J%207" -> "J 7". `form`: a plus sign is a space. Throws InputError for "%zz" and for what is not UTF-8.
+/// "J%207" -> "J 7". `form`: a plus sign is a space. Throws InputError for "%zz" and for invalid
+/// UTF-8.
 std::string percent_decoded(std::string_view text, bool form = false);
 
 /// "a=1&b=2", decoded.

@@ -10,7 +10,7 @@
 namespace wearwell::monitor {
 namespace {
 
-// The last of OpenSSL's queue is nearest to what was asked for.
+// The last entry of OpenSSL's queue is the most specific.
 [[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
   const unsigned long code = ERR_peek_last_error();
   const char* reason = ERR_reason_error_string(code);
@@ -31,15 +31,14 @@ HttpTls::HttpTls(const std::filesystem::path& certificate, const std::filesystem
                                 SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   ERR_clear_error();
   if (SSL_CTX_use_certificate_chain_file(context, certificate.c_str()) != 1) {
-    fail(certificate, "no certificate in PEM can be read from it");
+    fail(certificate, "contains no readable certificate in PEM");
   }
-  // A key that asks for a password would ask the terminal.
+  // A key with a password would prompt on the terminal.
   SSL_CTX_set_default_passwd_cb(context, [](char*, int, int, void*) { return -1; });
   if (SSL_CTX_use_PrivateKey_file(context, key.c_str(), SSL_FILETYPE_PEM) != 1) {
-    fail(key,
-         "no key in PEM, without a password, that belongs to the certificate can be read from it");
+    fail(key, "contains no readable key in PEM, without a password, that matches the certificate");
   }
-  if (SSL_CTX_check_private_key(context) != 1) fail(key, "the key is not that of the certificate");
+  if (SSL_CTX_check_private_key(context) != 1) fail(key, "the key does not match the certificate");
 }
 
 bool HttpTls::covers(const std::string& name) const {

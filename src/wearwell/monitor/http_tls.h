@@ -12,12 +12,12 @@ namespace wearwell::monitor {
 /// TLS 1.2 and 1.3 with the certificate and key of the settings.
 class HttpTls {
  public:
-  /// Throws InputError, naming the file, where either cannot be read, is no PEM, or they do not belong
-  /// together.
+  /// Throws InputError, naming the file, if either cannot be read, is not PEM, or they do not
+  /// match.
   HttpTls(const std::filesystem::path& certificate, const std::filesystem::path& key);
 
   SSL_CTX* context() const { return context_.get(); }
-  /// Whether a name is one of the certificate's, "*.example.org" among them.
+  /// Whether a name is in the certificate, including names like "*.example.org".
   bool covers(const std::string& name) const;
 
  private:

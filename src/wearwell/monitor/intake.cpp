@@ -88,7 +88,7 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
   };
   if (source.mapping.unit.empty()) {
     const auto named = source.topic.unit(message.topic);
-    if (!named) return refuse_message("names no unit");
+    if (!named) return refuse_message("has no unit");
     unit = *named;
   }
   const auto row = [&](const Fields& fields) { read_row(source, fields, unit, now, batch); };
@@ -102,7 +102,7 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
     StoredReading reading = reading_of(fields, unit, source.mapping, now_ms);
     if (!tally_.admit(reading.unit))
       throw InputError(fmt::format(
-          "'{}' is a new unit, and there are as many as limits.units lets in", reading.unit));
+          "'{}' is a new unit, and the number of units has reached limits.units", reading.unit));
     batch.readings.push_back(std::move(reading));
   } catch (const InputError& error) {
     const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
@@ -113,7 +113,7 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
 void Intake::commit(Batch& batch) {
   std::unique_lock lock(lock_);
   waiting_.push_back(&batch);
-  // The first who finds nobody at it stores what all wait for.
+  // The first idle caller stores for all that wait.
   while (!batch.done) {
     if (storing_) {
       changed_.wait(lock);
@@ -142,7 +142,7 @@ void Intake::store_waiting(std::unique_lock<std::mutex>& lock) {
   } catch (const std::exception& error) {
     trouble = error.what();
     if (trouble.empty()) trouble = "the store failed";
-    notices_.tell("store", fmt::format("cannot take readings, which wait: {}", trouble));
+    notices_.tell("store", fmt::format("cannot store readings, which wait: {}", trouble));
   }
   lock.lock();
   std::size_t at = 0;

@@ -20,27 +20,28 @@ struct Message {
   Form form = Form::any;
 };
 
-/// A reading's fields, where a source reads its messages itself, or why there is none.
+/// A reading's fields, for a source that parses its own messages, or why it is invalid.
 struct Row {
-  std::string unit;  ///< where it is known without the fields
+  std::string unit;  ///< if it is known without the fields
   Fields fields;
   std::string problem = {};
 };
 
-/// Takes messages of all sources, makes readings of them and stores these; those that wait at the same time are stored in one
-/// transaction. Any thread may call.
+/// Accepts messages of all sources, converts them to readings and stores these; waiting ones are
+/// stored in one transaction. Any thread may call.
 class Intake {
  public:
-  /// `stored` is called after every commit. All outlive it.
+  /// `stored` is called after every commit. All arguments must outlive it.
   Intake(Store& store, Tally& tally, Notices& notices, std::function<void()> stored)
       : store_(store), tally_(tally), notices_(notices), stored_(std::move(stored)) {}
 
-  /// Returns when all that can be read of them is stored, or cannot be now: then nothing of them is, or all, and they may
-  /// be delivered again. What cannot be read is refused and counted; it does not keep the others from being stored.
+  /// Returns when all readable messages are stored, or cannot be stored now: then none of them is,
+  /// or all are, and they may be delivered again. Unreadable ones are refused and counted; the
+  /// others are stored.
   Delivery deliver(const SourceSettings& source, std::span<const Message> messages);
   Delivery deliver(const SourceSettings& source, std::span<const Row> rows);
 
-  /// Counts what is no message at all.
+  /// Counts input that is not a message.
   void refuse(const SourceSettings& source, const std::string& problem);
 
  private:
@@ -49,7 +50,7 @@ class Intake {
   };
   struct Batch {
     std::vector<StoredReading> readings = {};
-    std::vector<Refusal> refusals = {};  // counted when the others are stored, and so once
+    std::vector<Refusal> refusals = {};  // counted when the others are stored, and so only once
     std::size_t rows = 0;
     std::vector<Kept> kept = {};
     std::string trouble = {};

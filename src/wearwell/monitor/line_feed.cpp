@@ -33,7 +33,7 @@ bool LineFeed::is_heading(std::string_view line) const {
     return std::all_of(needed_.begin(), needed_.end(), [&](const std::string& each) {
       return std::find(cells.begin(), cells.end(), each) != cells.end();
     });
-  } catch (const InputError&) {  // a quote that is not closed
+  } catch (const InputError&) {  // an unclosed quote
     return false;
   }
 }
@@ -76,12 +76,12 @@ LineFeed::Piece LineFeed::begin(std::string_view lines) {
 std::optional<LineFeed::Piece> LineFeed::next(bool ended) {
   if (text_.empty()) return {};
   std::size_t from = 0;
-  if (skipping_) {  // the rest of a line that was too long
+  if (skipping_) {  // the rest of an overlong line
     const std::size_t end = text_.find('\n');
     if (end == text_.npos) return Piece{"", Form::any, text_.size(), true};
     from = end + 1;
   }
-  const std::size_t last = ended ? text_.size() : text_.rfind('\n') + 1;  // 0 where there is none
+  const std::size_t last = ended ? text_.size() : text_.rfind('\n') + 1;  // 0 if there is none
   if (last == 0) {
     if (text_.size() <= longest_row) return {};
     return Piece{"",

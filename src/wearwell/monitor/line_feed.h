@@ -10,32 +10,33 @@
 
 namespace wearwell::monitor {
 
-/// Makes messages of a stream of lines, JSON or CSV: whole lines only, and of CSV each message with the heading of the stream.
+/// Splits a stream of lines, JSON or CSV, into messages: whole lines only, and for CSV each message
+/// with the heading of the stream.
 class LineFeed {
  public:
-  /// `needed`: the fields without which no row is a reading: a line that has them all is a heading of CSV. What comes before JSON or a
-  /// heading is refused, line by line.
+  /// `needed`: the required fields of a row; a line that contains all of them is a heading of CSV.
+  /// Lines before JSON or a heading are refused one by one.
   explicit LineFeed(std::vector<std::string> needed) : needed_(std::move(needed)) {}
   void push(std::string_view bytes) { text_ += bytes; }
-  /// So many bytes are read at most before `next` is asked.
+  /// Largest number of bytes read before `next` is called.
   static constexpr std::size_t piece_size = longest_message / 8;
 
   struct Piece {
     std::string payload;
     Form form = Form::any;
-    std::size_t bytes = 0;  ///< of the stream that it takes up
-    bool skips = false;     ///< what follows belongs to a line that was too long
-    /// Why lines of it are no messages; then there is no payload.
+    std::size_t bytes = 0;  ///< of the continued stream
+    bool skips = false;     ///< the following input belongs to an overlong line
+    /// Why lines of it are not messages; then there is no payload.
     std::vector<std::string> refused = {};
   };
-  /// The whole lines so far; `ended`: the rest of the stream is a line too. It stays until `taken`.
+  /// The whole lines so far; `ended`: the rest of the stream is a line too. Valid until `taken`.
   std::optional<Piece> next(bool ended);
   void taken(const Piece& piece);
   bool empty() const { return text_.empty(); }
 
-  /// Goes on behind the heading that this beginning of the stream has, if it is CSV.
+  /// Continues after the heading in this beginning of the stream, if it is CSV.
   void set_heading(std::string_view beginning);
-  /// Leaves what is not taken to be pushed again.
+  /// Keeps unprocessed input to be pushed again.
   void forget() { text_.clear(); }
 
  private:

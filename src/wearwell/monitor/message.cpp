@@ -19,7 +19,7 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}'", printable(shortened(text)));
 }
 
-/// Gathers the fields of one object as its text is read; no tree is made of it.
+/// Collects the fields of one object while parsing, without a tree.
 class FieldReader : public nlohmann::json_sax<Json> {
  public:
   Fields fields;
@@ -74,9 +74,9 @@ class FieldReader : public nlohmann::json_sax<Json> {
   }
   bool parse_error(std::size_t position, const std::string&,
                    const Json::exception& error) override {
-    // What is a number, and too large for one, comes as an error of another kind.
-    throw InputError(error.id == 406 ? std::string("holds a number that is too large")
-                                     : fmt::format("is no JSON, from its byte {} on", position));
+    // A number out of range is reported as another kind of error.
+    throw InputError(error.id == 406 ? std::string("has a number that is too large")
+                                     : fmt::format("is not JSON, from byte {} on", position));
   }
 
  private:
@@ -90,9 +90,9 @@ class FieldReader : public nlohmann::json_sax<Json> {
   }
   bool put_named(Field::Kind kind) {
     const std::string name = path_.size() == 1 ? key_ : path_.back() + "/" + key_;
-    if (find_field(fields, name)) throw InputError(fmt::format("holds {} twice", in_quotes(name)));
+    if (find_field(fields, name)) throw InputError(fmt::format("has {} twice", in_quotes(name)));
     if (fields.size() == most_fields)
-      throw InputError(fmt::format("holds more than {} fields", most_fields));
+      throw InputError(fmt::format("has more than {} fields", most_fields));
     fields.push_back({name, kind});
     return true;
   }
@@ -117,7 +117,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(blanks) - from + 1);
 }
 
-/// What a cell is: a number where all of it is one, nothing where it is empty.
+/// The value of a cell: a number if all of it is one, nothing if it is empty.
 Field field_of_cell(const std::string& name, std::string_view cell) {
   Field field{name};
   const std::string_view value = trimmed(cell);
@@ -154,7 +154,7 @@ void read_csv(std::string_view payload, const std::function<void(const Fields&)>
     if (heading.empty()) {
       for (const std::string& cell : cells) heading.emplace_back(trimmed(cell));
       if (heading.size() > most_fields)
-        throw InputError(fmt::format("holds more than {} columns", most_fields));
+        throw InputError(fmt::format("has more than {} columns", most_fields));
       for (std::size_t i = 0; i < heading.size(); ++i) {
         if (std::find(heading.begin(), heading.begin() + i, heading[i]) != heading.begin() + i)
           throw InputError(fmt::format("has two columns {}", in_quotes(heading[i])));
@@ -162,7 +162,7 @@ void read_csv(std::string_view payload, const std::function<void(const Fields&)>
       return;
     }
     if (cells.size() != heading.size())
-      return bad(fmt::format("the line {} holds {} cells, and the heading {}", in_quotes(line),
+      return bad(fmt::format("line {} has {} cells, but the heading {}", in_quotes(line),
                              cells.size(), heading.size()));
     fields.clear();
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -182,7 +182,7 @@ const Field* find_field(const Fields& fields, std::string_view name) {
 
 Fields fields_of_json(std::string_view text) {
   FieldReader reader;
-  if (!Json::sax_parse(text.begin(), text.end(), &reader)) throw InputError("is no JSON");
+  if (!Json::sax_parse(text.begin(), text.end(), &reader)) throw InputError("is not JSON");
   return std::move(reader.fields);
 }
 
@@ -202,7 +202,7 @@ std::vector<std::string> cells_of(std::string_view line) {
       closed = false;
     }
   }
-  if (quote) throw InputError(fmt::format("the line {} opens a quote", in_quotes(line)));
+  if (quote) throw InputError(fmt::format("line {} has an unclosed quote", in_quotes(line)));
   return cells;
 }
 
@@ -216,7 +216,7 @@ void for_each_row(std::string_view payload, const std::function<void(const Field
     }
   };
   if (payload.size() > longest_message)
-    return bad(fmt::format("is of {} bytes; {} is the most", payload.size(), longest_message));
+    return bad(fmt::format("has {} bytes; the limit is {}", payload.size(), longest_message));
   const std::string_view text = trimmed(payload);
   if (text.empty()) return bad("is empty");
   const bool stream = form == Form::json_lines;
@@ -225,12 +225,12 @@ void for_each_row(std::string_view payload, const std::function<void(const Field
   const auto read_object = [&](std::string_view object) {
     guarded([&] {
       if (object.size() > longest_row)
-        throw InputError(fmt::format("is of {} bytes; {} is the most", object.size(), longest_row));
+        throw InputError(fmt::format("has {} bytes; the limit is {}", object.size(), longest_row));
       row(fields_of_json(object));
     });
   };
-  // One object over many lines, or one a line: the first line tells. Of a stream that line may be half of one, which
-  // costs the others nothing.
+  // One object over many lines, or one per line: the first line decides. In a stream it may be half
+  // a line, which does not affect the others.
   const std::string_view first = trimmed(text.substr(0, text.find('\n')));
   const bool lines = first.size() == text.size() || first.back() == '}';
   if (!lines && (!stream || Json::accept(text))) return read_object(text);

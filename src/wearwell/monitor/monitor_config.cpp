@@ -31,7 +31,7 @@ struct HostAndPort {
   int port = 0;
 };
 
-/// "host:port", "[::1]:port"; the port alone may be left out where there is a usual one.
+/// "host:port", "[::1]:port"; the port may be omitted if there is a default.
 HostAndPort read_address(const TomlReader& table, const char* key, std::string_view text,
                          int usual_port) {
   HostAndPort address{"", usual_port};
@@ -39,7 +39,7 @@ HostAndPort read_address(const TomlReader& table, const char* key, std::string_v
   bool has_port = false;
   if (text.starts_with('[')) {
     const std::size_t end = text.find(']');
-    if (end == text.npos) table.fail(key, "has a bracket that is not closed");
+    if (end == text.npos) table.fail(key, "has an unclosed bracket");
     address.host = text.substr(1, end - 1);
     has_port = text.substr(end + 1).starts_with(':');
     if (has_port) port = text.substr(end + 2);
@@ -56,7 +56,7 @@ HostAndPort read_address(const TomlReader& table, const char* key, std::string_v
   }
   if (address.host.empty() || address.host.find_first_of("/@ ") != std::string::npos ||
       address.port < 1 || address.port > 65535)
-    table.fail(key, fmt::format("'{}' is no HOST:PORT", text));
+    table.fail(key, fmt::format("'{}' is not HOST:PORT", text));
   return address;
 }
 
@@ -66,7 +66,7 @@ BrokerSettings read_broker(const TomlReader& table, const std::string& usual_cli
   broker.tls = url.starts_with("mqtts://");
   if (!broker.tls && !url.starts_with("mqtt://"))
     table.fail("broker",
-               fmt::format("'{}' is no URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
+               fmt::format("'{}' is not a URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
   const std::string_view rest = std::string_view(url).substr(broker.tls ? 8 : 7);
   const HostAndPort address = read_address(table, "broker", rest, broker.tls ? 8883 : 1883);
   broker.host = address.host;
@@ -76,24 +76,24 @@ BrokerSettings read_broker(const TomlReader& table, const std::string& usual_cli
     table.fail("client", "must be of 1 to 100 bytes");
   broker.user = table.text("user").value_or("");
   if (table.has("password_file")) {
-    if (broker.user.empty()) table.fail("password_file", "is a password of no user");
+    if (broker.user.empty()) table.fail("password_file", "is a password without a user");
     broker.password = read_text_file(existing(table, "password_file")).text;
     while (!broker.password.empty() && broker.password.back() == '\n') broker.password.pop_back();
   }
   if (table.has("authority")) {
     broker.authority = existing(table, "authority");
-    if (!broker.tls) table.fail("authority", "is for a broker at mqtts://");
+    if (!broker.tls) table.fail("authority", "needs a broker at mqtts://");
   }
   broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";
   return broker;
 }
 
-/// A level of a topic, all where nothing is said.
+/// A level of a topic; all levels by default.
 std::string read_level(const TomlReader& table, const char* key, const char* usual) {
   const std::string level = table.text(key).value_or(usual);
   const bool any = level == usual;
   if (level.empty() ? !any : !any && level.find_first_of("/+#{}") != level.npos)
-    table.fail(key, fmt::format("'{}' is no level of a topic", level));
+    table.fail(key, fmt::format("'{}' is not a level of a topic", level));
   return level;
 }
 
@@ -108,14 +108,14 @@ void read_sparkplug_source(const TomlReader& table, const std::string& name,
       table.choice("births", {"values", "readings"}).value_or("values") == "readings";
 }
 
-/// What is made of topics and properties, and may stand for a source of Sparkplug B alone.
+/// Keys for topics and properties, which only a source of Sparkplug B may have.
 void check_braces(const TomlReader& reading, const SourceSettings& source) {
   const bool sparkplug = source.kind == SourceKind::sparkplug;
   for (const ColumnField& column : source.mapping.columns) {
     if (column.unit_of_message && !sparkplug)
-      reading.fail("columns", fmt::format("{}: only metrics of Sparkplug B have an engUnit; say in "
-                                          "which unit it comes",
-                                          column.column));
+      reading.fail("columns",
+                   fmt::format("{}: only metrics of Sparkplug B have an engUnit; give the unit",
+                               column.column));
   }
   const ReadingMapping& mapping = source.mapping;
   const auto check = [&](const char* key, const std::string& field) {
@@ -127,18 +127,18 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
       fault = error.what();
     }
     if (by_topic && !sparkplug)
-      fault = fmt::format(
-          "'{}' is for Sparkplug B alone; its source may have a [reading] of its own", field);
+      fault =
+          fmt::format("'{}' is for Sparkplug B only; its source may have its own [reading]", field);
     if (!fault.empty() && (sparkplug || by_topic)) reading.fail(key, fault);
     return by_topic;
   };
   if (check("unit", mapping.unit) && mapping.unit.find("{edge}") == mapping.unit.npos &&
       mapping.unit.find("{device}") == mapping.unit.npos)
-    reading.fail("unit", "names no machine: {device} or {edge} does");
+    reading.fail("unit", "does not identify the machine: use {device} or {edge}");
   if (mapping.time == timestamp_field) {
     check("time", sparkplug ? std::string() : mapping.time);
     if (mapping.format != TimeFormat::unix_ms)
-      reading.fail("time_format", "of {timestamp} is \"unix ms\"");
+      reading.fail("time_format", "must be \"unix ms\" for {timestamp}");
   }
   for (const std::string& label : mapping.labels) check("columns", label);
 }
@@ -154,7 +154,7 @@ SourceSettings read_source(const TomlReader& root, const TomlReader& table, cons
     source.kind = SourceKind::folder;
     source.folder = existing(table, "folder");
     if (!std::filesystem::is_directory(source.folder))
-      table.fail("folder", fmt::format("{} is no folder", source.folder.string()));
+      table.fail("folder", fmt::format("{} is not a folder", source.folder.string()));
   } else if (*kind == "mqtt") {
     source.kind = SourceKind::mqtt;
     source.broker = read_broker(table, "wearwell-" + name);
@@ -184,12 +184,12 @@ void read_sources(const TomlReader& root, const prognosis::Tracker& tracker,
     const auto same = [&](const SourceSettings& each) { return each.kind == source.kind; };
     const bool one_only = source.kind == SourceKind::stdin || source.kind == SourceKind::http;
     if (one_only && std::any_of(config.sources.begin(), config.sources.end(), same))
-      sources.fail(name, "there is one source of this kind already, and can be no other");
+      sources.fail(name, "is the second source of this kind; only one is possible");
     const bool sequence = !source.mapping.sequence.empty();
     if (!config.sources.empty() && sequence != config.sequence)
       sources.fail(name,
-                   "tells readings apart by sequence numbers, and another source by times, or the "
-                   "other way round");
+                   "identifies readings by sequence numbers, and another source by times, or vice "
+                   "versa; use one");
     config.sequence = sequence;
     config.sources.push_back(source);
   }
@@ -235,7 +235,7 @@ HttpSettings read_http(const TomlReader& table) {
   http.token = table.text("token").value_or("");
   constexpr std::size_t shortest_token = 16;
   if (table.has("token") && http.token.size() < shortest_token)
-    table.fail("token", fmt::format("must be of {} bytes or more", shortest_token));
+    table.fail("token", fmt::format("must be at least {} bytes", shortest_token));
   if (table.has("certificate")) http.certificate = existing(table, "certificate");
   if (table.has("key")) http.key = existing(table, "key");
   if (http.certificate.empty() != http.key.empty())
@@ -243,9 +243,8 @@ HttpSettings read_http(const TomlReader& table) {
   if (!is_loopback(http.host) && (http.token.empty() || http.key.empty()))
     table.fail(
         "listen",
-        fmt::format(
-            "{} can be reached from other machines: that needs a token, a certificate and its key",
-            http.host));
+        fmt::format("{} is reachable from other machines: set a token, a certificate and its key",
+                    http.host));
   return http;
 }
 
@@ -276,7 +275,7 @@ MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Track
                                      publish->text("prefix").value_or("wearwell")};
     if (config.publish->prefix.find_first_of("+#") != std::string::npos ||
         config.publish->prefix.empty())
-      publish->fail("prefix", "is no topic");
+      publish->fail("prefix", "is not a topic");
   }
   constexpr long long most = 10'000'000;
   if (const auto limits = root.table("limits")) {

@@ -29,9 +29,9 @@ extern "C" void note_signal(int) {
   signal_arrived = true;
 }
 
-/// While it lives, the signals that end a program wait to be asked for. Threads to come leave them to it and are not
-/// interrupted; those there are already (workers that read the result) note what reaches them. A signal that was
-/// ignored stays so.
+/// While it lives, the signals that end a program are queued until polled. New threads leave them
+/// to it and are not interrupted; existing ones (workers that read the result) note those that
+/// reach them. An ignored signal stays ignored.
 class EndingSignals {
  public:
   EndingSignals() {
@@ -67,7 +67,7 @@ class EndingSignals {
   sigset_t blocked_, mask_before_;
 };
 
-/// Whoever waits for readings is woken by whoever stores them.
+/// Waiting readers of the store are woken by its writers.
 class WakeSignal {
  public:
   void ring() {
@@ -92,7 +92,7 @@ class Sources {
  public:
   Sources(const MonitorConfig& config, bool once, Intake& intake, Store& store, Notices& notices,
           WakeSignal& wake);
-  /// Whether all have ended and none may ever bring more.
+  /// Whether all have ended and no source can deliver more.
   bool ended() const { return open_ == 0; }
   void stop();
 
@@ -110,7 +110,7 @@ Sources::Sources(const MonitorConfig& config, bool once, Intake& intake, Store& 
     : wake_(wake) {
   for (const SourceSettings& source : config.sources) {
     ++open_;
-    if (source.kind == SourceKind::http) continue;  // the server's, which is open for ever
+    if (source.kind == SourceKind::http) continue;  // the server's, which never ends
     contexts_.push_back({source, intake, store, notices, once});
   }
   for (SourceContext& context : contexts_)
@@ -149,12 +149,12 @@ void Sources::stop() {
   threads_.clear();
 }
 
-/// Keeps a fleet up with its store.
+/// Keeps a fleet up to date with its store.
 class Follower {
  public:
   Follower(Fleet& fleet, Notices& notices) : fleet_(fleet), notices_(notices) {}
 
-  /// One round; false where there is nothing to do now.
+  /// One round; false if there is nothing to do now.
   bool round() {
     constexpr auto between_saves = std::chrono::seconds(30);
     bool busy = false;
@@ -168,7 +168,8 @@ class Follower {
     return busy && good;
   }
 
-  /// All there is, and then the states: for a while, should the store not answer.
+  /// Processes all readings and then saves the states: with retries for a while, should the store
+  /// not respond.
   void finish() {
     constexpr int attempts = 20;
     for (int i = 0; i < attempts; ++i) {
@@ -181,8 +182,7 @@ class Follower {
       if (good) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    notices_.tell("store",
-                  "the states could not be kept; they will be made anew from the readings");
+    notices_.tell("store", "the states could not be saved; they will be rebuilt from the readings");
   }
 
  private:
@@ -227,8 +227,8 @@ class Outlets {
 void refuse_endless_sources(const MonitorConfig& config) {
   for (const SourceSettings& source : config.sources) {
     if (source.kind != SourceKind::stdin && source.kind != SourceKind::folder)
-      throw InputError(fmt::format(
-          "--once: source.{} has no end; only files and standard input have", source.name));
+      throw InputError(
+          fmt::format("--once: source.{} has no end; use files or standard input", source.name));
   }
 }
 

@@ -32,7 +32,7 @@ MqttSession::MqttSession(const BrokerSettings& broker, bool keeps_session)
     : broker_(broker), keeps_session_(keeps_session) {
   static const Library library;
   client_ = mosquitto_new(broker.client.c_str(), !keeps_session, this);
-  if (!client_) throw MachineError("no memory for a client of MQTT");
+  if (!client_) throw MachineError("out of memory for an MQTT client");
   mosquitto_int_option(client_, MOSQ_OPT_PROTOCOL_VERSION,
                        broker.version5 ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311);
   mosquitto_int_option(client_, MOSQ_OPT_RECEIVE_MAXIMUM, most_unacknowledged);
@@ -101,8 +101,8 @@ std::string MqttSession::description(int code) const {
       "TLS: {}{}", printable(valid_utf8(tls_)),
       !doubted ? ""
       : broker_.authority.empty()
-          ? ": the system's authorities do not vouch for it; say authority = \"ca.pem\""
-          : fmt::format(": {} does not vouch for it, or it is of another host",
+          ? ": the system's certificate authorities do not confirm it; add authority = \"ca.pem\""
+          : fmt::format(": {} does not confirm it, or it is for another host",
                         broker_.authority.string()));
 }
 

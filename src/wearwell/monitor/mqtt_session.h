@@ -13,39 +13,41 @@ struct mosquitto_message;
 
 namespace wearwell::monitor {
 
-/// A connection to a broker, driven by its owner's thread alone. Nothing is sent but by `write`: so an arrival is acknowledged
-/// when its owner says so, not when it is read (libmosquitto queues what it would send where it is told that other threads may send, and leaves
-/// the writing to the loop).
+/// A connection to a broker, driven only by its owner's thread. Only `write` sends: an arrival is
+/// acknowledged when the owner decides so, not when it is read (libmosquitto queues its output in
+/// threaded mode, and leaves the writing to the loop).
 class MqttSession {
  public:
   struct Message {
     std::string topic, payload;
   };
 
-  /// Throws InputError where the settings cannot be (no such certificate), MachineError without memory.
+  /// Throws InputError for invalid settings (no such certificate), MachineError if out of memory.
   explicit MqttSession(const BrokerSettings& broker, bool keeps_session);
   ~MqttSession();
   MqttSession(const MqttSession&) = delete;
   MqttSession& operator=(const MqttSession&) = delete;
 
-  /// "" when the broker has been reached, else why not. What was read and not acknowledged comes again.
+  /// "" when the broker is reached, else the reason. Messages that were read but not acknowledged
+  /// are delivered again.
   std::string connect();
-  /// Subscribes once the broker has said yes.
+  /// Subscribes once the broker has accepted the connection.
   void subscribe(const std::string& filter);
-  /// From the next connection on, a retained message tells under this topic whether it is there (STATE of Sparkplug B).
+  /// From the next connection on, a retained message under this topic shows whether it is online
+  /// (STATE of Sparkplug B).
   void tell_presence(const std::string& topic) { presence_ = topic; }
   bool accepted() const { return accepted_; }
-  /// What the broker refused, "" for nothing.
+  /// The broker's refusal, "" if none.
   const std::string& refusal() const { return refusal_; }
 
-  /// Waits for something to arrive.
+  /// Waits for an arrival.
   bool wait(int milliseconds) const;
-  /// Reads what has arrived, up to so many messages and bytes. "" or what is wrong with the connection.
+  /// Reads arrivals, up to a number of messages and bytes. "" or the error of the connection.
   std::string read(std::size_t messages, std::size_t bytes);
   std::vector<Message>& arrived() { return arrived_; }
-  /// Sends acknowledgements and all else, and what keeps the connection alive. Likewise.
+  /// Sends acknowledgements, queued messages and keep-alives. Returns the same.
   std::string write();
-  /// Queues a message; false where there is no connection. `quality`: of service, 0 or 1.
+  /// Queues a message; false without a connection. `quality`: of service, 0 or 1.
   bool publish(const std::string& topic, const std::string& payload, bool retain, int quality = 1);
   void disconnect();
 
@@ -62,7 +64,7 @@ class MqttSession {
   mosquitto* client_ = nullptr;
   std::string filter_, refusal_, presence_;
   std::int64_t connected_ms_ = 0;
-  std::string tls_;  ///< what went wrong with it last, in the words of its library
+  std::string tls_;  ///< its last error, in the words of its library
   bool accepted_ = false;
   std::vector<Message> arrived_;
   std::size_t arrived_bytes_ = 0;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t most_at_once = 2000, most_bytes_at_once = longest_message;
 
-/// Reads, stores, acknowledges, until the connection is lost: why. Nothing is sent while something that was read is not stored.
+/// Reads, stores, acknowledges, until the connection is lost; returns the reason. Acknowledges
+/// nothing while something read is not stored.
 std::string follow(MqttSession& session, SourceContext& context, std::stop_token stop) {
   constexpr int patience_ms = 100;
   bool reported = false;

@@ -9,11 +9,12 @@
 
 namespace wearwell::monitor {
 
-/// What a monitor tells whoever runs it, a line each on a stream. Of one subject no more than `burst` lines, and then one in ten
-/// seconds that says how many were left out: a device gone mad fills no log. Any thread may call.
+/// Log lines of a monitor on a stream. At most `burst` lines per subject, and then one in ten
+/// seconds with the number of suppressed lines, so that a faulty device does not fill a log. Any
+/// thread may call.
 class Notices {
  public:
-  explicit Notices(std::FILE* stream) : stream_(stream) {}  ///< null: tells nobody
+  explicit Notices(std::FILE* stream) : stream_(stream) {}  ///< null: no output
 
   void tell(const std::string& subject, const std::string& text);
 

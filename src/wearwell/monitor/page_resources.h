@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Files of the page that the program carries with it (cmake/resources.cmake). `_sha256` is in hexadecimal
-/// digits.
+/// Files of the page that are embedded in the program (cmake/resources.cmake). `_sha256` is in
+/// hexadecimal digits.
 namespace wearwell::resource {
 
 std::string_view monitor_html();

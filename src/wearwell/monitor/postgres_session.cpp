@@ -10,7 +10,7 @@
 namespace wearwell::monitor {
 namespace {
 
-/// With bounds on what a server that has gone may cost, unless the URL has its own.
+/// With timeouts for an unreachable server, unless the URL has its own.
 std::string bounded(const std::string& url) {
   std::string text = url;
   for (const char* each :
@@ -44,9 +44,9 @@ void PostgresSession::run(const std::function<void(pqxx::work&)>& work) {
   try {
     if (!connection_) {
       auto fresh = std::make_unique<pqxx::connection>(bounded(url_));
-      // A connection that comes back by itself would have lost its lock unnoticed.
+      // An automatic reconnection would lose its lock unnoticed.
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // later versions never come back
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // later versions never return
       fresh->inhibit_reactivation(true);
 #pragma GCC diagnostic pop
       fresh->set_client_encoding("UTF8");

@@ -8,14 +8,16 @@
 
 namespace wearwell::monitor {
 
-/// One connection to PostgreSQL, made when it is first needed and anew after it was lost. Any thread may call.
+/// One connection to PostgreSQL, opened when first needed and reopened after it was lost. Any
+/// thread may call.
 class PostgresSession {
  public:
-  /// `begin` is called with every new connection; what it throws refuses it.
+  /// `begin` is called with every new connection; an exception refuses it.
   PostgresSession(std::string url, std::function<void(pqxx::connection&)> begin)
       : url_(std::move(url)), begin_(std::move(begin)) {}
 
-  /// One transaction. Throws StoreError where the server refuses or is away; then the connection is given up.
+  /// One transaction. Throws StoreError if the server refuses or is unreachable; the connection is
+  /// then closed.
   void run(const std::function<void(pqxx::work&)>& work);
 
  private:

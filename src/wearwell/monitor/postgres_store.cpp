@@ -30,14 +30,15 @@ constexpr const char* tables = R"(
   CREATE INDEX wearwell_alarm_of_unit ON wearwell_alarm (unit, number);
   CREATE TABLE wearwell_file (name text PRIMARY KEY, bytes bigint NOT NULL))";
 
-// What makes of each version the next, from 1 on. A step once written stays as it is: stores of its version are out there.
+// Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
+// version exist.
 constexpr const char* steps[] = {
     "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0"};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
 
-// Any number that nobody else takes: who holds it writes.
+// An arbitrary advisory lock number; its holder writes.
 constexpr std::int64_t writer_lock = 0x7765617277656c6c;
 
 StoredReading reading_in(const pqxx::row& row) {
@@ -112,7 +113,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     there = {texts_of(value_of(work, "numbers")), texts_of(value_of(work, "labels")),
              value_of(work, "keys") == "sequence"};
   };
-  // The server may take a moment to see that a monitor that was killed has gone.
+  // The server may take a moment to notice that a killed monitor has gone.
   constexpr int patience = 50;
   for (int i = 0;; ++i) {
     try {
@@ -125,7 +126,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   if (version.empty())
-    throw InputError(fmt::format("{} holds no store yet: no monitor has run", name_));
+    throw InputError(fmt::format("{} has no store yet: no monitor has run", name_));
   const int number = check_store(name_, version, there, columns, access);
   if (number == store_version) return;
   migrate(number);
@@ -183,7 +184,7 @@ void PostgresStore::add_piece(pqxx::work& work, std::span<const StoredReading> r
   if (stored.size() < readings.size()) compare(work, readings, std::span(kept).subspan(first));
 }
 
-// Those that are there already: with the same values, or with others.
+// Existing ones: with the same values, or with others.
 void PostgresStore::compare(pqxx::work& work, std::span<const StoredReading> readings,
                             std::span<Kept> kept) {
   std::string keys;

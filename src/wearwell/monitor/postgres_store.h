@@ -7,8 +7,8 @@
 
 namespace wearwell::monitor {
 
-/// A store in a database of PostgreSQL, in tables "wearwell_..." (docs/reference/monitor.md). A connection that was lost is made anew by the
-/// next call. Throws as open_store does.
+/// A store in a database of PostgreSQL, in tables "wearwell_..." (docs/reference/monitor.md). A
+/// lost connection is reopened by the next call. Throws as open_store does.
 std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
                                            Access access, const StoreNotice& reported);
 

@@ -13,7 +13,7 @@
 namespace wearwell::monitor {
 namespace {
 
-/// Until the connection is lost: why.
+/// Runs until the connection is lost; returns the reason.
 std::string tell(MqttSession& session, const FleetReader& reader, const PublishSettings& settings,
                  std::stop_token stop) {
   using Clock = std::chrono::steady_clock;
@@ -22,7 +22,7 @@ std::string tell(MqttSession& session, const FleetReader& reader, const PublishS
   std::uint64_t reported = 0;
   Clock::time_point last = {};
   for (bool ends = false; !ends;) {
-    ends = stop.stop_requested();  // and tells what is last
+    ends = stop.stop_requested();  // and publishes the last state
     if (session.wait(patience_ms)) {
       if (std::string problem = session.read(1, 1); !problem.empty()) return problem;
     }

@@ -8,8 +8,9 @@
 
 namespace wearwell::monitor {
 
-/// Tells a broker the state of every unit, retained, as PREFIX/UNIT/state, once and then with every change: the JSON of the API. All of
-/// them again after every new connection, since a broker may have forgotten.
+/// Publishes the state of every unit to a broker, retained, as PREFIX/UNIT/state, once and then
+/// with every change: the JSON of the API. All of them again after every new connection, since a
+/// broker may have lost them.
 void publish_states(const FleetReader& reader, const PublishSettings& settings, Notices& notices,
                     std::stop_token stop);
 

@@ -23,9 +23,8 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
   ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0}, {}};
   const auto plain = [&](const TomlReader& at, std::string_view key) {
     if (may_be_plain(column.unit.text) && column.unit.scale == 1) return;
-    at.fail(key,
-            fmt::format("in which unit does it come? Write {{ field = \"{}\", unit = \"{}\" }}",
-                        chosen.field, column.unit.text));
+    at.fail(key, fmt::format("has no unit; write {{ field = \"{}\", unit = \"{}\" }}", chosen.field,
+                             column.unit.text));
   };
   if (columns.is_text(column.name)) {
     chosen.field = columns.required_text(column.name);
@@ -34,9 +33,9 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
   }
   const TomlReader table = columns.required_table(column.name);
   if (table.has("value")) {
-    if (column.measured) table.fail("value", "what is measured has no constant value");
+    if (column.measured) table.fail("value", "is measured and cannot be constant");
     if (table.has("field") || table.has("unit"))
-      table.fail("value", "is a constant: it comes from no field, and has its unit with it");
+      table.fail("value", "is a constant: it has no field, and its unit belongs to its value");
     chosen.constant = required_si(table, "value", column.unit);
     return chosen;
   }
@@ -62,7 +61,9 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
 void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapping& mapping) {
   if (topic_names_unit) {
     if (reading.has("unit"))
-      reading.fail("unit", "the topic names the unit already; leave out this, or {unit} there");
+      reading.fail(
+          "unit",
+          "is given, but the topic names the unit already; remove this, or {unit} in the topic");
   } else {
     mapping.unit = reading.required_text("unit");
   }
@@ -76,14 +77,14 @@ void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapp
                                            : TimeFormat::unix_ms;
   }
   if (mapping.time.empty() && mapping.sequence.empty())
-    reading.fail("sequence",
-                 "is missing, and so is time: one of these fields must tell a reading from the "
-                 "same one sent twice");
+    reading.fail(
+        "sequence",
+        "is missing, and so is time: one of these fields must distinguish a reading from a repeat");
 }
 
 std::int64_t time_of(const Field& field, TimeFormat format) {
   const auto refuse = [&](const char* expected) {
-    throw InputError(fmt::format("{} is {}, and should be {}", shown_value(field.name),
+    throw InputError(fmt::format("{} is {}, but must be {}", shown_value(field.name),
                                  field.kind == Field::Kind::text
                                      ? fmt::format("'{}'", shown_value(field.text))
                                      : fmt::format("{}", field.number),
@@ -112,18 +113,18 @@ double number_of(const Field* field, const ColumnField& column) {
     const char* end = field->text.data() + field->text.size();
     const auto [rest, error] = std::from_chars(field->text.data(), end, value);
     if (error != std::errc() || rest != end || field->text.empty())
-      throw InputError(fmt::format("{} is '{}', and should be a number", shown_value(column.field),
+      throw InputError(fmt::format("{} is '{}', but must be a number", shown_value(column.field),
                                    shown_value(field->text)));
   } else if (field->kind != Field::Kind::number) {
-    throw InputError(fmt::format("{} should be a number", shown_value(column.field)));
+    throw InputError(fmt::format("{} must be a number", shown_value(column.field)));
   }
   const double si = to_si(column.unit, value);
   if (!std::isfinite(si))
-    throw InputError(fmt::format("{} is no finite number", shown_value(column.field)));
+    throw InputError(fmt::format("{} is not a finite number", shown_value(column.field)));
   return si;
 }
 
-/// A name as a unit or a label may have it, from a text or a whole number.
+/// A valid name of a unit or a label, from a text or a whole number.
 std::string name_of(const Field* field, const std::string& what) {
   if (!field || field->kind == Field::Kind::null)
     throw InputError(fmt::format("{} is missing", shown_value(what)));
@@ -132,12 +133,12 @@ std::string name_of(const Field* field, const std::string& what) {
                                           : std::string();
   if (name.empty() || name.size() > longest_name || printable(name) != name)
     throw InputError(
-        fmt::format("{} is '{}', and should be a name of 1 to {} bytes without control characters",
+        fmt::format("{} is '{}', but must be a name of 1 to {} bytes without control characters",
                     shown_value(what), shown_value(name), longest_name));
   return name;
 }
 
-/// What can never count is not kept, so that a whole reading of the same key may follow.
+/// An incomplete reading is not stored, so that a complete one with the same key may follow.
 void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping) {
   bool measured = false;
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
@@ -185,12 +186,11 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
     }
     mapping.labels.push_back(columns.required_text(label));
   }
-  // A key that is none of the study's columns is misspelt; that is said first.
+  // An unknown column is probably misspelt; this error comes first.
   if (!missing.empty()) {
     columns.finish();
-    reading.fail("columns",
-                 fmt::format("the study has {} as well; say which field of a message brings each",
-                             fmt::join(missing, ", ")));
+    reading.fail("columns", fmt::format("the study has {} as well; give the field of each",
+                                        fmt::join(missing, ", ")));
   }
   return mapping;
 }
@@ -231,7 +231,7 @@ StoredReading reading_of(const Fields& fields, const std::string& unit,
   if (!mapping.sequence.empty()) {
     const Field* sequence = find_field(fields, mapping.sequence);
     if (!sequence || sequence->kind != Field::Kind::number || !sequence->whole)
-      throw InputError(fmt::format("{} should be a whole number", shown_value(mapping.sequence)));
+      throw InputError(fmt::format("{} must be a whole number", shown_value(mapping.sequence)));
     reading.key = sequence->integer;
   }
   for (const ColumnField& column : mapping.columns)

@@ -50,7 +50,7 @@ void SparkplugDecoder::read(std::string_view text, std::string_view payload,
     const std::string_view of_device = topic && !topic->device.empty() ? "D" : "N";
     if (!type.starts_with(of_device) ||
         (type.substr(1) != "BIRTH" && type.substr(1) != "DATA" && type.substr(1) != "DEATH"))
-      throw InputError("is none of an edge node or of a device of Sparkplug B");
+      throw InputError("is not a topic of an edge node or a device of Sparkplug B");
     if (names_by_topic(settings_.mapping.unit) && brings_units(*topic))
       unit = name_of_topic(settings_.mapping.unit, *topic);
     take(*topic, payload, made);
@@ -69,7 +69,7 @@ void SparkplugDecoder::take(const SparkplugTopic& topic, std::string_view messag
   try {
     payload = read_sparkplug(message);
   } catch (const InputError&) {
-    // What it said, and its number, are not known.
+    // The content of its birth certificate is unknown.
     node.alive = false;
     asking_.insert(&node);
     throw;
@@ -88,20 +88,21 @@ void SparkplugDecoder::take(const SparkplugTopic& topic, std::string_view messag
 void SparkplugDecoder::count_on(Node& node, const SparkplugPayload& payload) {
   if (!node.alive) {
     asking_.insert(&node);
-    throw InputError("comes before a birth certificate, which is asked for");
+    throw InputError("comes before a birth certificate, which is requested");
   }
   if (payload.sequence == node.next) {
     ++node.next;
     return;
   }
-  // What the missing one changed is not known: neither values that would hold, nor aliases.
+  // The changes of the missing message are unknown: neither the current values nor aliases are
+  // valid.
   node.alive = false;
   for (const auto& [device, scope] : node.scopes) aliases_ -= scope.aliases.size();
   scopes_ -= node.scopes.size();
   node.scopes.clear();
   asking_.insert(&node);
   throw InputError(fmt::format(
-      "is number {}, and {} was to come: one is missing, and the birth certificate is asked for",
+      "has number {} instead of {}: a message is missing, and the birth certificate is requested",
       payload.sequence, node.next));
 }
 
@@ -146,17 +147,18 @@ void SparkplugDecoder::define(Scope& scope, const SparkplugTopic& topic,
     if (each.now) each.before = std::exchange(each.now, {});
   }
   for (const SparkplugMetric& each : payload.metrics) {
-    if (!each.name) throw InputError("holds a metric without a name");
+    if (!each.name) throw InputError("has a metric without a name");
     const auto found = index_.find(*each.name);
     const std::size_t name = found == index_.end() ? unnamed : found->second;
     if (name != unnamed) {
       if (scope.known[name].born)
-        throw InputError(fmt::format("holds metric {} twice", shown_text(*each.name)));
+        throw InputError(fmt::format("has metric {} twice", shown_text(*each.name)));
       be_born(scope.known[name], names_[name], each, settings_.mapping);
     }
     if (!each.alias) continue;
     if (aliases_ == most_aliases)
-      throw InputError(fmt::format("is of one alias more than {} of all edge nodes", most_aliases));
+      throw InputError(
+          fmt::format("has more aliases than the limit of {} for all edge nodes", most_aliases));
     if (!scope.aliases.emplace(*each.alias, name).second)
       throw InputError(fmt::format("gives alias {} to two metrics", *each.alias));
     ++aliases_;
@@ -164,7 +166,7 @@ void SparkplugDecoder::define(Scope& scope, const SparkplugTopic& topic,
 }
 
 void SparkplugDecoder::take_death(Node& node, const SparkplugPayload& payload) {
-  // One of an earlier connection comes late, and says nothing of this one.
+  // One of an earlier connection came late, and does not concern this one.
   for (const SparkplugMetric& each : payload.metrics) {
     if (each.name == "bdSeq" && node.session && each.bits != *node.session) return;
   }
@@ -176,14 +178,14 @@ std::size_t SparkplugDecoder::name_of_metric(Node& node, const Scope& scope,
                                              const SparkplugMetric& metric) {
   const auto ask = [&](const std::string& what) {
     asking_.insert(&node);
-    return InputError(fmt::format("holds {}, which no birth certificate had", what));
+    return InputError(fmt::format("has {}, which is in no birth certificate", what));
   };
   if (metric.alias) {
     const auto found = scope.aliases.find(*metric.alias);
     if (found != scope.aliases.end()) return found->second;
     if (!metric.name) throw ask(fmt::format("alias {}", *metric.alias));
   }
-  if (!metric.name) throw InputError("holds a metric with neither a name nor an alias");
+  if (!metric.name) throw InputError("has a metric with neither a name nor an alias");
   const auto found = index_.find(*metric.name);
   if (found == index_.end()) return unnamed;
   if (!scope.known[found->second].born)
@@ -196,7 +198,7 @@ void SparkplugDecoder::take_data(Node& node, const SparkplugTopic& topic,
   Scope& scope = scope_of(node, topic);
   if (!scope.alive) {
     asking_.insert(&node);
-    throw InputError("comes before a birth certificate of its own, which is asked for");
+    throw InputError("comes before its own birth certificate, which is requested");
   }
   if (!scope.problem.empty()) throw InputError(scope.problem);
   if (!brings_units(topic)) return;
@@ -249,7 +251,7 @@ SparkplugDecoder::Node& SparkplugDecoder::node_of(const SparkplugTopic& topic) {
   const auto found = nodes_.find(key);
   if (found != nodes_.end()) return found->second;
   if (nodes_.size() == most_scopes)
-    throw InputError(fmt::format("is of one edge node more than {}", most_scopes));
+    throw InputError(fmt::format("is of a new edge node; the limit is {}", most_scopes));
   Node& node = nodes_[key];
   node.ask_topic = fmt::format("spBv1.0/{}/NCMD/{}", topic.group, topic.edge);
   return node;
@@ -259,7 +261,7 @@ SparkplugDecoder::Scope& SparkplugDecoder::scope_of(Node& node, const SparkplugT
   const auto found = node.scopes.find(topic.device);
   if (found != node.scopes.end()) return found->second;
   if (scopes_ == most_scopes)
-    throw InputError(fmt::format("is of one device more than {}", most_scopes));
+    throw InputError(fmt::format("is of a new device; the limit is {}", most_scopes));
   ++scopes_;
   return node.scopes[std::string(topic.device)];
 }
@@ -270,16 +272,18 @@ bool SparkplugDecoder::brings_units(const SparkplugTopic& topic) const {
   return (unit.find("{device}") != unit.npos) == !topic.device.empty();
 }
 
-// Two devices of one name, at two edge nodes, are two machines, and would be taken for one: also where one of them is dead now.
+// Two devices of one name at two edge nodes are two machines, and must not be mixed, even if one of
+// them is dead now.
 void SparkplugDecoder::own(const SparkplugTopic& topic) {
   if (!names_by_topic(settings_.mapping.unit)) return;
   const std::string who = shown_node(topic);
   if (owners_.size() == most_scopes) owners_.clear();
   const auto [owner, is_new] = owners_.emplace(name_of_topic(settings_.mapping.unit, topic), who);
   if (!is_new && owner->second != who)
-    throw InputError(fmt::format(
-        "names unit '{}', and so does {}; tell them apart, as by unit = \"{{edge}}/{{device}}\"",
-        shown_text(owner->first), owner->second));
+    throw InputError(
+        fmt::format("has unit '{}', as does {}; distinguish them, for example with unit = "
+                    "\"{{edge}}/{{device}}\"",
+                    shown_text(owner->first), owner->second));
 }
 
 std::vector<std::string> SparkplugDecoder::rebirths(std::int64_t clock_ms) {

@@ -15,22 +15,23 @@
 
 namespace wearwell::monitor {
 
-/// Makes rows of messages of Sparkplug B (docs/reference/monitor.md): knows of each edge node and device what its birth certificate said, which
-/// values hold until others come, and whether a message is missing. What cannot be read for sure is a row with a problem, and
-/// the edge node is asked for its birth certificates. One thread calls; times are of a clock that does not jump.
+/// Converts messages of Sparkplug B to rows (docs/reference/monitor.md): keeps for each edge node
+/// and device its birth certificate, its current values, and whether a message is missing.
+/// Ambiguous content becomes a row with a problem, and the edge node is asked for its birth
+/// certificates. One thread calls; times are from a monotonic clock.
 class SparkplugDecoder {
  public:
-  /// `settings` outlives it.
+  /// `settings` must outlive it.
   explicit SparkplugDecoder(const SourceSettings& settings);
   SparkplugDecoder(const SparkplugDecoder&) = delete;
   SparkplugDecoder& operator=(const SparkplugDecoder&) = delete;
 
   /// Adds the rows of one message.
   void read(std::string_view topic, std::string_view payload, std::vector<Row>& rows);
-  /// Nothing is known any more: messages may have been missed.
+  /// Resets all knowledge: messages may have been missed.
   void forget();
-  /// Topics of NCMD of the edge nodes that are to be asked for their birth certificates now: each at once, and again after ever longer
-  /// pauses.
+  /// Topics of NCMD of the edge nodes to ask for their birth certificates now: each at once, and
+  /// again after growing pauses.
   std::vector<std::string> rebirths(std::int64_t clock_ms);
 
  private:
@@ -71,7 +72,8 @@ class SparkplugDecoder {
   const std::vector<SparkplugName> names_;
   std::unordered_map<std::string_view, std::size_t> index_;  // of names
   std::unordered_map<std::string, Node> nodes_;
-  std::unordered_map<std::string, std::string> owners_;  // unit that the topic names -> who
+  // unit that the topic names -> its edge node or device
+  std::unordered_map<std::string, std::string> owners_;
   std::set<Node*> asking_;
   std::size_t scopes_ = 0, aliases_ = 0;
 };

@@ -23,7 +23,7 @@ bool is_special(std::string_view field) {
   return field.find('{') != field.npos;
 }
 
-/// Takes up a unit of measure: what is wrong with it, beside the column of the configuration.
+/// Reads a unit of measure: returns its conflict with the column of the configuration.
 std::string take_unit(KnownMetric& known, const ColumnField& column, std::string_view said) {
   constexpr std::size_t longest = 100;
   const bool readable = !said.empty() && said.size() <= longest;
@@ -36,7 +36,7 @@ std::string take_unit(KnownMetric& known, const ColumnField& column, std::string
     }
     return {};
   }
-  // What is no unit at all contradicts nothing.
+  // An unknown unit contradicts nothing.
   if (!readable || !parse_unit(std::string(said))) return {};
   try {
     const Unit unit = read_unit(said, column.unit.text);
@@ -46,7 +46,7 @@ std::string take_unit(KnownMetric& known, const ColumnField& column, std::string
       return {};
   } catch (const InputError&) {
   }
-  return fmt::format("{} comes in '{}', says its engUnit, and in '{}', says the configuration",
+  return fmt::format("{} comes in '{}' by its engUnit, but in '{}' by the configuration",
                      shown_text(column.field), shown_text(said), column.unit.text);
 }
 
@@ -60,7 +60,8 @@ void take_units(KnownMetric& known, const SparkplugName& name, std::string_view 
   }
 }
 
-/// One value of a list in order of time: the nearest within `together_ms`, else the last before; null where there is none.
+/// One value of a list in order of time: the nearest within `together_ms`, else the last before;
+/// null if there is none.
 const SparkplugValue* at(const std::vector<SparkplugValue>& values, std::int64_t time_ms,
                          bool fresh) {
   const auto later = std::lower_bound(
@@ -83,7 +84,7 @@ const SparkplugValue* held(const KnownMetric& known, std::int64_t time_ms, bool 
   return historical && held_then(known.before) ? &*known.before : nullptr;
 }
 
-/// What is measured together.
+/// Metrics that are measured together.
 struct Moment {
   std::int64_t time_ms = 0;
   std::vector<const SparkplugValue*> measured;  // by name
@@ -150,15 +151,15 @@ SparkplugValue value_of(KnownMetric& known, const SparkplugName& name,
   const std::string shown = shown_text(name.text);
   const auto time = metric.timestamp ? metric.timestamp : sent_ms;
   if (!time || *time > static_cast<std::uint64_t>(latest_unix_ms)) {
-    value.problem = shown + " has no time, or one that cannot be";
+    value.problem = shown + " has no time, or an impossible one";
     return value;
   }
   value.time_ms = static_cast<std::int64_t>(*time);
   if (metric.type != 0 && metric.type != known.type) {
-    value.problem =
-        fmt::format("{} is of type {}, and was born as {}", shown, metric.type, known.type);
+    value.problem = fmt::format("{} has type {}, but its birth certificate has {}", shown,
+                                metric.type, known.type);
   } else if (!known.good) {
-    value.problem = fmt::format("{} is not of good quality, says its edge node", shown);
+    value.problem = fmt::format("{} does not have good quality, by its edge node", shown);
   } else if (!known.problem.empty()) {
     value.problem = known.problem;
   } else {

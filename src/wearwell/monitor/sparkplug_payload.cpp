@@ -10,7 +10,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 
-// Numbers of fields: Sparkplug B, specification 3.0.0, 6.4.1 (Google Protocol Buffers, proto2). Nothing here calls itself, so no message is too deep.
+// Numbers of fields: Sparkplug B, specification 3.0.0, 6.4.1 (Google Protocol Buffers, proto2). No
+// function here is recursive, so that nesting depth is not limited.
 namespace wearwell::monitor {
 namespace {
 
@@ -35,7 +36,7 @@ protozero::data_view data_of(std::string_view text) {
   return {text.data(), text.size()};
 }
 
-/// The texts and whole numbers of a PropertyValue; what else there may be is passed over.
+/// The texts and whole numbers of a PropertyValue; skips the rest.
 void read_property(std::string_view key, std::string_view value, SparkplugMetric& metric) {
   pbf_reader reader(data_of(value));
   std::optional<std::uint64_t> whole;
@@ -68,7 +69,7 @@ void read_properties(std::string_view set, SparkplugMetric& metric) {
   std::vector<std::string_view> keys, values;
   while (reader.next()) {
     if (keys.size() > most_properties || values.size() > most_properties)
-      throw InputError(fmt::format("holds a metric of more than {} properties", most_properties));
+      throw InputError(fmt::format("has a metric with more than {} properties", most_properties));
     switch (reader.tag_and_type()) {
       case with(1, bytes):
         keys.push_back(view_of(reader));
@@ -81,12 +82,12 @@ void read_properties(std::string_view set, SparkplugMetric& metric) {
     }
   }
   if (keys.size() != values.size())
-    throw InputError(fmt::format("holds a metric with {} names of properties and {} values",
-                                 keys.size(), values.size()));
+    throw InputError(fmt::format("has a metric with {} property names and {} values", keys.size(),
+                                 values.size()));
   for (std::size_t i = 0; i < keys.size(); ++i) read_property(keys[i], values[i], metric);
 }
 
-/// The fields that hold its value; false where this is none of them.
+/// The fields that hold its value; false if this is none of them.
 bool read_value(pbf_reader& reader, SparkplugMetric& metric) {
   switch (reader.tag_and_type()) {
     case with(10, varint):
@@ -168,7 +169,7 @@ SparkplugPayload read_payload(std::string_view message) {
         break;
       case with(2, bytes):
         if (payload.metrics.size() == most_metrics)
-          throw InputError(fmt::format("holds more than {} metrics", most_metrics));
+          throw InputError(fmt::format("has more than {} metrics", most_metrics));
         payload.metrics.push_back(read_metric(view_of(reader)));
         break;
       case with(3, varint):
@@ -176,7 +177,7 @@ SparkplugPayload read_payload(std::string_view message) {
         break;
       case with(4, bytes):
         if (view_of(reader) == "SPBV1.0_COMPRESSED")
-          throw InputError("is compressed, and that is not read");
+          throw InputError("is compressed, which is not supported");
         break;
       default:
         reader.skip();
@@ -189,7 +190,7 @@ SparkplugPayload read_payload(std::string_view message) {
 std::int64_t signed_of(const SparkplugMetric& metric, int width, const std::string& name) {
   const std::int64_t largest = std::numeric_limits<std::int64_t>::max() >> (64 - width);
   const std::uint64_t bits = metric.bits;
-  // 64 bits of which 32 came may be either of two numbers.
+  // 64 bits of which only 32 are present are ambiguous.
   const bool cut = width == 64 && metric.holds == Holds::bits32 && bits >> 31 != 0;
   if (!cut && bits <= static_cast<std::uint64_t>(largest)) return static_cast<std::int64_t>(bits);
   for (const int written : {width, 32, 64}) {
@@ -198,14 +199,14 @@ std::int64_t signed_of(const SparkplugMetric& metric, int width, const std::stri
     const auto value = static_cast<std::int64_t>(bits | above);
     if ((bits & above) == 0 && value < 0 && value >= -largest - 1) return value;
   }
-  throw InputError(fmt::format("{} is {}, and no signed number of {} bits",
+  throw InputError(fmt::format("{} is {}, which is not a signed number of {} bits",
                                printable(shortened(name)), bits, width));
 }
 
 std::uint64_t unsigned_of(const SparkplugMetric& metric, int width, const std::string& name) {
   if (width < 64 && metric.bits >> width != 0)
-    throw InputError(fmt::format("{} is {}, and no number of {} bits", printable(shortened(name)),
-                                 metric.bits, width));
+    throw InputError(fmt::format("{} is {}, which is not a number of {} bits",
+                                 printable(shortened(name)), metric.bits, width));
   return metric.bits;
 }
 
@@ -238,12 +239,11 @@ Field number_field(Field field, double value) {
 
 SparkplugPayload read_sparkplug(std::string_view message) {
   if (message.size() > longest_message)
-    throw InputError(
-        fmt::format("is of {} bytes; {} is the most", message.size(), longest_message));
+    throw InputError(fmt::format("has {} bytes; the limit is {}", message.size(), longest_message));
   try {
     return read_payload(message);
   } catch (const protozero::exception& error) {
-    throw InputError(fmt::format("is no payload of Sparkplug B: {}", error.what()));
+    throw InputError(fmt::format("is not a payload of Sparkplug B: {}", error.what()));
   }
 }
 
@@ -252,7 +252,7 @@ Field field_of(const SparkplugMetric& metric, std::uint32_t type, const std::str
   if (metric.null || metric.holds == Holds::nothing) return field;
   const auto expect = [&](bool good, const char* what) {
     if (!good)
-      throw InputError(fmt::format("{} is said to be {}, and holds another value",
+      throw InputError(fmt::format("{} has type {}, but another kind of value",
                                    printable(shortened(name)), what));
   };
   const bool whole = metric.holds == Holds::bits32 || metric.holds == Holds::bits64;
@@ -292,7 +292,7 @@ Field field_of(const SparkplugMetric& metric, std::uint32_t type, const std::str
       field.text = metric.text;
       return field;
   }
-  throw InputError(fmt::format("{} is of type {} of Sparkplug, neither a number nor a text",
+  throw InputError(fmt::format("{} has Sparkplug type {}, which is neither a number nor a text",
                                printable(shortened(name)), type));
 }
 

@@ -19,12 +19,12 @@ std::int64_t clock_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
-/// Reads, decodes, stores, until the connection is lost: why.
+/// Reads, decodes, stores, until the connection is lost; returns the reason.
 std::string follow(MqttSession& session, SparkplugDecoder& decoder, SourceContext& context,
                    std::stop_token stop) {
   constexpr int patience_ms = 100;
   const std::string subject = "source." + context.settings.name;
-  decoder.forget();  // nobody kept what came while there was no connection
+  decoder.forget();  // messages sent without a connection are lost
   bool reported = false;
   while (!stop.stop_requested()) {
     if (session.wait(patience_ms)) {

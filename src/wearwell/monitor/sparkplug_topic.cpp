@@ -29,9 +29,8 @@ bool names_by_topic(std::string_view field) {
   if (field.find_first_of("{}") == field.npos) return false;
   const std::string rest = name_of_topic(field, {"", "", "", ""});
   if (rest.find_first_of("{}") != rest.npos)
-    throw InputError(
-        fmt::format("'{}' holds braces of which none of {{group}}, {{edge}}, {{device}} are made",
-                    printable(shortened(field))));
+    throw InputError(fmt::format("'{}' has braces other than {{group}}, {{edge}}, {{device}}",
+                                 printable(shortened(field))));
   return true;
 }
 

@@ -9,7 +9,7 @@ namespace wearwell::monitor {
 SqliteSession::SqliteSession(const std::filesystem::path& file) : file_(file.string()) {
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
   if (sqlite3_open_v2(file_.c_str(), &database_, flags, nullptr) != SQLITE_OK) {
-    const std::string why = database_ ? sqlite3_errmsg(database_) : "no memory";
+    const std::string why = database_ ? sqlite3_errmsg(database_) : "out of memory";
     sqlite3_close(database_);
     throw StoreError(fmt::format("{}: {}", file_, why));
   }

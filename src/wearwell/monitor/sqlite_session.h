@@ -10,7 +10,8 @@
 
 namespace wearwell::monitor {
 
-/// One connection to a file of SQLite. Throws StoreError wherever SQLite refuses, in its words and with the file.
+/// One connection to a file of SQLite. Throws StoreError for every error of SQLite, with its
+/// message and the file.
 class SqliteSession {
  public:
   explicit SqliteSession(const std::filesystem::path& file);
@@ -28,7 +29,7 @@ class SqliteSession {
   sqlite3* database_ = nullptr;
 };
 
-/// A prepared statement; parameters and columns count from 1 and 0, as SQLite has them.
+/// A prepared statement; parameters count from 1 and columns from 0, as in SQLite.
 class SqliteStatement {
  public:
   SqliteStatement(SqliteSession& session, std::string_view sql);
@@ -40,7 +41,7 @@ class SqliteStatement {
   SqliteStatement& bind(int at, double value);
   SqliteStatement& bind(int at, std::string_view value);  ///< text; copied
   SqliteStatement& bind_bytes(int at, std::string_view value);
-  bool next();   ///< false behind the last row
+  bool next();   ///< false after the last row
   void run();    ///< a statement without rows; ready for the next
   void reset();  ///< ready for the next
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }

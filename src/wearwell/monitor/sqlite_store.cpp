@@ -27,7 +27,8 @@ constexpr const char* tables = R"(
   CREATE INDEX alarm_of_unit ON alarm (unit, number);
   CREATE TABLE file (name TEXT PRIMARY KEY, bytes INTEGER NOT NULL) WITHOUT ROWID;)";
 
-// What makes of each version the next, from 1 on. A step once written stays as it is: stores of its version are out there.
+// Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
+// version exist.
 constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0"};
 static_assert(std::size(steps) == store_version - 1);
 
@@ -67,18 +68,18 @@ class SqliteStore : public Store {
 
   const std::string name_;
   std::optional<LockFile> lock_;
-  // Readers go on while a commit waits for the disk.
+  // Readers continue while a commit waits for the disk.
   std::mutex write_lock_, read_lock_;
   SqliteSession write_, read_;
   std::unique_ptr<SqliteStatement> insert_, existing_, of_unit_;
 };
 
-/// Where a monitor writes nobody else does; a reader must find a store.
+/// A writing monitor is the only writer; a reader must find a store.
 std::optional<LockFile> locked(const std::filesystem::path& file, Access access) {
   if (access == Access::read) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
-      throw InputError(fmt::format("{} is no store yet: no monitor has run", file.string()));
+      throw InputError(fmt::format("{} is not a store yet: no monitor has run", file.string()));
     return {};
   }
   return std::optional<LockFile>(std::in_place, file, [&] {
@@ -143,7 +144,7 @@ int SqliteStore::check(const StoreColumns& columns, Access access) {
   try {
     version = value("version");
   } catch (const StoreError&) {
-    throw InputError(fmt::format("{} is a database, but no store of wearwell", name_));
+    throw InputError(fmt::format("{} is a database, but not a store of wearwell", name_));
   }
   return check_store(
       name_, version,

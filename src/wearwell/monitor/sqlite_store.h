@@ -7,8 +7,9 @@
 
 namespace wearwell::monitor {
 
-/// A store in one file (docs/reference/monitor.md has its tables). Its journal is a write-ahead log with synchronous = FULL: a commit returns
-/// when the disk says that it has it. Throws as open_store does.
+/// A store in one file (docs/reference/monitor.md has its tables). Its journal is a write-ahead log
+/// with synchronous = FULL: a commit returns when the disk has acknowledged it. Throws as
+/// open_store does.
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
                                          const StoreColumns& columns, Access access,
                                          const StoreNotice& reported);

@@ -37,36 +37,34 @@ int check_store(const std::string& name, const std::string& version, const Store
   const bool known = error == std::errc() && rest == version.data() + version.size() &&
                      number >= 1 && number <= store_version;
   if (!known)
-    throw InputError(fmt::format(
-        "{} is a store of version '{}'; this wearwell knows versions 1 to {}: it was written by a "
-        "later one, or is damaged",
-        name, printable(shortened(version)), store_version));
+    throw InputError(
+        fmt::format("{} is a store of version '{}'; this wearwell reads versions 1 to {}: a later "
+                    "version wrote it, or it is damaged",
+                    name, printable(shortened(version)), store_version));
   const auto differ = [&](const char* what, const auto& kept, const auto& asked) {
     if (kept == asked) return;
     throw InputError(
-        fmt::format("{} holds readings with the {} {}, and the result that the configuration names "
-                    "has {}; begin another "
-                    "store",
+        fmt::format("{} has readings with the {} {}, but the result in the configuration has {}; "
+                    "use another store",
                     name, what, printable(json_of(kept)), printable(json_of(asked))));
   };
   differ("columns", there.numbers, wanted.numbers);
   differ("labels", there.labels, wanted.labels);
   if (there.sequence != wanted.sequence)
-    throw InputError(
-        fmt::format("{} tells readings apart by their {}, and the configuration by their {}; begin "
-                    "another store",
-                    name, there.sequence ? "sequence numbers" : "times",
-                    wanted.sequence ? "sequence numbers" : "times"));
+    throw InputError(fmt::format(
+        "{} identifies readings by their {}, but the configuration by their {}; use another store",
+        name, there.sequence ? "sequence numbers" : "times",
+        wanted.sequence ? "sequence numbers" : "times"));
   if (number < store_version && access == Access::read)
     throw InputError(
-        fmt::format("{} is a store of version {}, and this wearwell reads version {}; wearwell "
-                    "monitor brings it up to date when it starts",
+        fmt::format("{} is a store of version {}, and this wearwell reads version {}; start "
+                    "wearwell monitor to upgrade it",
                     name, number, store_version));
   return number;
 }
 
 std::string migrated_text(const std::string& name, int from) {
-  return fmt::format("{} was of version {}, and has been brought up to version {}", name, from,
+  return fmt::format("{} had version {} and is now upgraded to version {}", name, from,
                      store_version);
 }
 
@@ -84,7 +82,9 @@ std::string json_of(const std::vector<std::string>& texts) {
 }
 
 std::vector<double> numbers_of(std::string_view json) {
-  const auto damaged = [&] { return StoreError(fmt::format("'{}' is no list of numbers", json)); };
+  const auto damaged = [&] {
+    return StoreError(fmt::format("'{}' is not a list of numbers", json));
+  };
   std::vector<double> numbers;
   if (json.size() < 2 || json.front() != '[' || json.back() != ']') throw damaged();
   const char* at = json.data() + 1;
@@ -108,10 +108,10 @@ std::vector<double> numbers_of(std::string_view json) {
 std::vector<std::string> texts_of(std::string_view json) {
   if (json == "[]") return {};
   const auto list = nlohmann::json::parse(json, nullptr, false);
-  if (!list.is_array()) throw StoreError(fmt::format("'{}' is no list of texts", json));
+  if (!list.is_array()) throw StoreError(fmt::format("'{}' is not a list of texts", json));
   std::vector<std::string> texts;
   for (const auto& each : list) {
-    if (!each.is_string()) throw StoreError(fmt::format("'{}' is no list of texts", json));
+    if (!each.is_string()) throw StoreError(fmt::format("'{}' is not a list of texts", json));
     texts.push_back(each.get<std::string>());
   }
   return texts;

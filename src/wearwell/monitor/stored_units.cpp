@@ -9,12 +9,13 @@ namespace wearwell::monitor {
 std::map<std::string, UnitRecord> stored_units(Store& store, const Population& population) {
   const TrackerUnits reported(population.tracker);
   std::map<std::string, UnitRecord> units;
-  // First how far the states go at least: should a monitor save others meanwhile, these go farther.
+  // First the position that the states have at least reached: should a monitor save others
+  // meanwhile, these have reached farther.
   std::int64_t place = store.all_up_to(population.fingerprint);
   for (const Checkpoint& each : store.states(population.fingerprint)) {
     try {
       units[each.unit] = restored_record(each, population.tracker);
-    } catch (const InputError&) {  // damaged: from its readings
+    } catch (const InputError&) {  // damaged: rebuilt from its readings
       UnitRecord fresh = begun_record(each.unit, population.tracker);
       store.of_unit(each.unit, 0, place,
                     [&](const StoredReading& reading) { take(fresh, reading, reported, store); });

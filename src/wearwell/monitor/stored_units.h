@@ -9,8 +9,8 @@
 
 namespace wearwell::monitor {
 
-/// All units of a store as their readings have made them until now: the states that it keeps, gone on with the readings behind them,
-/// as the monitor does that may be at work beside. Throws StoreError.
+/// All units of a store in their present state: the stored states, updated with the readings after
+/// them, as a running monitor does. Throws StoreError.
 std::map<std::string, UnitRecord> stored_units(Store& store, const Population& population);
 
 }  // namespace wearwell::monitor

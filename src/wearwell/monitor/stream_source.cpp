@@ -11,7 +11,7 @@
 namespace wearwell::monitor {
 namespace {
 
-/// False where the store could not take it before the end.
+/// False if the store was not available before the end.
 bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_token stop) {
   while (const auto piece = feed.next(ended)) {
     for (const std::string& each : piece->refused) context.intake.refuse(context.settings, each);
@@ -40,7 +40,7 @@ void read_stream(SourceContext& context, int descriptor, std::stop_token stop) {
   }
   if (!feed.empty())
     context.notices.tell("source." + context.settings.name,
-                         "the end came before all that was read was stored; send it again");
+                         "the input ended before all of it was stored; send it again");
 }
 
 }  // namespace wearwell::monitor

@@ -7,7 +7,8 @@
 
 namespace wearwell::monitor {
 
-/// What became of messages since the monitor began, in all and of the units that it knows. Any thread may call.
+/// Outcomes of messages since the start of the monitor, in all and by known unit. Any thread may
+/// call.
 class Tally {
  public:
   struct Counts {
@@ -24,9 +25,9 @@ class Tally {
   void messages(std::uint64_t count, std::int64_t now_ms);
   void stored(std::uint64_t readings);
   void repeated(const std::string& unit);
-  /// `unit` may be empty or unknown: then it counts in all alone.
+  /// `unit` may be empty or unknown: then it counts only in the total.
   void refused(const std::string& unit, const std::string& problem);
-  /// False where it is new and there are as many as there may be.
+  /// False if it is new and the limit is reached.
   bool admit(const std::string& unit);
 
   Counts counts(const std::string& unit) const;

@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Reads exactly so many digits from the front.
+/// Reads exactly this many digits from the front.
 std::optional<int> digits(std::string_view& text, std::size_t count) {
   if (text.size() < count) return {};
   int value = 0;
@@ -28,7 +28,7 @@ bool skip(std::string_view& text, std::string_view any_of) {
   return true;
 }
 
-/// Milliseconds of ".25"; what is finer is cut.
+/// Milliseconds of ".25"; finer digits are dropped.
 int fraction(std::string_view& text) {
   int value = 0, scale = 100;
   for (; !text.empty() && text.front() >= '0' && text.front() <= '9'; text.remove_prefix(1)) {

@@ -28,7 +28,7 @@ TopicPattern::TopicPattern(std::string_view text) : text_(text), levels_(levels_
     throw InputError(fmt::format("'{}' {}", printable(shortened(text_)), why));
   };
   constexpr std::size_t longest = 1000;
-  if (text.empty() || text.size() > longest) refuse("is no topic");
+  if (text.empty() || text.size() > longest) refuse("is not a topic");
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const std::string& level = levels_[i];
     if (level == unit_level) {
@@ -37,7 +37,7 @@ TopicPattern::TopicPattern(std::string_view text) : text_(text), levels_(levels_
     } else if (level.find_first_of("{}") != level.npos) {
       refuse("may hold {unit} as a whole level, and no other braces");
     } else if (level.find_first_of("+#") != level.npos && level.size() > 1) {
-      refuse("has a wildcard, + or #, that is not a level of its own");
+      refuse("has a wildcard, + or #, that is not a whole level");
     } else if (level == "#" && i + 1 < levels_.size()) {
       refuse("has # before its end");
     }

@@ -15,9 +15,9 @@ class TopicPattern {
   explicit TopicPattern(std::string_view text);
 
   bool names_unit() const { return unit_.has_value(); }
-  /// What is subscribed to: "plant/+/wear".
+  /// The subscription: "plant/+/wear".
   std::string filter() const;
-  /// The unit that a topic names; nothing where it names none.
+  /// The unit in a topic; empty if it has none.
   std::optional<std::string> unit(std::string_view topic) const;
   const std::string& text() const { return text_; }
 

@@ -61,7 +61,7 @@ TrackerUnits::TrackerUnits(const prognosis::Tracker& tracker)
     if (same_kind(columns[i]) && (!measured_ || columns[i].name == tracker.limited()))
       measured_ = i;
   }
-  // Of several, which of them the limit is of is only sure by its name.
+  // With several measured columns, only the name identifies the one with the threshold.
   if (measured > 1 && measured_ && columns[*measured_].name != tracker.limited()) measured_.reset();
 }
 
@@ -116,8 +116,8 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
   if (taken.problem.empty() && reading.time_ms > reading.received_ms + hour_ms)
     record.last_problem = fmt::format(
-        "a reading says that it is of {}, which was more than an hour ahead when it "
-        "came: one of two clocks is wrong",
+        "a reading has the time {}, which was more than an hour ahead when it arrived: one of two "
+        "clocks is wrong",
         iso_of_unix_ms(reading.time_ms));
   if (!taken.counted) {
     ++record.not_counted;
@@ -131,7 +131,7 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   }
   if (!is_kept_moment(record.readings)) return;
   const prognosis::Forecast forecast = record.state->forecast();
-  // Where nothing says how it goes on, nothing was forecast.
+  // If the continuation was undetermined, there was no forecast.
   if (!std::isnan(forecast.passed)) record.moments.push_back(moment_of(reading, forecast, units));
 }
 

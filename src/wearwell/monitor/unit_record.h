@@ -12,20 +12,21 @@
 
 namespace wearwell::monitor {
 
-/// What is known of a unit, and follows from its readings in the order of storage alone: the same after a restart.
+/// The state of a unit, which follows from its readings in the order of storage: the same after a
+/// restart.
 struct UnitRecord {
   std::string unit;
   std::unique_ptr<prognosis::TrackedUnit> state;
-  std::int64_t place = 0;  ///< of the last reading that is in it
+  std::int64_t place = 0;  ///< of its last processed reading
   std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
-  std::uint64_t held = 0, judged = 0;  ///< readings within 5 to 95 % of what was forecast of them
+  std::uint64_t held = 0, judged = 0;  ///< readings within 5 to 95 % of their forecast
   std::string last_problem = {};
   std::int64_t last_key = 0;  ///< the largest
   std::int64_t last_time_ms = 0, last_received_ms = 0;
   std::vector<UnitMoment> moments = {};
 };
 
-/// How the numbers of a tracker are told: in the units of its study.
+/// Conversion of a tracker's values to the units of its study.
 class TrackerUnits {
  public:
   explicit TrackerUnits(const prognosis::Tracker& tracker);
@@ -34,9 +35,9 @@ class TrackerUnits {
   double along(double si) const { return si / axis_.scale; }  ///< a length of the axis
   double level(double si) const { return from_si(level_, si); }
   Interval level(const prognosis::Forecast& forecast) const;
-  /// From now on; infinite where it may never be.
+  /// From now on; infinite if it may never be.
   Interval remaining(const prognosis::Forecast& forecast) const;
-  /// Of a reading: what is measured of what the limit is of, if that is measured.
+  /// Of a reading: the measured value of the quantity with the threshold, if it is measured.
   std::optional<double> measured(const std::vector<double>& numbers) const;
 
  private:
@@ -44,22 +45,22 @@ class TrackerUnits {
   std::optional<std::size_t> measured_;
 };
 
-/// The probability that the limit is reached within `horizon` (SI) from now on.
+/// The probability that the threshold is reached within `horizon` (SI) from now on.
 double risk_within(const prognosis::Forecast& forecast, double horizon);
 
-/// Takes a reading behind all that are in it. Its history is read from the store where nodes are laid anew. When it throws
-/// StoreError the record must be made anew (begun_record).
+/// Processes a reading after all earlier ones. Reads the history from the store when nodes are
+/// rebuilt. If it throws StoreError the record must be rebuilt (begun_record).
 void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& units,
           Store& store);
 
-/// Whether the moment of the n-th reading is kept: all of the first, then ever fewer, so that a thousand more take little more
-/// room.
+/// Whether the n-th reading is kept in the history: all at first, then ever fewer, so that a
+/// thousand more need little more memory.
 bool is_kept_moment(std::uint64_t n);
 
 UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker);
 
 std::string bytes_of(const UnitRecord& record);
-/// Throws InputError where the bytes are damaged.
+/// Throws InputError if the bytes are damaged.
 UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker);
 
 }  // namespace wearwell::monitor

@@ -16,7 +16,8 @@
 namespace wearwell::netcdf {
 namespace {
 
-constexpr int compression = 4;                            // of zlib: draws hardly shrink beyond it
+// of zlib: higher levels hardly compress draws further
+constexpr int compression = 4;
 constexpr std::size_t worth_compressing = 1000;           // values
 constexpr std::size_t first_size = std::size_t{1} << 16;  // of the file in memory, bytes
 
@@ -55,7 +56,7 @@ class MemoryFile {
  private:
   void check(int status, const std::string& what) const {
     if (status != NC_NOERR)
-      throw MachineError(fmt::format("NetCDF cannot hold {}: {}", what, nc_.strerror(status)));
+      throw MachineError(fmt::format("NetCDF cannot store {}: {}", what, nc_.strerror(status)));
   }
 
   void add(int group, int variable, const Attributes& attributes, const std::string& what) {
@@ -70,12 +71,13 @@ class MemoryFile {
     for (const std::string& name : variable.dimensions) {
       std::size_t d = 0;
       while (d < dimensions.size() && group.dimensions[d].name != name) ++d;
-      if (d == dimensions.size()) throw std::logic_error(name + " is no dimension");
+      if (d == dimensions.size()) throw std::logic_error(name + " is not a dimension");
       of.push_back(dimensions[d]);
       size *= group.dimensions[d].size;
     }
     const std::size_t held = std::visit([](const auto& v) { return v.size(); }, variable.values);
-    if (held != size) throw std::logic_error(variable.name + " is not of its dimensions' size");
+    if (held != size)
+      throw std::logic_error(variable.name + " does not have the size of its dimensions");
     constexpr nc_type types[] = {NC_DOUBLE, NC_INT64, NC_STRING, NC_BYTE};
     int at = -1;
     check(nc_.def_var(id, variable.name.c_str(), types[variable.values.index()],

@@ -9,7 +9,7 @@
 
 namespace wearwell::netcdf {
 
-/// Name and text, of a variable, a group or a file.
+/// Name and text of an attribute of a variable, a group or a file.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 struct Dimension {
@@ -17,7 +17,7 @@ struct Dimension {
   std::size_t size = 0;
 };
 
-/// An array; the last of its dimensions runs fastest. Flags are bytes that xarray reads as bool.
+/// An array; the last of its dimensions varies fastest. Flags are bytes that xarray reads as bool.
 struct Variable {
   using Flags = std::vector<signed char>;
   std::string name;
@@ -34,15 +34,15 @@ struct Group {
   Attributes attributes = {};
 };
 
-/// A letter or _ first, then letters, digits and _: what every reader of NetCDF takes for a name.
+/// A letter or _ first, then letters, digits and _: a valid name for every reader of NetCDF.
 std::string plain_name(const std::string& text);
 
-/// A NetCDF-4 file of these groups, as bytes. One thread at a time, whoever calls: HDF5 below is not
-/// made for more. Throws MachineError when the library of NetCDF is not there, or fails;
-/// std::logic_error where an array has not the size of its dimensions.
+/// A NetCDF-4 file of these groups, as bytes. One thread at a time: HDF5 is not thread-safe. Throws
+/// MachineError if the library of NetCDF is missing or fails; std::logic_error if an array does not
+/// have the size of its dimensions.
 std::string file_of(const std::vector<Group>& groups);
 
-/// The same as a file that appears whole or not at all. Throws as StagedFile does.
+/// The same as a file that appears complete or not at all. Throws as StagedFile does.
 void write(const std::filesystem::path& target, const std::vector<Group>& groups);
 
 }  // namespace wearwell::netcdf

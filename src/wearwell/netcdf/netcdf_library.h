@@ -5,7 +5,7 @@
 
 namespace wearwell::netcdf {
 
-/// What we call of libnetcdf.
+/// The functions of libnetcdf that we call.
 struct Library {
   decltype(&nc_create_mem) create_mem;
   decltype(&nc_close_memio) close_memio;
@@ -22,7 +22,7 @@ struct Library {
   decltype(&nc_strerror) strerror;
 };
 
-/// Loads it with the first call. Throws MachineError when it is not on the machine.
+/// Loads it with the first call. Throws MachineError if it is not installed.
 const Library& library();
 
 }  // namespace wearwell::netcdf

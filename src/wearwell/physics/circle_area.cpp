@@ -21,9 +21,9 @@ double less_atan(double z) {
   return z * u * sum;
 }
 
-/// The four factors of the sixteenfold squared area of the triangle between the two centres and a
-/// corner of the lune (Heron). No subtraction but 2 - delta, which is the height of the lens that
-/// stays inside.
+/// The four factors of the sixteenfold squared area of the triangle between the two centers and a
+/// corner of the lune (Heron). No subtraction except 2 - delta, which is the height of the lens
+/// that stays inside.
 struct Triangle {
   double a, b, p, q;
   double tan_half_beta;
@@ -99,9 +99,9 @@ double area_outside(double pin_radius, double bushing_radius, double centre_dist
   }
   if (!(centre_distance >= 0)) {
     throw InputError(
-        fmt::format("distance {} between the centres must be 0 or more", centre_distance));
+        fmt::format("distance {} between the centers must be 0 or more", centre_distance));
   }
-  // Both differences are exact where they are small (Sterbenz), so no digit of the input is lost.
+  // Both differences are exact if they are small (Sterbenz), so no digit of the input is lost.
   const double clearance = bushing_radius - pin_radius;
   const double depth = centre_distance - clearance;
   return pin_radius * pin_radius * lune_area(clearance / pin_radius, depth / pin_radius);

@@ -14,7 +14,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-// The column of this name, its unit in the heading or alone.
+// The column of this name, with its unit in the heading or without a unit.
 const Column& named(const Table& table, const std::string& name, const std::string& si) {
   const Column* found = nullptr;
   for (const Column& each : table.columns) {
@@ -71,7 +71,7 @@ Hindcast hindcast(const std::string& name, const Followed& followed, double life
   one.readings = followed.history.size();
   one.at = now.now;
   one.life = life;
-  const auto at = [&](double p) {  // of all, those behind their limit among them
+  const auto at = [&](double p) {  // of all, including those past their failure threshold
     if (p <= now.passed || now.remaining.points().empty()) return now.now;
     return now.now + now.remaining.quantile((p - now.passed) / (1 - now.passed));
   };

@@ -48,7 +48,7 @@ void ByteReader::fail(const std::string& why) const {
 
 std::string_view ByteReader::take(std::size_t size) {
   if (size > left_.size())
-    fail(fmt::format("{} bytes are wanted where {} are left", size, left_.size()));
+    fail(fmt::format("{} bytes are needed, {} are left", size, left_.size()));
   const std::string_view first = left_.substr(0, size);
   left_.remove_prefix(size);
   return first;
@@ -59,7 +59,7 @@ std::uint8_t ByteReader::byte() {
 }
 bool ByteReader::flag() {
   const std::uint8_t value = byte();
-  if (value > 1) fail(fmt::format("{} where 0 or 1 stands", value));
+  if (value > 1) fail(fmt::format("{} where 0 or 1 is expected", value));
   return value == 1;
 }
 std::uint32_t ByteReader::u32() {
@@ -86,12 +86,12 @@ std::size_t ByteReader::count(std::size_t each) {
 
 void ByteReader::require(std::size_t size, std::size_t each) const {
   if (each > 0 && size > left_.size() / each)
-    fail(fmt::format("{} things of {} bytes are wanted where {} bytes are left", size, each,
+    fail(fmt::format("{} items of {} bytes are needed, {} bytes are left", size, each,
                      left_.size()));
 }
 
 void ByteReader::end() const {
-  if (!left_.empty()) fail(fmt::format("{} bytes too many", left_.size()));
+  if (!left_.empty()) fail(fmt::format("{} extra bytes", left_.size()));
 }
 
 }  // namespace wearwell::prognosis

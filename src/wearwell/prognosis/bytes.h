@@ -6,7 +6,7 @@
 
 namespace wearwell::prognosis {
 
-/// Numbers and texts as bytes: little-endian on every machine, doubles as IEEE 754 has them.
+/// Numbers and texts as bytes: little-endian on every machine, doubles in IEEE 754 format.
 class ByteWriter {
  public:
   void byte(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
@@ -14,15 +14,15 @@ class ByteWriter {
   void u64(std::uint64_t value);
   void number(double value);
   void single(double value);          ///< rounded to single precision
-  void text(std::string_view value);  ///< its length (u64), then it
+  void text(std::string_view value);  ///< its length (u64), then the text
   std::string take() { return std::move(bytes_); }
 
  private:
   std::string bytes_;
 };
 
-/// Reads them back. Everything throws InputError, which names the file, where the bytes end too early or a
-/// length is more than what is left of them.
+/// Reads them back. Every function throws InputError, which names the file, if the bytes end too
+/// early or a length exceeds the bytes left.
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string file) : left_(bytes), file_(std::move(file)) {}
@@ -34,11 +34,11 @@ class ByteReader {
   double number();
   double single();
   std::string text();
-  /// A number of things (u64) each of which takes `each` bytes at least.
+  /// A number of items (u64) of at least `each` bytes each.
   std::size_t count(std::size_t each);
-  /// Throws unless `size` things of `each` bytes are left.
+  /// Throws unless `size` items of `each` bytes are left.
   void require(std::size_t size, std::size_t each) const;
-  void end() const;  ///< throws where anything is left
+  void end() const;  ///< throws if anything is left
 
   [[noreturn]] void fail(const std::string& why) const;
 

@@ -19,7 +19,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-constexpr std::string_view magic("wearwell state\r\n", 16);  // a transfer as text breaks it
+constexpr std::string_view magic("wearwell state\r\n", 16);  // a transfer in text mode corrupts it
 constexpr std::uint32_t version = 1;
 constexpr std::size_t head = 16 + 4 + 8, digest = 40;  // bytes
 
@@ -101,12 +101,12 @@ void write(const WeightedDraws& draws, ByteWriter& out) {
     write(*each, out);
 }
 
-// A measure: what is not would make any number of it.
+// A check of plausibility: without it a corrupt length would request any amount of memory.
 Eigen::VectorXd read_weights(std::size_t rows, ByteReader& in) {
   const Points weights = read_points(rows, 1, in);
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (!(weights(i, 0) >= 0) || !std::isfinite(weights(i, 0)))
-      in.fail(fmt::format("{} is no weight", weights(i, 0)));
+      in.fail(fmt::format("{} is not a weight", weights(i, 0)));
   }
   if (!(std::abs(weights.sum() - 1) < 1e-6)) in.fail("weights do not sum to 1");
   return weights.col(0);
@@ -115,11 +115,11 @@ Eigen::VectorXd read_weights(std::size_t rows, ByteReader& in) {
 WeightedDraws read_draws(std::size_t parameters, ByteReader& in) {
   WeightedDraws draws;
   const std::size_t rows = in.count(8 * (parameters + 1)), axes = in.u64();
-  if (rows == 0) in.fail("a posterior without points");
+  if (rows == 0) in.fail("the posterior has no points");
   if (axes != 0 && axes != parameters)
-    in.fail(fmt::format("cells of {} axes of {} parameters", axes, parameters));
+    in.fail(fmt::format("{} axes of cells for {} parameters", axes, parameters));
   const bool cells = in.flag();
-  if (cells && axes == 0) in.fail("cells without axes");
+  if (cells && axes == 0) in.fail("cells have no axes");
   draws.values = read_points(rows, parameters, in);
   draws.weights = read_weights(rows, in);
   for (std::vector<Points>* each : {&draws.lower, &draws.upper}) {
@@ -161,7 +161,7 @@ CarriedState state_of(std::string_view body, const std::string& file) {
   for (std::size_t t = 0; t < tables; ++t) {
     const std::string name = in.text();
     if (!state.source.tables.emplace(name, read_table(in)).second)
-      in.fail(fmt::format("two tables '{}'", printable(name)));
+      in.fail(fmt::format("table '{}' occurs twice", printable(name)));
   }
   const std::size_t parameters = in.count(least_text);
   if (parameters > static_cast<std::size_t>(max_dimension))
@@ -195,19 +195,18 @@ std::string state_bytes(const CarriedState& state) {
 
 CarriedState state_of_bytes(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with(magic.substr(0, bytes.size())) || bytes.empty())
-    throw InputError(fmt::format("{} is no state that wearwell wrote", name));
-  if (bytes.size() < head + digest) throw InputError(fmt::format("{} is cut off", name));
+    throw InputError(fmt::format("{} is not a state written by wearwell", name));
+  if (bytes.size() < head + digest) throw InputError(fmt::format("{} is truncated", name));
   ByteReader in(bytes.substr(magic.size()), name);
   const std::uint32_t written = in.u32();
   if (written != version)
     throw InputError(
-        fmt::format("{} is of version {}; this wearwell reads version {}: fit the "
-                    "study again",
-                    name, written, version));
+        fmt::format("{} has version {}; this wearwell reads version {}: fit the study again", name,
+                    written, version));
   const std::uint64_t size = in.u64();
   const std::string_view signed_part = bytes.substr(0, bytes.size() - digest);
   if (sha1_of(signed_part) != bytes.substr(bytes.size() - digest))
-    throw InputError(fmt::format("{} is cut off or damaged: its checksum is another one", name));
+    throw InputError(fmt::format("{} is truncated or damaged: its checksum does not match", name));
   return state_of(unpacked(signed_part.substr(head), size, name), name);
 }
 
@@ -228,7 +227,7 @@ std::string population_fingerprint(const CarriedState& state) {
 
 void require_parameters(const CarriedState& state, const std::vector<std::string>& names) {
   if (names != state.parameters)
-    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
+    throw InputError(fmt::format("{}: the saved posterior has other parameters",
                                  state.source.study.path.string()));
 }
 
@@ -239,12 +238,10 @@ CarriedState read_state(const std::filesystem::path& result) {
   if (!std::filesystem::exists(result, error))
     throw InputError(fmt::format("no such file or folder: {}", valid_utf8(result.string())));
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError(
-        folder
-            ? fmt::format("{} holds no state.bin: wearwell fit writes it, of studies that have a "
-                          "posterior (not of a clutch)",
-                          valid_utf8(result.string()))
-            : fmt::format("{} is no file", valid_utf8(result.string())));
+    throw InputError(folder ? fmt::format("{} has no state.bin: wearwell fit writes it for studies "
+                                          "with a posterior (not for a clutch campaign)",
+                                          valid_utf8(result.string()))
+                            : fmt::format("{} is not a file", valid_utf8(result.string())));
   }
   return state_of_bytes(content_of(file), valid_utf8(file.string()));
 }

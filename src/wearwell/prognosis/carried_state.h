@@ -10,33 +10,35 @@
 
 namespace wearwell::prognosis {
 
-/// What `wearwell fit` leaves for those who go on from it, state.bin (docs/how-to/state.md): the study with its data, and
-/// the posterior as nodes.
+/// What `wearwell fit` saves for later commands, state.bin (docs/how-to/state.md): the study with
+/// its data, and the posterior as nodes.
 struct CarriedState {
   std::string model;    ///< key: "formula"
-  bool trusted = true;  ///< whether the fit was
-  Source source;        ///< the study file, and its tables as they were read
-  /// Names, as columns of the posterior; none of a study without one (a clutch campaign).
+  bool trusted = true;  ///< whether the fit is trusted
+  Source source;        ///< the study file, and its tables as read
+  /// Names, as columns of the posterior; empty for a study without one (a clutch campaign).
   std::vector<std::string> parameters;
-  WeightedDraws posterior;  ///< natural, SI; nodes of the quadrature, or draws
+  WeightedDraws posterior;  ///< natural units, SI; nodes of the quadrature, or draws
 };
 
 /// The bytes of state.bin: versioned, the same on every machine, with a checksum.
 std::string state_bytes(const CarriedState& state);
 
-/// Reads them; `name` is what messages call them. Throws InputError where they are of another version, or damaged.
+/// Reads them; `name` is the name in messages. Throws InputError if they have another version or
+/// are damaged.
 CarriedState state_of_bytes(std::string_view bytes, const std::string& name);
 
-/// SHA-1 of all that it holds.
+/// SHA-1 of all its contents.
 std::string fingerprint_of(const CarriedState& state);
 
-/// Of the study's text and the posterior: what a unit's state must agree in with the tracker that takes it.
+/// SHA-1 of the study's text and the posterior: a unit's state and its tracker must agree in it.
 std::string population_fingerprint(const CarriedState& state);
 
-/// Throws InputError where the posterior is not of these parameters.
+/// Throws InputError if the posterior has other parameters.
 void require_parameters(const CarriedState& state, const std::vector<std::string>& names);
 
-/// Reads RESULT/state.bin or such a file. Throws InputError where there is none, it is of another version, or damaged.
+/// Reads RESULT/state.bin or such a file. Throws InputError if there is none, or it has another
+/// version or is damaged.
 CarriedState read_state(const std::filesystem::path& result);
 
 }  // namespace wearwell::prognosis

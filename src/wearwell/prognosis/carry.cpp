@@ -37,7 +37,7 @@ TableSection described(const TomlReader& section, const std::string& path) {
           before_sql_name(section)};
 }
 
-// A path and lines of a file mean nothing where the state goes.
+// The path and the lines of a file are not valid where the state is read.
 Table kept_table(Table table, const std::string& source) {
   table.source = source;
   table.lines.clear();
@@ -69,7 +69,7 @@ WeightedDraws without_negligible(const WeightedDraws& draws) {
   }
   const bool all = static_cast<Index>(chosen.size()) == draws.values.rows();
   if (draws.lower.empty()) return draws;
-  // Cells that stand for nodes beside them are of no use to who weighs the nodes anew.
+  // Cells that represent nodes beside them are useless once the nodes are reweighted.
   const bool with_cells =
       chosen.size() <= most_cells && draws.lower.front().rows() == draws.values.rows();
   if (all && with_cells) return draws;
@@ -110,7 +110,8 @@ Source carried_source(const Source& source, const PosteriorStudy& study) {
   }
   const auto file = source.folder() / study.data_file;
   if (!study.data_sha1.empty() && sha1(file) != study.data_sha1)
-    throw InputError(fmt::format("{} was changed while it was read: try again", file.string()));
+    throw InputError(
+        fmt::format("{} changed while it was read: run the command again", file.string()));
   return kept;
 }
 

@@ -10,7 +10,8 @@
 namespace wearwell::prognosis {
 namespace {
 
-// Populations that have to carry what all units have shown, if any has shown something; where there were few, half of those.
+// The smallest number of populations that must carry the weight given the readings of all units;
+// half of the initial number if that is smaller.
 constexpr double least_effective = 50;
 
 double failed_by(double passed, const WeightedLives& remaining, double after) {
@@ -30,7 +31,7 @@ CommonPopulation independent(std::span<const KnownUnit* const> units, std::span<
   return common;
 }
 
-// Weights to sum to 1; their effective number.
+// Normalizes the weights; returns their effective sample size.
 double normalized(const std::vector<double>& log_weight, std::vector<double>& weight) {
   const double top = *std::max_element(log_weight.begin(), log_weight.end());
   weight.clear();
@@ -51,7 +52,7 @@ CommonPopulation in_common(const KnownLives& lives, std::span<const KnownUnit* c
   if (populations < 2)
     return independent(
         units, after,
-        fmt::format("what {}s have in common cannot be separated in these lives", lives.noun));
+        fmt::format("these lives do not separate what {}s have in common", lives.noun));
   CommonPopulation common;
   common.failed.assign(populations, std::vector<std::vector<double>>(
                                         after.size(), std::vector<double>(units.size())));
@@ -65,7 +66,7 @@ CommonPopulation in_common(const KnownLives& lives, std::span<const KnownUnit* c
     if (!unit) {
       CommonPopulation alone =
           independent(units, after,
-                      fmt::format("of {} {} alone there is no forecast by population", lives.noun,
+                      fmt::format("there is no forecast by population for {} {} alone", lives.noun,
                                   units[u]->name));
       alone.outgrown = units[u]->in_populations != nullptr;
       return alone;
@@ -81,11 +82,11 @@ CommonPopulation in_common(const KnownLives& lives, std::span<const KnownUnit* c
                                     [](double each) { return each > -infinity; });
   common.effective = possible ? normalized(log_weight, common.weight) : 0;
   if (!shown || common.effective >= std::min(least_effective, 0.5 * before)) return common;
-  CommonPopulation alone = independent(
-      units, after,
-      fmt::format("readings since the study say more of the population than its {} points carry "
-                  "({:.1f} are left)",
-                  populations, common.effective));
+  CommonPopulation alone =
+      independent(units, after,
+                  fmt::format("the readings since the study are more informative on the population "
+                              "than its {} points resolve (effective number {:.1f})",
+                              populations, common.effective));
   alone.outgrown = true;
   return alone;
 }

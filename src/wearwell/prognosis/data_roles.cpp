@@ -28,7 +28,7 @@ std::optional<std::string> column_of(const DataRoles& roles, const std::string& 
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
-// A name that no expression of a study uses tells its units apart.
+// A label that no expression of a study uses identifies the units.
 bool is_idle(const TomlReader& root, const std::string& name) {
   const std::regex word("(^|[^A-Za-z0-9_])" + name + "($|[^A-Za-z0-9_])");
   for (const TomlReader::Present& each : root.present()) {

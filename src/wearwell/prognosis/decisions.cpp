@@ -11,7 +11,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-// Its limit is more likely behind it than not: there is nothing to wait for.
+// The unit has more likely than not reached its threshold: there is no reason to wait.
 constexpr double too_late = 0.5;
 
 UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
@@ -30,7 +30,7 @@ UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
   return decision;
 }
 
-// Months whose probabilities are held at once, of each population and unit.
+// Number of months whose probabilities are in memory at once, for each population and unit.
 std::size_t months_at_once(std::size_t populations, std::size_t units) {
   constexpr std::size_t most_numbers = 20'000'000;
   return std::max<std::size_t>(1, most_numbers / std::max<std::size_t>(1, populations * units));
@@ -82,9 +82,9 @@ void count_months(const KnownLives& lives, const Question& question, Decisions& 
 
 Decisions decide(const KnownLives& lives, const Question& question) {
   if (lives.fresh.lives.empty())
-    throw InputError(fmt::format(
-        "{}: nothing is said of the life of a new {}, against which running ones are held",
-        lives.title, lives.noun));
+    throw InputError(
+        fmt::format("{}: the study has no life of a new {}, which decisions on running ones need",
+                    lives.title, lives.noun));
   Decisions decisions;
   decisions.age = cheapest_age(lives.fresh, question.costs);
   decisions.reference = decisions.age->rate;
@@ -92,8 +92,8 @@ Decisions decide(const KnownLives& lives, const Question& question) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!std::isfinite(each.points().back()))
         throw InputError(
-            fmt::format("{}: some {}s never fail, so that an unseen failure has no cost "
-                        "in the long run; leave out the cost of downtime",
+            fmt::format("{}: some {}s never fail, so an undetected failure has no long-run cost; "
+                        "leave out the cost of downtime",
                         lives.title, lives.noun));
     }
     decisions.inspection = cheapest_hidden_interval(lives.fresh, question.costs, *question.hidden);

@@ -11,20 +11,20 @@
 
 namespace wearwell::prognosis {
 
-/// What is asked.
+/// The request.
 struct Question {
   Costs costs;
   std::string currency;  ///< "EUR"; may be empty
   std::optional<double>
-      hidden;  ///< cost per unit of the axis (SI) of a failure that no inspection has seen yet
-  bool inspected = false;  ///< whether a cost of inspection was told
-  /// What a unit runs in a month, SI; nothing: no forecast by month.
+      hidden;  ///< cost per unit of the axis (SI) of a failure that no inspection has found yet
+  bool inspected = false;  ///< whether a cost of inspection is given
+  /// Use of a unit per month, SI; empty: no forecast by month.
   std::optional<double> per_month;
   int months = 12;
-  double service = 0.95;  ///< probability that spare parts are enough
+  double service = 0.95;  ///< probability that the spare parts suffice
 };
 
-/// One unit and what to do with it.
+/// One unit and its recommended action.
 struct UnitDecision {
   const KnownUnit* unit = nullptr;
   UnitReplacement best;
@@ -34,18 +34,19 @@ struct UnitDecision {
 /// The fleet up to the end of a month: numbers of units, each counted once.
 struct FleetMonth {
   int month = 0;
-  double until = 0;  ///< what each has run by then, SI
-  Count reached;     ///< have reached their limit, if none is replaced before
-  Count replaced;    ///< need a new part, each replaced at failure or at its cheapest moment
+  double until = 0;  ///< use of each by then, SI
+  Count reached;     ///< reach their threshold, if none is replaced before
+  Count replaced;    ///< need a new part, each replaced at failure or at its optimal time
   std::size_t low = 0, high = 0;             ///< of `reached`, 5 and 95 %
   std::size_t parts = 0, parts_planned = 0;  ///< spare parts from now until then
 };
 
-/// How units were counted: on what the numbers of `FleetMonth` rest.
+/// How units are counted: the basis of the numbers in `FleetMonth`.
 struct FleetCounting {
   std::size_t populations =
-      0;                 ///< that units share, over which they are counted; 0: as independent
-  double effective = 0;  ///< of them carry it
+      /// number of shared populations that are averaged over; 0: units are independent
+      0;
+  double effective = 0;  ///< effective number of them
   std::string why_independent = {};
   bool outgrown = false;  ///< CommonPopulation
 };
@@ -53,14 +54,15 @@ struct FleetCounting {
 /// All decisions.
 struct Decisions {
   std::optional<AgeReplacement> age;
-  std::optional<InspectionInterval> inspection;  ///< perfect, or of hidden failures
-  double reference = 0;  ///< cost per unit of the axis that running units are held against
-  std::vector<UnitDecision> units;  ///< the most urgent first
+  /// with perfect inspections, or for hidden failures
+  std::optional<InspectionInterval> inspection;
+  double reference = 0;  ///< long-run cost per unit of the axis, the reference for running units
+  std::vector<UnitDecision> units;  ///< most urgent first
   std::vector<FleetMonth> months;
   FleetCounting counting;  ///< of months
 };
 
-/// Throws InputError where what is asked cannot be told of such lives.
+/// Throws InputError if these lives cannot answer the request.
 Decisions decide(const KnownLives& lives, const Question& question);
 
 }  // namespace wearwell::prognosis

@@ -24,12 +24,12 @@ std::string costs_text(const DecisionsReport& report) {
   const Shown shown{report};
   const Question& question = report.question;
   std::string text =
-      fmt::format("a failure costs {}, a replacement before it {}",
+      fmt::format("a failure costs {}, a preventive replacement {}",
                   shown.money(question.costs.failure), shown.money(question.costs.replacement));
   if (question.inspected || question.hidden)
     text += fmt::format(", an inspection {}", shown.money(question.costs.inspection));
   if (question.hidden)
-    text += fmt::format(", and a failure not yet seen {} {}",
+    text += fmt::format(", and an undetected failure {} {}",
                         plain_given(shown.rate(*question.hidden)), shown.rate_unit());
   return text;
 }
@@ -43,19 +43,18 @@ std::string answer(const DecisionsReport& report) {
   const AgeReplacement& age = *report.decisions.age;
   if (!std::isfinite(age.age))
     return fmt::format(
-        "Replace a {} when it fails: earlier saves nothing, since its risk does not "
-        "grow enough with age.",
+        "Replace a {} when it fails: its risk does not grow enough with age for preventive "
+        "replacement to pay.",
         report.lives.noun);
   if (age.beyond_known)
-    return fmt::format(
-        "Nothing is saved by replacing a {} before {} {}, which is as far as lives "
-        "are known.",
-        report.lives.noun, plain_number(shown.at(age.age)), shown.unit());
+    return fmt::format("Replacing a {} before {} {}, the end of the known lives, saves nothing.",
+                       report.lives.noun, plain_number(shown.at(age.age)), shown.unit());
   std::string text = fmt::format("Replace a {} at {} {}: {} {} in the long run", report.lives.noun,
                                  plain_number(shown.at(age.age)), shown.unit(),
                                  plain_number(shown.rate(age.rate)), shown.rate_unit());
   if (age.at_failure > 0)
-    text += fmt::format(", {} less than at failure only", percent(1 - age.rate / age.at_failure));
+    text += fmt::format(", {} less than replacement at failure only",
+                        percent(1 - age.rate / age.at_failure));
   return text + ".";
 }
 
@@ -65,9 +64,8 @@ std::string worth_text(const DecisionsReport& report) {
   const InspectionWorth& worth = asked.worth;
   const std::string money = report.question.currency.empty() ? "" : " " + report.question.currency;
   return fmt::format(
-      "A reading of {} of {} {} {} {} from now is worth {}{}: {} after its cost. Its 90 % lie from "
-      "{} to {} {}; "
-      "with {} the {} is replaced upon it.",
+      "A reading of {} of {} {} {} {} from now is worth {}{}: {} net of its cost. Its 90 % "
+      "interval is {} to {} {}; with probability {} it leads you to replace the {}.",
       asked.column, report.lives.noun, asked.unit, plain_number(shown.at(asked.after)),
       shown.unit(), plain_number(worth.worth, 3), money, plain_number(worth.net, 3),
       plain_number(from_si(asked.reading_unit, asked.outcomes[asked.outcomes.size() / 20].reading)),
@@ -112,15 +110,14 @@ std::string how_counted(const DecisionsReport& report) {
   std::string text =
       "Each unit counts once: parts that fail again within that time are not counted. ";
   if (counting.populations > 0)
-    return text +
-           fmt::format(
-               "What {}s have in common is not known exactly: in each of {} possible populations "
-               "they are counted as independent, and these are mixed by what is known of them "
-               "(effective number {:.0f}).",
-               report.lives.noun, counting.populations, counting.effective);
+    return text + fmt::format(
+                      "The population of the {}s is uncertain: units are independent given each of "
+                      "{} possible populations, and these are averaged by their posterior weights "
+                      "(effective number {:.0f}).",
+                      report.lives.noun, counting.populations, counting.effective);
   return text + fmt::format(
-                    "Units are counted as independent, since {}; that all are of a population "
-                    "which is not known exactly would spread the numbers further.",
+                    "Units are counted as independent, since {}; uncertainty of their common "
+                    "population would widen the intervals.",
                     counting.why_independent);
 }
 
@@ -131,43 +128,40 @@ std::vector<Check> decision_checks(const DecisionsReport& report) {
   const Costs& costs = report.question.costs;
   if (!report.lives.trusted)
     checks.push_back({"study", Verdict::fail, "the study itself is not trusted",
-                      "See its own checks first: wearwell report."});
+                      "Look at its checks first: wearwell report."});
   if (report.decisions.age->beyond_known)
     checks.push_back(
         {"horizon", Verdict::warn,
-         "some lives have no end as far as they were computed: the cost in the long run is that of "
-         "replacement there",
-         "Compute lives farther, or read it as: not before."});
+         "some lives extend beyond the computed range: the long-run cost is that of replacement at "
+         "its end",
+         "Compute lives over a longer range, or read the result as: do not replace earlier."});
   std::size_t early = 0;
   for (const UnitDecision& each : report.decisions.units)
     early += each.best.after > 0 && std::isfinite(each.best.after) && each.best.failing <= 0;
   if (early > 0 || report.decisions.age->failing <= 0)
     checks.push_back(
         {"tail", Verdict::warn,
-         fmt::format("no life is as short as the moment that costs least ({})",
+         fmt::format("no life is as short as the optimal time ({})",
                      early > 0 ? fmt::format("{} of {} units", early, report.decisions.units.size())
                                : "of a new one"),
-         "How likely such early failures are is not known from these points: more of them, or "
-         "weighted ones in the tail, would tell."});
+         "These points do not determine the probability of such early failures; use more points, "
+         "or weighted ones in the tail."});
   if (report.decisions.counting.outgrown)
-    checks.push_back(
-        {"population", Verdict::warn,
-         fmt::format("how many of the fleet is counted as if {}s were independent: {}",
-                     report.lives.noun, report.decisions.counting.why_independent),
-         "Intervals and spare parts are closer than they ought to be. Fit with these readings "
-         "among the data (wearwell update) tells the population anew."});
+    checks.push_back({"population", Verdict::warn,
+                      fmt::format("the counts of the fleet assume independent {}s: {}",
+                                  report.lives.noun, report.decisions.counting.why_independent),
+                      "Intervals and spare parts are too narrow. Fit with these readings in the "
+                      "data (wearwell update) to update the population."});
   if (report.worth && std::abs(report.worth->worth.error) > 0.02)
-    checks.push_back(
-        {"inspection", Verdict::warn,
-         fmt::format(
-             "what the reading may show does not add up to what is known now, by {:.2g} of the "
-             "probability to fail",
-             report.worth->worth.error),
-         "Take its worth as a rough number."});
+    checks.push_back({"inspection", Verdict::warn,
+                      fmt::format("the possible outcomes of the reading do not average to the "
+                                  "present forecast; the probability of failure deviates by {:.2g}",
+                                  report.worth->worth.error),
+                      "Treat its value as approximate."});
   if (costs.failure <= costs.replacement)
     checks.push_back({"costs", Verdict::warn,
-                      "a failure costs no more than a replacement before it",
-                      "Then nothing is gained by replacing before failure."});
+                      "a failure costs no more than a preventive replacement",
+                      "Preventive replacement then saves nothing."});
   return checks;
 }
 
@@ -206,9 +200,9 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   std::vector<present::Section> sections = {policy};
   if (!report.decisions.units.empty()) {
     present::Section units{"units", html::capital(report.lives.noun) + "s"};
-    units.add(present::Prose{
-        "Replace after: the moment that costs least, held against what use costs the fleet in the "
-        "long run. Waiting saves: against replacing now."});
+    units.add(
+        present::Prose{"Replace after: the time of least cost, given the long-run cost of use in "
+                       "the fleet. Waiting saves: compared with replacement now."});
     if (report.worth) units.add(present::Prose{worth_text(report)});
     units.add(units_table(report));
     sections.push_back(units);

@@ -12,16 +12,16 @@
 
 namespace wearwell::prognosis {
 
-/// What another reading of one unit is worth.
+/// The value of another reading of one unit.
 struct WorthReport {
-  std::string unit, column;  ///< whose, and of what
+  std::string unit, column;  ///< unit and quantity
   Unit reading_unit;
   double after = 0;  ///< from now, SI
   std::vector<Outcome> outcomes;
   InspectionWorth worth;
 };
 
-/// Decisions with what is needed to speak of them.
+/// Decisions with what is needed to describe them.
 struct DecisionsReport {
   KnownLives lives;
   Question question;
@@ -29,7 +29,7 @@ struct DecisionsReport {
   std::optional<WorthReport> worth = {};
 };
 
-/// What the decisions rest on that may not hold.
+/// Assumptions of the decisions that may fail.
 std::vector<Check> decision_checks(const DecisionsReport& report);
 
 std::string decisions_text(const DecisionsReport& report);

@@ -15,7 +15,7 @@ using present::Table;
 namespace colour = plot::colour;
 
 const char* inspected_how(const DecisionsReport& report) {
-  return report.question.hidden ? "inspected, failures hidden" : "inspected, wear fully seen";
+  return report.question.hidden ? "inspected, failures hidden" : "inspected, wear fully observed";
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ Table policies_table(const DecisionsReport& report) {
                {"every", shown.unit(), present::life()},
                {"cost", shown.rate_unit()},
                {"fail in service", "%", present::digits(3)},
-               {"as good (1 %)", shown.unit(), {}, true}}};
+               {"within 1 %", shown.unit(), {}, true}}};
   const AgeReplacement& age = *decisions.age;
   const auto ages = [&](double from, double to) -> present::Cell {
     return present::Range{shown.at(from), shown.at(to)};
@@ -59,13 +59,13 @@ Table units_table(const DecisionsReport& report) {
   const Shown shown{report};
   const std::string unit = shown.unit();
   Table table{"units",
-              fmt::format("Each {} now, the most urgent first", report.lives.noun),
+              fmt::format("Each {} now, most urgent first", report.lives.noun),
               {{report.lives.noun},
                {report.lives.axis, unit},
-               {"remaining, 5 %", unit, present::life()},
+               {"RUL, 5 %", unit, present::life()},
                {"50 %", unit, present::life()},
                {"95 %", unit, present::life()},
-               {"limit behind it", "%", present::digits(3)},
+               {"past threshold", "%", present::digits(3)},
                {"replace after", unit, present::life()},
                {"fails before", "%", present::digits(3)},
                {"waiting saves", report.question.currency.empty() ? "1" : report.question.currency,
@@ -90,14 +90,14 @@ Table months_table(const DecisionsReport& report) {
   const Shown shown{report};
   const std::string level = fmt::format("{:.4g} %", 100 * report.question.service);
   Table table{"fleet",
-              fmt::format("How many of {} {}s, from now until the end of each month",
+              fmt::format("Numbers of {} {}s, from now until the end of each month",
                           report.lives.units.size(), report.lives.noun),
               {{"month", "1", present::given},
-               {"run by then", shown.unit()},
-               {"reach the limit", "1", present::digits(3)},
+               {"use by then", shown.unit()},
+               {"reach the threshold", "1", present::digits(3)},
                {"5 to 95 %", "1", present::given, true},
                {"spare parts, " + level, "1", present::given},
-               {"parts if replaced in time, " + level, "1", present::given}}};
+               {"spare parts if replaced in time, " + level, "1", present::given}}};
   for (const FleetMonth& each : report.decisions.months)
     table.rows.push_back({static_cast<double>(each.month), shown.at(each.until), mean(each.reached),
                           present::Range{present::count(each.low), present::count(each.high)},
@@ -112,7 +112,7 @@ html::Figure cost_figure(const DecisionsReport& report) {
   const std::vector<double> ages = ages_of(fresh.lives, 150);
   std::vector<double> x, y;
   const double reach = std::max(age.rate * 6, age.at_failure * 1.5);
-  double last = 0;  // from there on the curve is that of failure alone
+  double last = 0;  // beyond it the curve is that of replacement at failure
   for (const double each : ages) {
     const double rate = cost_rate(fresh, report.question.costs, each);
     if (rate > reach) continue;
@@ -127,9 +127,9 @@ html::Figure cost_figure(const DecisionsReport& report) {
   if (age.at_failure > 0)
     marks.push_back(plot::horizontal_line(
         shown.rate(age.at_failure), {colour::prior, "replaced at failure only", 1, 1.5, true}));
-  return {"cost", "What replacement by age costs",
-          "Cost in the long run against the age of replacement, averaged over what is not known of "
-          "the population.",
+  return {"cost", "Cost of replacement by age",
+          "Long-run cost against the age of replacement, averaged over the uncertainty of the "
+          "population.",
           plot::plot("Cost per unit of use against the age of replacement",
                      {fmt::format("Replaced at [{}]", html::unit(shown.unit())), false, 0.0, end},
                      {fmt::format("Cost [{}]", html::unit(shown.rate_unit())), false, 0.0},
@@ -155,14 +155,14 @@ html::Figure months_figure(const DecisionsReport& report) {
     middle.push_back(mean(each.reached));
     parts.push_back(static_cast<double>(each.parts_planned));
   }
-  return {"months", "How many reach their limit",
-          "Expected number with the interval that holds it with 90 %, where none is replaced "
-          "before; and the spare parts that are enough where each is replaced in time.",
-          plot::plot("Units that reach their limit against months",
+  return {"months", "Units that reach their failure threshold",
+          "Expected number with its 90 % interval, if none is replaced before; and the number of "
+          "spare parts that suffices if each is replaced in time.",
+          plot::plot("Units that reach their failure threshold against months",
                      month_axis(report.decisions.months.size()),
                      {fmt::format("{}s", html::capital(report.lives.noun)), false, 0.0},
                      {plot::area({{"x", month}, {"y", high}, {"y2", low}},
-                                 {colour::posterior, "90 % of cases", 0.25}),
+                                 {colour::posterior, "90 % interval", 0.25}),
                       plot::line({{"x", month}, {"y", middle}}, {colour::posterior, "expected"}),
                       plot::steps({{"x", month}, {"y", parts}},
                                   {colour::measured, "spare parts, replaced in time"})},

@@ -5,7 +5,7 @@
 
 namespace wearwell::prognosis {
 
-/// Whole numbers in the order of the numbers whose bits they are made of; not of NaN.
+/// Integers in the order of the floating-point numbers with the same bits; not for NaN.
 inline std::uint64_t order_of(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);  // no -0
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;

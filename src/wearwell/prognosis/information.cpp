@@ -13,7 +13,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-// Where it has failed with this probability, as it is known now.
+// Where it has failed with this probability, by the present forecast.
 double failed_by(std::span<const Outcome> outcomes, double after) {
   double sum = 0;
   for (const Outcome& each : outcomes)
@@ -23,7 +23,7 @@ double failed_by(std::span<const Outcome> outcomes, double after) {
   return sum;
 }
 
-// A unit as it would be after a reading.
+// The forecast of a unit after a reading.
 class Asked {
  public:
   Asked(const Tracker& tracker, const TrackedUnit& unit, const Reading& reading, std::size_t column,
@@ -41,7 +41,7 @@ class Asked {
     const UpdateResult taken = unit->take(reading, history_);
     if (!taken.problem.empty() || !taken.counted)
       throw InputError(
-          fmt::format("the reading ahead is not one that this unit takes: {}",
+          fmt::format("this unit does not accept the next reading: {}",
                       taken.problem.empty() ? "it does not count" : printable(taken.problem)));
     if (p_value) *p_value = taken.p_value;
     return unit;
@@ -60,11 +60,12 @@ class Asked {
   const History& history_;
 };
 
-// The middle of the predictive distribution: where nothing is a surprise, from a guess and a width.
+// The median of the predictive distribution, where the predictive p-value is 1, from a guess and a
+// width.
 double middle(const Asked& asked, double guess, double width) {
   double low = guess - width, high = guess + width;
   constexpr double golden = 0.61803398874989485;
-  // Outward until the guess is between; the surprise falls to both sides.
+  // Widens until the guess is bracketed; the p-value decreases to both sides.
   for (int i = 0; i < 60 && asked.p_value(low) > 0.01; ++i) low -= (high - low);
   for (int i = 0; i < 60 && asked.p_value(high) > 0.01; ++i) high += (high - low);
   double a = high - golden * (high - low), b = low + golden * (high - low);
@@ -85,7 +86,7 @@ double middle(const Asked& asked, double guess, double width) {
   return (low + high) / 2;
 }
 
-// The reading of this two-sided probability on one side of the middle.
+// The reading of this two-sided probability on one side of the median.
 double reading_at(const Asked& asked, double from, double step, double two_sided) {
   double inside = from, outside = from + step;
   for (int i = 0; i < 60 && asked.p_value(outside) > two_sided; ++i) {

@@ -13,8 +13,8 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double as_good = 1.01;
 
-// The sum of S(k interval) over k = 1, 2, ...; infinite where some never fail. Far out, where S is small, it is the
-// integral of S (Euler and Maclaurin).
+// The sum of S(k interval) over k = 1, 2, ...; infinite if some never fail. In the tail, where S is
+// small, it is the integral of S (Euler and Maclaurin).
 double later_inspections(const WeightedLives& lives, double interval) {
   const auto points = lives.points();
   if (!std::isfinite(points.back())) return never;
@@ -42,7 +42,7 @@ double rate_of(const PopulationLives& lives, const Inspected& inspected, double 
   return sum / mass;
 }
 
-// From a hundredth of a life that few do not reach to one that few exceed.
+// From a hundredth of a life that most reach to one that few exceed.
 std::vector<double> intervals_of(const PopulationLives& lives) {
   double low = never, high = 0;
   for (const WeightedLives& each : lives.lives) {
@@ -64,7 +64,7 @@ InspectionInterval cheapest(const PopulationLives& lives, const Inspected& inspe
   const Least least = least_of(rate, intervals);
   InspectionInterval best{least.at, least.value, least.at, least.at, 0, 0};
   for (const double each :
-       intervals) {  // the rate has teeth: what is as good need not be one piece
+       intervals) {  // the rate is not smooth: the near-optimal set may be disconnected
     if (rate(each) > as_good * best.rate) continue;
     best.from = std::min(best.from, each);
     best.to = std::max(best.to, each);

@@ -15,7 +15,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-// What columns of a table are to a campaign, by the names that it has for them.
+// Roles of a table's columns in a campaign, by the campaign's names.
 struct KindOfTable {
   const char* key;
   std::vector<std::string> columns;
@@ -45,7 +45,7 @@ const std::vector<KindOfTable>& kinds() {
   return all;
 }
 
-// One of them as the study names it and the state keeps it.
+// A table as the study names it and the state stores it.
 struct CampaignTable {
   const KindOfTable* kind = nullptr;
   std::string name;  ///< in Source::tables
@@ -84,7 +84,7 @@ std::vector<CampaignTable> tables_of(const Source& source) {
                         read_table_settings(section)};
     const auto kept = source.tables.find(table.name);
     if (kept == source.tables.end())
-      throw InputError(fmt::format("the state holds no table of data.{}", kind.key));
+      throw InputError(fmt::format("the state has no table of data.{}", kind.key));
     table.roles = roles_of(kind, is_name ? std::nullopt : section.table("columns"), kept->second);
     tables.push_back(std::move(table));
   }
@@ -97,7 +97,7 @@ bool has(const Table& table, const std::string& name) {
   });
 }
 
-// Its columns that a table lacks, by the names of its own headings or by those that the campaign has for them.
+// Its columns that a table lacks, by the table's headings or by the campaign's names.
 std::vector<std::string> missing(const CampaignTable& kept, const Table& table) {
   std::vector<std::string> names;
   for (const DataRoles::Named& each : kept.roles.used)
@@ -107,7 +107,7 @@ std::vector<std::string> missing(const CampaignTable& kept, const Table& table) 
   return names;
 }
 
-// Reads a file as that of the tables whose columns it has; anew only where they are written otherwise.
+// Reads a file as the tables whose columns it has; reads again only for tables in another format.
 void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tables) {
   std::vector<std::string> why;
   CampaignTable* of = nullptr;
@@ -124,14 +124,13 @@ void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tab
     }
     if (of)
       throw InputError(
-          fmt::format("{} has all columns of the {} and all of the {}: leave out those "
-                      "of one",
+          fmt::format("{} has all columns of both {} and {}: leave out the columns of one",
                       table.source, of->kind->key, each.kind->key));
     of = &each;
     read = table;
   }
   if (!of)
-    throw InputError(fmt::format("{} is none of the campaign's tables; it lacks of {}",
+    throw InputError(fmt::format("{} is not a table of this campaign; it lacks of {}",
                                  valid_utf8(file.string()), fmt::join(why, ", of ")));
   of->fresh.push_back(std::move(read));
 }

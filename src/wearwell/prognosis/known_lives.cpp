@@ -31,8 +31,9 @@ void refuse_other_columns(const Table& table, const Column& life) {
   for (const Column& each : table.columns) {
     if (&each == &life || each.name == "weight" || each.name == "unit" || each.name == "population")
       continue;
-    throw InputError(fmt::format("{}: the column '{}' is none of life, weight, unit, population",
-                                 table.source, printable(each.name)));
+    throw InputError(
+        fmt::format("{}: column '{}' is unknown; columns are life, weight, unit, population",
+                    table.source, printable(each.name)));
   }
 }
 
@@ -56,13 +57,12 @@ struct Points {
 
 const History nothing_read = [](const std::function<void(const Reading&)>&) {};
 
-// One place for all is known to the day: what chance leaves is not.
+// A point mass would leave no randomness.
 void refuse_one_place(const Table& table, const Points& points) {
   const auto [least, most] = std::minmax_element(points.life.begin(), points.life.end());
   if (*least < *most || !std::isfinite(*least)) return;
   throw InputError(fmt::format(
-      "{}: all lives of a new one lie at one place; points of their distribution are wanted, some "
-      "hundred of them",
+      "{}: all lives of a new unit are equal; give points of their distribution, some hundred",
       table.source));
 }
 
@@ -103,7 +103,7 @@ double share_in(const Shares& shares, const std::string& population) {
   return at == shares.end() ? 0 : at->second;
 }
 
-// A population is as likely whichever unit is looked at: what all units show is in its weight.
+// A population is equally likely for every unit: its weight contains the readings of all units.
 void refuse_other_shares(const Table& table, const TabledUnit& unit, const Shares& fresh) {
   const Shares of_unit = shares_of(unit.rows);
   Shares named = fresh;
@@ -111,15 +111,15 @@ void refuse_other_shares(const Table& table, const TabledUnit& unit, const Share
   for (const auto& [name, _] : named) {
     const double own = share_in(of_unit, name), all = share_in(fresh, name);
     if (std::abs(own - all) <= 1e-6) continue;
-    throw InputError(fmt::format(
-        "{}: the population '{}' has {:.6g} of the weight of the unit '{}' and {:.6g} of that of "
-        "new ones; units share the population, so that it must weigh the same in each, or leave "
-        "out the population of all rows of that unit",
-        table.source, printable(name), own, printable(unit.name), all));
+    throw InputError(
+        fmt::format("{}: the population '{}' has weight {:.6g} for the unit '{}' and {:.6g} for "
+                    "new units; units share the population, so give it the same weight in each, or "
+                    "leave out the population in all rows of that unit",
+                    table.source, printable(name), own, printable(unit.name), all));
   }
 }
 
-// What running units share: where their rows say it.
+// The shared population of running units, if their rows give it.
 void add_populations(const Table& table, const std::vector<TabledUnit>& units,
                      const Populations& fresh, KnownLives& known) {
   if (std::none_of(units.begin(), units.end(), [](const auto& each) { return each.apart(); }))
@@ -146,7 +146,7 @@ KnownUnit unit_of_rows(const Table& table, const TabledUnit& unit) {
   const Points points = unit.together();
   if (sum(points.weight) <= 0)
     throw InputError(
-        fmt::format("{}: the unit '{}' has no weight", table.source, printable(unit.name)));
+        fmt::format("{}: the unit '{}' has zero total weight", table.source, printable(unit.name)));
   return {unit.name, std::numeric_limits<double>::quiet_NaN(), 0, points.lives()};
 }
 
@@ -164,8 +164,8 @@ KnownLives lives_of_table(const Table& table) {
         table.source, printable(life.name)));
   const auto parsed = parse_unit(unit);
   if (!parsed || !parsed->linear || parsed->offset != 0)
-    throw InputError(fmt::format("{}: '{}' of the column '{}' is no unit of a life", table.source,
-                                 printable(unit), printable(life.name)));
+    throw InputError(fmt::format("{}: '{}' of the column '{}' is not a unit of a life",
+                                 table.source, printable(unit), printable(life.name)));
   known.unit = {unit, parsed->scale, 0};
   refuse_other_columns(table, life);
   const Column* weight = optional_column(table, "weight");

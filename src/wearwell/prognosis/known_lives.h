@@ -14,45 +14,47 @@
 
 namespace wearwell::prognosis {
 
-/// A unit that runs.
+/// A running unit.
 struct KnownUnit {
   std::string name;
-  double now = 0;           ///< where it stands along the axis, SI; NaN where that is not known
-  double passed = 0;        ///< the probability that its limit is behind it
-  WeightedLives remaining;  ///< from now on, given that it is not, SI
-  /// The same population by population, asked for where units are counted; none where this is all there is.
+  double now = 0;           ///< position on the axis, SI; NaN if unknown
+  double passed = 0;        ///< the probability that it has passed its threshold
+  WeightedLives remaining;  ///< from now on, given that it has not, SI
+  /// The same by population, evaluated when units are counted; empty if there is only the mixture.
   std::function<std::optional<InPopulations>()> in_populations = {};
 };
 
-/// Lives that decisions are made upon: of a new unit, and of those that run.
+/// The lives that decisions rest on: of a new unit, and of running ones.
 struct KnownLives {
-  std::string title;          ///< what they are from
-  std::string noun = "unit";  ///< what a unit is: "machine"
-  std::string axis = "life";  ///< along which life is counted: "distance"
+  std::string title;          ///< name of their source
+  std::string noun = "unit";  ///< noun for a unit: "machine"
+  std::string axis = "life";  ///< axis of life: "distance"
   Unit unit;                  ///< of the axis, as shown
-  bool trusted = true;        ///< the fit that they come from
-  PopulationLives fresh;      ///< of a new one; none where it is not known
+  bool trusted = true;        ///< the underlying fit
+  PopulationLives fresh;      ///< of a new unit; empty if unknown
   std::vector<KnownUnit> units;
   std::vector<double> populations =
-      {};  ///< that units may share: their weights; none: not told apart
+      {};  ///< weights of populations that units may share; empty: not distinguished
 };
 
-/// Lives as a table has them: a column `life`, with its unit in the heading ("life [h]"), and, where there are such,
-/// `weight` of each (1 without), `unit` (a name, whose rows are what remains to it; empty: of a new one) and `population` (rows that
-/// hold if units are of that one; of running units in all populations or in none). "inf" is a life that never ends. Throws InputError
-/// naming row, column and value.
+/// Lives from a table: a column `life`, with its unit in the heading ("life [h]"), and optionally
+/// `weight` (default 1), `unit` (a name, whose rows are its remaining useful life; empty: a new
+/// unit) and `population` (rows that hold if units are of that population; for running units in all
+/// populations or none). "inf" is a life that never ends. Throws InputError naming row, column and
+/// value.
 KnownLives lives_of_table(const Table& table);
 
-/// Lives of the units that a study has seen, and of a new one, averaged over what is not known of the population.
+/// Lives of the units of a study, and of a new one, averaged over the uncertainty of the
+/// population.
 KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted);
 
-/// A new unit's lives alone, to which units can be added.
+/// Only the lives of a new unit, to which units can be added.
 KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool trusted);
-/// `unit` is kept, to be asked population by population with what it has read since the study.
+/// `unit` must outlive this: it is evaluated by population, with its readings since the study.
 KnownUnit known_unit(const std::string& name, std::shared_ptr<const TrackedUnit> unit,
                      History history = {});
 
-/// A name that none of the study's units has.
+/// A name that no unit of the study has.
 std::string new_name(const Tracker& tracker);
 
 }  // namespace wearwell::prognosis

@@ -9,8 +9,9 @@ struct Least {
   double at = 0, value = 0;
 };
 
-/// The least value of a function over an interval, tried at `points` (ascending, not empty) and refined by golden section
-/// about the best three of these: functions that bend seldom between points.
+/// The minimum of a function over an interval, evaluated at `points` (ascending, not empty) and
+/// refined by golden section around the best three of these; for functions with few extrema between
+/// points.
 template <typename Function>
 Least least_of(const Function& function, const std::vector<double>& points) {
   std::vector<Least> tried;

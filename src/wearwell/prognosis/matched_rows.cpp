@@ -20,7 +20,7 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The unit of a column: in a row of units, said by the study, or in the heading.
+// The unit of a column: in a row of units, in the study, or in the heading.
 std::string unit_of(const Column& column, const std::string& said) {
   if (!said.empty()) return said;
   return column.unit.empty() ? read_heading(column.name, "").unit : bare_unit(column.unit);
@@ -50,7 +50,7 @@ class Matching {
     for (const Column& each : fresh_.columns) {
       if (!holds(taken_, each.name))
         found_.notes.push_back(
-            fmt::format("column '{}' is not in the study's data and was left out", each.name));
+            fmt::format("column '{}' is not in the study's data and is ignored", each.name));
     }
     return std::move(found_);
   }
@@ -63,7 +63,7 @@ class Matching {
     return nullptr;
   }
 
-  // By its heading, or else the only one of its name.
+  // By its heading, or else the only one with its name.
   const Column* column_for(const Column& like) const {
     std::vector<std::string> headings;
     const Column* of_name = nullptr;
@@ -108,7 +108,7 @@ class Matching {
     found_.table.columns.push_back(std::move(column));
   }
 
-  // How a value of `from` is written in the units of `like`.
+  // A value of `from` in the units of `like`.
   struct Way {
     double scale = 1, offset = 0;
     bool same = true;
@@ -122,14 +122,14 @@ class Matching {
     const auto to = parse_unit(to_text), own = parse_unit(from_text);
     if (to_text.empty() || from_text.empty() || !to || !own)
       throw InputError(fmt::format(
-          "{}, column '{}': {} {}; the study's data have '{}'{}. Write the heading as there",
+          "{}, column '{}': {} {}; the study's data have '{}'{}. Write the heading in that form",
           fresh_.source, from.name, from_text.empty() ? "has no unit" : "is in",
-          from_text.empty() ? "and may be meant in any" : from_text, like.name,
+          from_text.empty() ? "and may be in any unit" : from_text, like.name,
           to_text.empty() ? ", without a unit" : " in " + to_text));
     if (to->dimension != own->dimension || !to->linear || !own->linear)
       throw InputError(
-          fmt::format("{}, column '{}' is in {}, and the study's '{}' in {}: these are "
-                      "not units of one quantity",
+          fmt::format("{}, column '{}' is in {}, and the study's '{}' in {}: these units have "
+                      "different dimensions",
                       fresh_.source, from.name, from_text, like.name, to_text));
     found_.notes.push_back(
         fmt::format("column '{}' was converted from {} to {}", from.name, from_text, to_text));
@@ -142,7 +142,7 @@ class Matching {
     Column column{like.name, true, {}, {}};
     for (std::size_t i = 0; i < fresh_.rows; ++i) {
       const double value = cell_number(fresh_, from, i);
-      // To the digits that a decimal number has: 16.7 um is 0.0167 mm again.
+      // Rounds to decimal digits: 16.7 um becomes 0.0167 mm.
       column.numbers.push_back(
           way.same ? value
                    : std::strtod(fmt::format("{:.15g}", way.offset + way.scale * value).c_str(),

@@ -59,7 +59,7 @@ std::string cell(const Column& column, std::size_t row) {
   return std::isnan(column.numbers[row]) ? "" : fmt::format("{:.10g}", column.numbers[row]);
 }
 
-// What a row holds in some columns.
+// The cells of a row in some columns.
 std::string key(const Table& table, const Places& columns, std::size_t row) {
   std::string text;
   for (const std::size_t c : columns) text += cell(table.columns[c], row) + '\x1f';
@@ -134,7 +134,7 @@ std::string measured_text(const Table& table, const DataRoles& roles, std::size_
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// Rows of `after` that `before` has not; and, where one stands at the place of another number, that.
+// Rows of `after` that are not in `before`; also a different value in the place of an earlier one.
 void compare(const Table& before, const Table& after, JoinedData& joined) {
   std::unordered_map<std::string, std::size_t> left;
   const Places all = all_places(before);
@@ -152,9 +152,9 @@ void compare(const Table& before, const Table& after, JoinedData& joined) {
   std::vector<std::string> where = {*roles.axis};
   if (roles.unit) where.push_back(*roles.unit);
   const Places at = places_of(after, where);
-  std::unordered_map<std::string, std::string> known;  // what was measured at a place
+  std::unordered_map<std::string, std::string> known;  // columns measured at a place
   for (std::size_t i = 0; i < before.rows; ++i) {
-    // Where several readings a place are the rule, another one says nothing.
+    // Where several readings per place are normal, another one is no contradiction.
     if (!known.emplace(key(before, at, i), measured_text(before, roles, i)).second) return;
   }
   for (const std::size_t row : joined.fresh) {
@@ -163,11 +163,11 @@ void compare(const Table& before, const Table& after, JoinedData& joined) {
     if (is_new) continue;
     joined.contradictions.push_back(
         {row, place_text(after, roles, row),
-         fmt::format("{}, where {} is known already", now, there->second)});
+         fmt::format("{}, where {} is already known", now, there->second)});
   }
 }
 
-// Joins the rows of a file; what is there already counts as `repeated` says.
+// Joins the rows of a file; repeated rows count as `repeated` states.
 class Joining {
  public:
   Joining(Table table, DataRoles roles, Repeated repeated)
@@ -203,11 +203,10 @@ class Joining {
  private:
   [[noreturn]] void refuse(const Table& fresh, std::size_t row, std::size_t there) const {
     throw InputError(fmt::format(
-        "{}, row {} equals {}: it may be the same {} once more, or another one that came out "
-        "alike; "
-        "say --repeated once or --repeated another",
+        "{}, row {} equals {}: it may be the same {} again, or another one with an equal result; "
+        "add --repeated once or --repeated another",
         fresh.source, row + 1,
-        there < table_.rows ? fmt::format("row {} of what is known", there + 1)
+        there < table_.rows ? fmt::format("row {} of the known data", there + 1)
                             : fmt::format("row {} of the same file", there - table_.rows + 1),
         roles_.unit ? "reading" : roles_.noun));
   }
@@ -221,7 +220,7 @@ TableSection data_section(const Source& source) {
   for (TableSection& each : table_sections(source.study)) {
     if (each.path == "data") return each;
   }
-  throw InputError(fmt::format("{} has no data.file: there is nothing to add rows to",
+  throw InputError(fmt::format("{} has no data.file: new rows have no table to join",
                                source.study.path.string()));
 }
 
@@ -240,15 +239,14 @@ std::vector<std::string> used_columns(const DataRoles& roles) {
   return names;
 }
 
-// The answer of the query to `file`; the same as before where the rows are those.
+// The result of the query on `file`; unchanged if the rows are unchanged.
 Table asked_anew(const TableSection& section, const Table& before, const Table& was,
                  const Table& now, const DataRoles& roles) {
   const Table again = query_table(before, *section.sql);
   if (!same_content(in_order(again, roles), in_order(was, roles)))
     throw InputError(fmt::format(
-        "data.sql does not give of the rows that were kept of {} what it gave of the file: it asks "
-        "for what a table of numbers and texts does not hold. Add the rows to the file and fit "
-        "anew",
+        "data.sql gives another result on the saved rows of {} than on the file: it uses something "
+        "that a table of numbers and texts does not hold. Add the rows to the file and fit again",
         section.file));
   Table asked = query_table(now, *section.sql);
   asked.source = was.source;
@@ -314,7 +312,7 @@ JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Re
   const TableSection section = data_section(source);
   const auto found = source.tables.find(section.as_read);
   if (found == source.tables.end())
-    throw InputError(fmt::format("the state holds no table '{}'", printable(section.file)));
+    throw InputError(fmt::format("the state has no table '{}'", printable(section.file)));
   const Table& was = found->second;
   const TomlReader root = TomlReader::parse(source.study);
   JoinedData joined{source, data_roles(root, was)};
@@ -324,8 +322,8 @@ JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Re
   }
   const auto raw = source.tables.find(section.before_sql);
   if (raw == source.tables.end())
-    throw InputError(fmt::format("the state holds no table '{}'", printable(section.file)));
-  DataRoles of_file = joined.roles;  // a query gives columns of its own
+    throw InputError(fmt::format("the state has no table '{}'", printable(section.file)));
+  DataRoles of_file = joined.roles;  // a query computes its own columns
   of_file.used.clear(), of_file.words.clear();
   const std::vector<std::string> needed = named_in(*section.sql, raw->second);
   Joining joining(raw->second, of_file, repeated);

@@ -9,44 +9,46 @@
 
 namespace wearwell::prognosis {
 
-/// What a row is that equals one that is there already. Of one thing at one place along its life it is the same
-/// reading; of single tests it may be another test.
+/// Meaning of a row that equals an earlier one. For one unit at one place on the axis it is the
+/// same reading; for single tests it may be another test.
 enum class Repeated { ask, once, another };
 
-/// A reading that what is known already does not bear.
+/// A reading that contradicts the present posterior.
 struct Contradiction {
   std::size_t row = 0;  ///< of the joined table, from 0
   std::string place, why;
 };
 
-/// A study with the data that it had and new ones.
+/// A study with its old and new data.
 struct JoinedData {
-  Source source;  ///< rows in canonical order: by unit, along its life, then by what else they hold
+  Source source;  ///< rows in canonical order: by unit, along the axis, then by the other columns
   DataRoles roles;
   std::size_t before = 0, counted = 0, repeated = 0;  ///< rows of files
-  std::vector<std::size_t> fresh =
-      {};  ///< rows of the joined table that were not in it before, from 0
-  std::vector<Contradiction> contradictions = {};  ///< another number at a place
+  std::vector<std::size_t> fresh = {};  ///< rows of the joined table that are new, from 0
+  std::vector<Contradiction> contradictions = {};  ///< another value at a known place
   std::vector<std::string> notes = {};
 };
 
-/// Joins rows to the data of a study. What is known is a set of rows: the outcome is the same to the bit whatever came
-/// first and however rows were parted. Where the study has an sql, new rows are of the file that it asks, and it is
-/// asked anew. Throws InputError: columns, units or cells that do not fit, rows that may be repeated or other tests
-/// (`ask`), an sql that does not give the same of the rows that were kept.
+/// Joins rows to the data of a study. The data are a set of rows: the outcome is the same to the
+/// bit for any order and any division of the rows. Where the study has an sql, new rows belong to
+/// the file that the query reads, and the query runs again. Throws InputError: columns, units or
+/// cells that do not fit; rows that may be repeats or other tests (`ask`); an sql that gives
+/// another result on the saved rows.
 JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Repeated repeated);
 
-/// The same of one table, whose rows in canonical order are given back; `joined.roles` are its own, counts are added to.
+/// The same for one table; returns its rows in canonical order; `joined.roles` are its own, counts
+/// are incremented.
 Table joined_table(const Table& was, const std::vector<Table>& fresh, Repeated repeated,
                    JoinedData& joined);
 
-/// New rows in files, written as the study says of its own where the ending is the same.
+/// New rows in files, read with the format of the study's own files where the extension is the
+/// same.
 Table read_new_data(const Source& source, const std::filesystem::path& file);
 
 /// The table of the study's data.
 const Table& data_table(const Source& source);
 
-/// Whose a row is and where: "laser 5 at hours = 250".
+/// Unit and place: "laser 5 at hours = 250".
 std::string place_text(const Table& table, const DataRoles& roles, std::size_t row);
 
 /// The rows in canonical order.

@@ -17,10 +17,10 @@
 namespace wearwell::prognosis {
 namespace {
 
-constexpr double least_effective = 0.5;   // of the number when nodes were laid
-constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
+constexpr double least_effective = 0.5;   // of the effective sample size when nodes were built
+constexpr double hardly_possible = 1e-4;  // a smaller p-value contradicts
 constexpr std::size_t most_sampled = 128;
-constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
+constexpr double doubtful = 0.05;  // a smaller p-value is summed over all nodes
 constexpr double negligible = 1e-12;
 constexpr std::string_view mark = "wearwell nodes 1";
 
@@ -32,7 +32,7 @@ bool carries(double log_weight) {
 
 class NodeUnit final : public TrackedUnit {
  public:
-  // Without nodes: they are laid, loaded, or another's.
+  // Without nodes: they are built, loaded, or copied.
   NodeUnit(Model model, const std::string& unit) : model_(std::move(model)) { rename(unit); }
 
   void rename(const std::string& unit) {
@@ -66,7 +66,7 @@ class NodeUnit final : public TrackedUnit {
   std::string unit_, refusal_;
   NodeCloud nodes_;
   std::vector<double> weight_;  // of nodes_; sum to 1
-  Reading last_;                // the farthest; without numbers where there is none
+  Reading last_;                // the farthest; NaN where there is none
   double effective_ = 0, laid_effective_ = 0;
   std::size_t readings_ = 0;
 };
@@ -78,7 +78,7 @@ void NodeUnit::weigh() {
   effective_ = 0;
   if (!(top > -infinity && top < infinity)) return;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
-    // To single precision, as states are saved: weights to a relative 1e-6.
+    // In single precision, as states are saved: weights to a relative 1e-6.
     double& log_weight = nodes_.log_weight[i];
     log_weight = static_cast<float>(log_weight - top);
     weight_[i] = std::exp(log_weight);
@@ -89,7 +89,7 @@ void NodeUnit::weigh() {
   effective_ = sum * sum / square;
 }
 
-// False, and all as it was, where no node goes through all of them.
+// False, with nothing changed, if no node passes through all of them.
 bool NodeUnit::lay(std::vector<Reading> all) {
   const auto before = [&](const Reading& a, const Reading& b) {
     return std::pair(place(a), std::tie(a.numbers, a.labels)) <
@@ -117,7 +117,7 @@ bool NodeUnit::lay_with(const Reading& reading, const History& history) {
   return lay(std::move(all));
 }
 
-// Two-sided, by few nodes that stand for all where that will do.
+// Two-sided, from a subset of representative nodes where that is accurate enough.
 double NodeUnit::p_value(const NodeReading& reading_at) const {
   double before = 0, below = 0;
   std::size_t drawn = 0;
@@ -146,7 +146,7 @@ UpdateResult NodeUnit::take(const Reading& reading, const History& history) {
   UpdateResult taken;
   if (reading.numbers.size() != model_->columns.size() ||
       reading.labels.size() != model_->labels.size())
-    throw InputError(fmt::format("a reading has {} numbers and {} labels: {} and {} are expected",
+    throw InputError(fmt::format("a reading has {} numbers and {} labels; expected are {} and {}",
                                  reading.numbers.size(), reading.labels.size(),
                                  model_->columns.size(), model_->labels.size()));
   taken.problem = refusal_.empty() ? model_->problem(reading) : refusal_;
@@ -167,7 +167,7 @@ UpdateResult NodeUnit::take(const Reading& reading, const History& history) {
     if (last_.numbers.empty() || place(reading) >= place(last_)) last_ = reading;
     if (effective_ < least_effective * laid_effective_) lay_with(reading, history);
   } else if (!lay_with(reading, history)) {
-    taken.problem = "no unit that the population allows can show this after what it showed before";
+    taken.problem = "no unit of the population can show this after its earlier readings";
     return taken;
   }
   ++readings_;
@@ -181,7 +181,7 @@ Forecast NodeUnit::forecast() const {
   forecast.effective = effective_;
   const std::optional<DegradationPath> degradation_path =
       is_refused() ? std::optional<DegradationPath>() : this->degradation_path();
-  if (!degradation_path) {  // nothing says how it goes on
+  if (!degradation_path) {  // nothing determines its further path
     forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
         std::numeric_limits<double>::quiet_NaN();
     return forecast;
@@ -215,7 +215,7 @@ std::vector<ForecastBand> NodeUnit::ahead(std::span<const double> places) const 
       is_refused() ? std::optional<DegradationPath>() : this->degradation_path();
   if (!degradation_path) return {};
   if (!places.empty() && places.front() < degradation_path->now)
-    throw std::invalid_argument("a path ahead begins where the unit is");
+    throw std::invalid_argument("a forecast must start at the unit's present position");
   std::vector<ForecastBand> path;
   std::vector<double> level(weight_.size());
   for (const double at : places) {
@@ -243,37 +243,38 @@ std::string NodeUnit::save() const {
   return signed_unit_state(std::move(to));
 }
 
-// `columns`: of the nodes of every unit that is followed.
+// `columns`: of the nodes of every tracked unit.
 void NodeUnit::load(ByteReader& from, Eigen::Index columns) {
   readings_ = from.u64();
   laid_effective_ = from.number();
   const std::size_t count = from.count(sizeof(float));
   if (is_refused()) columns = 0;
   if (from.u64() != static_cast<std::size_t>(columns))
-    from.fail("its nodes have another number of numbers");
+    from.fail("its nodes have another number of values");
   from.require(count, sizeof(float) * (static_cast<std::size_t>(columns) + 1));
   nodes_.values.resize(static_cast<Eigen::Index>(count), columns);
   nodes_.log_weight.resize(count);
   for (Eigen::Index i = 0; i < nodes_.values.rows(); ++i) {
     for (Eigen::Index j = 0; j < nodes_.values.cols(); ++j) {
       nodes_.values(i, j) = from.single();
-      if (!std::isfinite(nodes_.values(i, j))) from.fail("a node is no number");
+      if (!std::isfinite(nodes_.values(i, j))) from.fail("a node is not a number");
     }
   }
   for (double& each : nodes_.log_weight) {
     each = from.single();
-    if (!(each < infinity)) from.fail("a weight is no number");
+    if (!(each < infinity)) from.fail("a weight is not a number");
   }
   const std::size_t numbers = from.count(sizeof(double));
-  if (numbers != 0 && numbers != model_->columns.size()) from.fail("its last reading is none");
+  if (numbers != 0 && numbers != model_->columns.size())
+    from.fail("its last reading is not a number");
   last_ = {};
   for (std::size_t i = 0; i < numbers; ++i) last_.numbers.push_back(from.number());
   for (std::size_t i = 0; numbers > 0 && i < model_->labels.size(); ++i)
     last_.labels.push_back(from.text());
   from.end();
-  if (numbers > 0 && !model_->problem(last_).empty()) from.fail("its last reading is none");
+  if (numbers > 0 && !model_->problem(last_).empty()) from.fail("its last reading is not a number");
   weigh();
-  if (!is_refused() && !(effective_ > 0)) from.fail("no node carries anything");
+  if (!is_refused() && !(effective_ > 0)) from.fail("all nodes have weight zero");
 }
 
 class NodeTracker final : public Tracker {
@@ -283,8 +284,7 @@ class NodeTracker final : public Tracker {
     NodeUnit first(model_, model_->seen.empty() ? "" : model_->seen.front());
     if (!first.lay({}) || (!fresh_.is_refused() && !fresh_.lay({})))
       throw InputError(
-          "the posterior that was carried on gives the units of its study no weight: it is "
-          "damaged");
+          "the saved posterior gives the units of its study weight zero: it is damaged");
     columns_ = first.columns();
   }
 
@@ -317,7 +317,7 @@ class NodeTracker final : public Tracker {
 
  private:
   std::shared_ptr<const NodeModel> model_;
-  NodeUnit fresh_;  // without a name: of every unit that the study has not seen
+  NodeUnit fresh_;  // without a name: any unit that is not in the study
   Eigen::Index columns_ = 0;
 };
 

@@ -11,29 +11,31 @@
 
 namespace wearwell::prognosis {
 
-/// All that the readings and the life of one unit depend on, as weighted points: a row of numbers a node.
+/// All that the readings and the life of one unit depend on, as weighted points: one row of values
+/// per node.
 struct NodeCloud {
   Points values;
   std::vector<double> log_weight;  ///< not normalized
 };
 
-/// The law of one reading, given a node; the unit's rows do not depend on each other.
+/// The distribution of one reading, given a node; the unit's rows are independent.
 struct NodeReading {
   std::function<double(const double* node)> log_density;
   std::function<double(const double* node)> cdf;
 };
 
-/// How a unit goes on from where it is.
+/// How a unit continues from its present position.
 struct DegradationPath {
   double now = 0;  ///< along the axis, SI
-  /// Where along the axis a node's path reaches the limit: at most `now` where that is behind it, infinite where it
-  /// never does.
+  /// Where on the axis a node's path reaches the threshold: at most `now` if that is past, infinite
+  /// if it never does.
   std::function<double(const double* node)> end;
-  std::function<double(const double* node, double at)> level;  ///< what is limited, from `now` on
+  /// the quantity with the threshold, from `now` on
+  std::function<double(const double* node, double at)> level;
 };
 
-/// What a trade says of its units, of whose rows none depends on another: all else is done by nodes (docs/explanation/tracking.md).
-/// Functions are called by many threads at once.
+/// What a model knows of its units, whose rows are independent; the tracker does the rest by nodes
+/// (docs/explanation/tracking.md). Functions are called by many threads at once.
 struct NodeModel {
   std::vector<ReadingColumn> columns;
   std::vector<std::string> labels;
@@ -42,21 +44,22 @@ struct NodeModel {
   Quantity limit;
   std::vector<std::string> seen;
   std::string fingerprint;  ///< of study and posterior: states of others are refused
-  /// Why there can be no unit of that name; empty where there can be.
+  /// Why a unit of that name is invalid; empty if it is valid.
   std::function<std::string(const std::string& unit)> refusal;
-  /// Why this is no reading; empty where it is one.
+  /// Why a reading is invalid; empty if it is valid.
   std::function<std::string(const Reading& reading)> problem;
   std::function<NodeReading(const Reading& reading)> reading;
-  /// Nodes of a unit that has shown `readings` since the study, along the axis: their weights have the study's rows and
-  /// these readings in them. None where no unit can show that. Of a unit that the study has not seen whatever its name.
+  /// Nodes of a unit with these `readings` since the study, along the axis; their weights include
+  /// the study's rows and these readings. Empty if no unit can show that. A unit that is not in the
+  /// study gets the same nodes for any name.
   std::function<NodeCloud(const std::string& unit, std::span<const Reading> readings)> lay;
-  /// `last`: its farthest reading since the study; null where there is none. Nothing where no reading and no word of the
-  /// study says how it goes on.
+  /// `last`: its farthest reading since the study; null if there is none. Empty if neither a
+  /// reading nor the study determines how the unit continues.
   std::function<std::optional<DegradationPath>(const std::string& unit, const Reading* last)>
       degradation_path;
 };
 
-/// What follows the units of such a trade.
+/// The tracker for units of such a model.
 std::unique_ptr<const Tracker> node_tracker(NodeModel model);
 
 }  // namespace wearwell::prognosis

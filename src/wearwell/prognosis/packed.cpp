@@ -13,23 +13,24 @@ namespace {
 
 constexpr std::size_t piece_length = std::size_t{1} << 20;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 36;  // of a body
-constexpr std::uint64_t most_packed = 1100;                   // more to one zlib cannot pack
+// zlib does not compress more in one call
+constexpr std::uint64_t most_packed = 1100;
 
 struct Piece {
   std::string bytes;
   uLong checksum = 0;
 };
 
-// Deflated without a head, up to the end of a byte, so that another can stand behind it.
+// Deflated without a header, up to the end of a byte, so that another piece can follow.
 Piece packed_piece(std::string_view body, bool last) {
   constexpr int level = 1, window = 15, memory = 9;
   z_stream stream = {};
   Piece piece;
   if (deflateInit2(&stream, level, Z_DEFLATED, -window, memory, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw MachineError("no memory for the state of the result");
+    throw MachineError("out of memory for the state of the result");
   constexpr std::size_t end_of_byte = 16;
   piece.bytes.resize(deflateBound(&stream, body.size()) + end_of_byte);
-  // zlib reads only, but its interface is older than const.
+  // zlib only reads it, but its interface predates const.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(body.data()));
   stream.avail_in = static_cast<uInt>(body.size());
   stream.next_out = reinterpret_cast<Bytef*>(piece.bytes.data());
@@ -64,7 +65,7 @@ std::string packed(std::string_view body) {
 
 std::string unpacked(std::string_view bytes, std::uint64_t size, const std::string& file) {
   const auto damaged = [&] {
-    throw InputError(fmt::format("{} is damaged: what is packed in it has another length", file));
+    throw InputError(fmt::format("{} is damaged: its packed content has another length", file));
   };
   if (size > most_bytes || size / most_packed > bytes.size()) damaged();
   std::string body(size, '\0');

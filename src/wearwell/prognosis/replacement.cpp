@@ -11,7 +11,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double as_good = 1.01;
-// What points instead of a density save by chance is less than this share.
+// Savings below this share may be an artifact of points that stand for a density.
 constexpr double no_saving = 1.001;
 
 double infinite_share(const WeightedLives& lives) {
@@ -21,7 +21,7 @@ double infinite_share(const WeightedLives& lives) {
   return share;
 }
 
-// Where the last finite life ends, and all lie before.
+// The end of the last finite life; all lie before.
 double last_of(const WeightedLives& lives) {
   return lives.quantile((1 - infinite_share(lives)) * (1 - 1e-12));
 }
@@ -127,7 +127,7 @@ std::vector<double> ages_of(std::span<const WeightedLives> lives, std::size_t mo
     const std::size_t finite = static_cast<std::size_t>(
         std::lower_bound(points.begin(), points.end(), never) - points.begin());
     if (finite == 0) continue;
-    // Few risks make the tails of each: evenly by probability, and more finely where it begins.
+    // Few points make up the tails: evenly by probability, more finely at the start.
     const double reach = 1 - infinite_share(each);
     const std::size_t count = std::max<std::size_t>(8, most / lives.size());
     for (std::size_t i = 1; i < count; ++i) {

@@ -7,16 +7,17 @@
 
 namespace wearwell::prognosis {
 
-/// What decisions cost, all in one currency.
+/// Costs of decisions, all in one currency.
 struct Costs {
-  double failure = 0;  ///< of a unit that reaches its limit in service, its replacement included
-  double replacement = 0;  ///< of one that is replaced before
+  /// of a unit that reaches its threshold in service, including its replacement
+  double failure = 0;
+  double replacement = 0;  ///< of a preventive replacement
   double inspection = 0;   ///< of one inspection
 };
 
-/// Lives of units of a population that is not known exactly: what they are where it is each of these. Its units
-/// share it, so that costs in the long run are averaged over populations, never lives. One entry: the population
-/// is known, or each unit comes from another.
+/// Lives of units whose population is uncertain: one entry per possible population. Units share the
+/// population, so long-run costs are averaged over populations, but lives are not. One entry: the
+/// population is known, or each unit comes from another.
 struct PopulationLives {
   std::vector<WeightedLives> lives;
   std::vector<double> weight = {1};
@@ -29,44 +30,46 @@ struct PopulationLives {
   double survival(double x) const;  ///< of a new unit
 };
 
-/// Cost per unit of the axis in the long run, where each unit is replaced at failure or at this age, whichever
-/// comes first: [c_p S(T) + c_f F(T)] / integral of S from 0 to T (Barlow and Proschan, Mathematical Theory of
-/// Reliability, 1965, chapter 3; Barlow and Hunter, Operations Research 8 (1960) 90), averaged over populations. Infinite `age`: at
-/// failure only, which costs nothing where some never fail.
+/// Long-run cost per unit of the axis if each unit is replaced at failure or at this age, whichever
+/// comes first: [c_p S(T) + c_f F(T)] / integral of S from 0 to T (Barlow and Proschan,
+/// Mathematical Theory of Reliability, 1965, chapter 3; Barlow and Hunter, Operations Research 8
+/// (1960) 90), averaged over populations. Infinite `age`: at failure only, which costs nothing if
+/// some never fail.
 double cost_rate(const PopulationLives& lives, const Costs& costs, double age);
 
-/// Replacement by age that costs least.
+/// The age replacement of least cost.
 struct AgeReplacement {
   double age = 0;           ///< infinite: at failure only, which costs at most 0.1 % more
   double rate = 0;          ///< cost per unit of the axis
   double at_failure = 0;    ///< the same, replaced at failure only
   double from = 0, to = 0;  ///< ages about it whose rate is at most 1 % above; `to` may be infinite
   double failing = 0;       ///< the share of units that fail before that age
-  /// The least lies where lives end: some never fail as far as they were computed, and what they do there is
-  /// not known.
+  /// The minimum is at the end of the computed lives: some never fail within this range, and their
+  /// later behavior is unknown.
   bool beyond_known = false;
 };
 AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs);
 
-/// When to replace one unit that runs.
+/// The time of replacement of one running unit.
 struct UnitReplacement {
   double after = 0;  ///< from now on; 0: now; infinite: at failure only
   double cost =
-      0;  ///< c_p S + c_f F - rate * what is lived until then: against a fleet that costs `rate`
+      0;  ///< c_p S + c_f F - rate * use until then: compared with a fleet that costs `rate`
   double now = 0;      ///< the same, replaced now: c_p
   double waiting = 0;  ///< the same, replaced at failure only
   double failing = 0;  ///< the probability that it fails before
 };
 
-/// The moment that costs least, held against what each further unit of the axis costs the fleet in the long run:
-/// a unit goes on as long as its own risk costs less, h(t) (c_f - c_p) < rate (Bergman, Journal of Applied Probability 15
-/// (1978) 106). `remaining` is of a unit that has not failed.
+/// The time of least cost, given the fleet's cost per further unit of the axis: a unit continues as
+/// long as its own risk costs less, h(t) (c_f - c_p) < rate (Bergman, Journal of Applied
+/// Probability 15 (1978) 106). `remaining` is of a unit that has not failed.
 UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& costs, double rate);
 
-/// The same cost at a given moment.
+/// The same cost at a given time.
 double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after);
 
-/// Where the distribution of lives bends, ascending, thinned to about `most`: ages worth trying.
+/// Points of change of the distribution of lives, ascending, thinned to about `most`: candidate
+/// ages.
 std::vector<double> ages_of(std::span<const WeightedLives> lives, std::size_t most = 400);
 
 }  // namespace wearwell::prognosis

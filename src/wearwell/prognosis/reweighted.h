@@ -5,16 +5,16 @@
 
 namespace wearwell::prognosis {
 
-/// A posterior moved by new data without laying its nodes anew: each weight times the ratio of the two densities there.
+/// A posterior updated by new data with fixed nodes: each weight times the ratio of the two
+/// densities there.
 struct Reweighted {
   WeightedDraws draws;
   double effective = 0;  ///< 1 / sum of squares of the weights
-  double kept =
-      0;  ///< that over what it was before: how much of the posterior the nodes still resolve
+  double kept = 0;  ///< that over its earlier value: how well the nodes still resolve the posterior
 };
 Reweighted reweighted(const WeightedDraws& draws, const Posterior& before, const Posterior& after);
 
-/// Whether lives may be read off it (measured in docs/how-to/state.md).
+/// Whether lives may be computed from it (measured in docs/how-to/state.md).
 bool resolves(const Reweighted& moved);
 
 }  // namespace wearwell::prognosis

@@ -41,15 +41,16 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
     throw InputError(fmt::format("--unit: {}", why));
   const auto unit = tracker.begin(name);
   const Unit& reported = tracker.axis().unit;
-  UnitLife life{.of = tracker.noun() + " " + name, .at = "until it breaks", .unit = reported.text};
+  UnitLife life{.of = tracker.noun() + " " + name, .at = "until failure", .unit = reported.text};
   life.name = "remaining useful life";
   const double seen = from_si(reported, unit->forecast().now);
   if (question.survived) {
     const double survived = along_life("--survived", *question.survived, life.unit);
     if (survived < seen * (1 - 1e-12))
-      throw InputError(fmt::format(
-          "--survived: {} came to {:.6g} {} already: leave it out, what remains counts from there",
-          printable(life.of), seen, life.unit));
+      throw InputError(
+          fmt::format("--survived: {} has already reached {:.6g} {}: leave out --survived; the "
+                      "remaining life counts from there",
+                      printable(life.of), seen, life.unit));
     Reading reading{
         std::vector<double>(tracker.columns().size(), std::numeric_limits<double>::quiet_NaN()),
         {}};
@@ -63,7 +64,7 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
   }
   const Forecast forecast = unit->forecast();
   if (std::isnan(forecast.passed))
-    throw InputError(fmt::format("nothing is known of the life of {}", printable(life.of)));
+    throw InputError(fmt::format("the study has no life of {}", printable(life.of)));
   life.from = from_si(reported, forecast.now);
   life.numerical_error = relative_error(forecast.remaining, tracker.probability_error());
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {

@@ -8,11 +8,13 @@
 
 namespace wearwell::prognosis {
 
-/// The name among those that the tracker has seen, or that it refuses, which a question means: "J7", or "part J7". Nothing where it means none.
+/// The name among those that the tracker knows, or refuses, which a question means: "J7", or "part
+/// J7". Empty if it means none.
 std::optional<std::string> tracked_name(const Tracker& tracker, const std::string& asked);
 
-/// What remains to a unit on line that has shown nothing since the study but that it came to `LifeQuestion::survived`:
-/// of studies whose only reading is that. Throws InputError where the tracker refuses the unit, or what it is said to have survived.
+/// The remaining useful life of a tracked unit whose only new reading is `LifeQuestion::survived`:
+/// for studies whose only reading is that. Throws InputError if the tracker refuses the unit or the
+/// value.
 UnitLife tracked_life(const Tracker& tracker, const std::string& name,
                       const LifeQuestion& question);
 

@@ -19,7 +19,8 @@
 #include "wearwell/prognosis/data_roles.h"
 #include "wearwell/study/inference_data.h"
 
-// Longer than others: each kind of study tells lives in its own way, and all are one question.
+// Longer than others: each kind of study reports lives in its own way, but the question is the
+// same.
 
 namespace wearwell::prognosis {
 namespace {
@@ -28,7 +29,7 @@ double probit(double p) {
   return boost::math::quantile(boost::math::normal(), p);
 }
 
-// Of a study with one life: that of a joint, or of a new bearing.
+// For a study with one life: of a joint, or of a new bearing.
 UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
                     const LifeQuestion& question) {
   const LifeDistribution distribution = request.distribution(posterior);
@@ -41,8 +42,8 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
     const double survived = along_life("--survived", *question.survived, life.unit);
     if (survived < from)
       throw InputError(
-          fmt::format("--survived: {} lies before the last inspection, after {:.6g} {}: leave it "
-                      "out, what remains counts from there",
+          fmt::format("--survived: {} lies before the last inspection, at {:.6g} {}: leave out "
+                      "--survived; the remaining life counts from there",
                       *question.survived, from, life.unit));
     from = survived;
   }
@@ -51,10 +52,10 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
   const double before = from > 0 ? distribution.cdf(from) : 0;
   if (from > 0) life.passed = before;
   if (before > 1 - 1e-3)
-    throw InputError(fmt::format(
-        "the {} has reached its limit before {:.6g} {} with a probability of more than 99.9 %: "
-        "of what would remain nothing is known",
-        life.of, from, life.unit));
+    throw InputError(
+        fmt::format("the {} has reached its threshold before {:.6g} {} with a probability of more "
+                    "than 99.9 %; its remaining useful life is undetermined",
+                    life.of, from, life.unit));
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     const double p = percent / 100;
     life.share.push_back(p);
@@ -77,7 +78,7 @@ Source with_wishes(const Source& source,
   return asked;
 }
 
-// A bearing study tells the life of a new one unless it is asked for one of its own.
+// A bearing study reports the life of a new bearing unless --unit names one.
 Source of_one_bearing(const Source& source, const LifeQuestion& question) {
   const TomlReader root = TomlReader::parse(source.study);
   if (question.unit.empty() || root.required_text("model") != "bearing-wear") return source;
@@ -85,9 +86,8 @@ Source of_one_bearing(const Source& source, const LifeQuestion& question) {
   const DataRoles roles = data_roles(root, table);
   if (!roles.unit)
     throw InputError(
-        "--unit: the rows of this study do not say which bearing they are of "
-        "(data.columns.bearing); "
-        "without --unit the life of a new one is given");
+        "--unit: the rows of this study do not name their bearing (data.columns.bearing); without "
+        "--unit you get the life of a new one");
   const Column& column = table.column(*roles.unit);
   std::vector<std::string> known;
   for (std::size_t row = 0; row < table.rows; ++row) known.push_back(cell_word(column, row));
@@ -99,7 +99,7 @@ Source of_one_bearing(const Source& source, const LifeQuestion& question) {
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   throw InputError(
-      fmt::format("--unit: no '{}' is known{} (known: {}; without --unit a new bearing)",
+      fmt::format("--unit: '{}' is unknown{} (known: {}; without --unit a new bearing)",
                   question.unit, did_you_mean(question.unit, known), fmt::join(known, ", ")));
 }
 
@@ -128,7 +128,7 @@ std::string label_of(const QuantityRequest& life) {
   return life.of.substr(std::min(life.of.find(' ') + 1, life.of.size()));
 }
 
-// The one that is meant.
+// The name that matches.
 const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
                               const LifeQuestion& question) {
   std::vector<std::string> names, fresh;
@@ -142,19 +142,19 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
     is_new(each) ? fresh.push_back(bare) : names.push_back(label_of(each));
     if (fits) fitting.push_back(&each);
   }
-  // Of a new one both its life and what remains where it has survived so far.
+  // For a new unit both its life and its remaining life where it has survived so far.
   if (fitting.size() == 2 && fitting[0]->of == fitting[1]->of) return *fitting[1];
   if (fitting.size() == 1) return *fitting[0];
   if (all.empty())
     throw InputError(
-        "the study asks for no life: [predict] needs a limit (or, of S-N tests, a stress)");
+        "the study has no life to report: [predict] needs a limit (or, for S-N tests, a stress)");
   const auto once = [](std::vector<std::string>& each) {
     std::sort(each.begin(), each.end());
     each.erase(std::unique(each.begin(), each.end()), each.end());
   };
   once(names);
   once(fresh);
-  // Where there is but one kind of new ones nobody has to name it.
+  // With only one kind of new unit no name is needed.
   const bool unnamed = fresh.size() == 1;
   std::string known = fmt::format("{}", fmt::join(names, ", "));
   if (!unnamed && !fresh.empty())
@@ -163,24 +163,25 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
   if (unnamed)
     known += fmt::format("{}without --unit a new {}", known.empty() ? "" : "; ", fresh.front());
   if (question.unit.empty())
-    throw InputError(fmt::format("--unit is missing: whose life? ({})", known));
+    throw InputError(fmt::format("--unit is missing: name the unit ({})", known));
   if (!unnamed) names.insert(names.end(), fresh.begin(), fresh.end());
-  throw InputError(fmt::format("--unit: no '{}' is known{} ({})", question.unit,
+  throw InputError(fmt::format("--unit: '{}' is unknown{} ({})", question.unit,
                                did_you_mean(question.unit, names), known));
 }
 
-// A unit that was read later than what it is said to have come to counts from its last reading.
+// A unit with a reading beyond its given survival counts from its last reading.
 void require_ahead(const QuantityRequest& mine, const std::vector<QuantityRequest>& all,
                    const std::string& survived) {
   for (const QuantityRequest& each : all) {
     if (!is_new(each) || each.name != "remaining useful life" || each.at == mine.at) continue;
     throw InputError(fmt::format(
-        "--survived: {} was read beyond {} already: leave it out, what remains counts {}", mine.of,
-        survived, mine.at.substr(std::min(mine.at.rfind("from "), mine.at.size()))));
+        "--survived: {} has readings beyond {} already: leave out --survived; the remaining life "
+        "counts {}",
+        mine.of, survived, mine.at.substr(std::min(mine.at.rfind("from "), mine.at.size()))));
   }
 }
 
-// The distribution of that one.
+// The distribution of the named unit.
 PredictiveLife life_of(const QuantityRequest& mine, const PosteriorStudy& study,
                        const WeightedDraws& posterior) {
   for (const QuantityGroup& group : study.quantity_groups) {
@@ -194,8 +195,8 @@ PredictiveLife life_of(const QuantityRequest& mine, const PosteriorStudy& study,
   throw InputError(fmt::format("the study has no life of {}", mine.of));
 }
 
-// From `survived` on, where tests to failure at one load are asked of those that are left: `known` is then
-// the life from the beginning.
+// From `survived` on, where the question concerns the survivors of tests to failure at one load:
+// `known` is then the life from the start.
 UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
                    const LifeQuestion& question, bool from_beginning) {
   UnitLife life{.of = mine.of, .at = mine.at, .unit = mine.unit.text};
@@ -207,7 +208,7 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
     gone = known.distribution.cdf(to_si(mine.unit, from));
     if (gone > 1 - 1e-3)
       throw InputError(
-          fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
+          fmt::format("--survived: hardly any {} reaches {}", life.of, *question.survived));
     life.name = "remaining useful life";
     life.from = from;
     life.passed = gone;
@@ -220,9 +221,9 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
     const double value =
         from_si(mine.unit, known.distribution.quantile(gone + p * (1 - gone))) - from;
     if (std::isnan(value))
-      throw InputError(fmt::format("of the {} of {} nothing is known: hardly any comes so far",
+      throw InputError(fmt::format("the {} of {} is undetermined: hardly any gets this far",
                                    life.name, life.of));
-    before = std::max(before, value);  // quantiles are solved for, to so many digits
+    before = std::max(before, value);  // quantiles are solved to this many digits
     life.share.push_back(p);
     life.life.push_back(before);
   }
@@ -293,8 +294,8 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
     const std::string name = data.text("joint").value_or("joint");
     if (study.life->of.empty() && !question.unit.empty() && question.unit != name)
       throw InputError(fmt::format(
-          "--unit: this study is of one joint, called '{}' (data.joint): leave it out. Joints that "
-          "wear each at its own pace are a study of model \"formula\" with [random_effects.UNIT]",
+          "--unit: this study is of one joint, called '{}' (data.joint): leave out --unit. Joints "
+          "with different wear rates need a study of model \"formula\" with [random_effects.UNIT]",
           printable(name)));
     return of_request(*study.life, posterior, question);
   }

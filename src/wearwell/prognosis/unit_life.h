@@ -11,22 +11,22 @@
 
 namespace wearwell::prognosis {
 
-/// What is asked of a life.
+/// The question about a life.
 struct LifeQuestion {
-  std::string unit = {};                     ///< "J7"; empty of a new one
-  std::optional<std::string> survived = {};  ///< "1e4 cycles": what it has come to
+  std::string unit = {};                     ///< "J7"; empty for a new unit
+  std::optional<std::string> survived = {};  ///< "1e4 cycles": the use it has survived
   std::optional<std::string> horizon = {};   ///< "500 h": from then on
-  std::optional<double> risk = {};           ///< that is tolerated until the next inspection
+  std::optional<double> risk = {};           ///< risk tolerated until the next inspection
 };
 
-/// The life of one unit, all that is unknown averaged in. Lives count from `from` on.
+/// The life of one unit, averaged over all uncertainty. Lives count from `from`.
 struct UnitLife {
   std::string of = {}, at = {}, unit = {};  ///< "machine J7", "to wear = 100 um", "h"
   std::string name = {};                    ///< "life", or "remaining useful life"
   std::optional<double> from = {};          ///< along the axis
   std::optional<double> passed = {};        ///< the probability that the end lies before that
-  std::optional<double> never = {};  ///< where that may be: the probability that life has no end
-  /// Rising: the life by which so many have ended; the last may be infinite.
+  std::optional<double> never = {};  ///< reason for it: the probability that the unit never fails
+  /// Ascending: the life by which this share has ended; the last may be infinite.
   std::vector<double> share = {}, life = {};
   double risk = 0.01, inspect_within = 0;
   std::optional<double> horizon = {}, reached = {};  ///< the probability of the end within it
@@ -35,19 +35,20 @@ struct UnitLife {
   double quantile(double p) const;  ///< between the shares a straight line in probits of log life
 };
 
-/// Percentages at which lives are told, rising, with the risk of the question among them.
+/// Percentages at which lives are reported, ascending, including the risk of the question.
 std::vector<double> life_percentages(double risk);
-/// "1e4 cycles" in the unit in which lives are told. Throws InputError that names the option.
+/// "1e4 cycles" in the unit of reported lives. Throws InputError that names the option.
 double along_life(const char* option, const std::string& text, const std::string& unit);
-/// What follows: the next inspection from the shares, and what the horizon asks from `cdf`, the distribution of the
-/// life in its unit, from `from` on. Throws InputError.
+/// The rest: the next inspection from the shares, and the probability within the horizon from
+/// `cdf`, the distribution of the life in its unit, from `from` on. Throws InputError.
 void answer(const LifeQuestion& question, UnitLife& life,
             const std::function<double(double until)>& cdf);
 
-/// Reads a study of the same data and law with other wishes.
+/// Reads a study of the same data and model with another [predict].
 using ReadAsked = std::function<std::unique_ptr<const Study>(const Source& source)>;
 
-/// Of a posterior of this study. Throws InputError where the study has no life, or not of such a unit.
+/// For a posterior of this study. Throws InputError if the study has no life, or none of such a
+/// unit.
 UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
                    const LifeQuestion& question);
 

@@ -29,7 +29,7 @@ ByteReader read_unit_state(std::string_view bytes, std::string_view mark,
   if (from.text() != mark) from.fail("of another version");
   if (from.text() != fingerprint)
     throw InputError(
-        "the state of a unit is of another population: the study was fitted anew since");
+        "the state of a unit is of another population: the study has been fitted again since");
   return from;
 }
 

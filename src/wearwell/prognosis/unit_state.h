@@ -7,12 +7,13 @@
 
 namespace wearwell::prognosis {
 
-/// How the saved state of a unit begins: the checksum of all that follows, `mark` (what kind of state, and its version), the
-/// population that it is of.
+/// The start of a unit's saved state: the checksum of the rest, `mark` (kind and version of the
+/// state), and its population.
 ByteWriter unit_state(std::string_view mark, const std::string& fingerprint);
 std::string signed_unit_state(ByteWriter state);
 
-/// Behind that; valid while `bytes` live. Throws InputError where they are damaged, of another version, or of another population.
+/// The rest; valid while `bytes` live. Throws InputError if they are damaged, of another version,
+/// or of another population.
 ByteReader read_unit_state(std::string_view bytes, std::string_view mark,
                            const std::string& fingerprint);
 

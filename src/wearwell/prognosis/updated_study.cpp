@@ -16,9 +16,9 @@ namespace wearwell::prognosis {
 namespace {
 
 constexpr int judged_draws = 400, judged_expensive = 100;
-constexpr std::size_t most_reported = 5;  // in a sentence; the table has all
+constexpr std::size_t most_reported = 5;  // number in a sentence; the table has all
 
-// Points of the posterior, evenly by their weight.
+// Points of the posterior, evenly by weight.
 std::vector<Eigen::Index> evenly(const WeightedDraws& draws, int most) {
   std::vector<Eigen::Index> points;
   double sum = 0;
@@ -39,11 +39,11 @@ Check check_of(const JoinedData& joined, const std::string& files) {
   std::string detail =
       fmt::format("{} of {} counted", plural(joined.counted, "row", "rows"), files);
   if (joined.repeated > 0)
-    detail += fmt::format("; {} there already and {} once",
+    detail += fmt::format("; {} known already and {} once",
                           joined.repeated == 1 ? "1 was" : fmt::format("{} were", joined.repeated),
                           joined.repeated == 1 ? "counts" : "count");
   if (joined.counted > 0 && joined.fresh.empty())
-    detail += "; data.sql leaves them out, so that nothing is new to the study";
+    detail += "; data.sql leaves them out, so that the study has no new rows";
   if (joined.contradictions.empty()) return {"new-data", Verdict::pass, detail, ""};
   std::vector<std::string> reported;
   for (const Contradiction& each : joined.contradictions) {
@@ -52,15 +52,14 @@ Check check_of(const JoinedData& joined, const std::string& files) {
   }
   const std::size_t more = joined.contradictions.size() - reported.size();
   detail +=
-      fmt::format("; {} what was known: {}{}",
+      fmt::format("; {} the earlier posterior: {}{}",
                   joined.contradictions.size() == 1
                       ? "1 contradicts"
                       : fmt::format("{} contradict", joined.contradictions.size()),
                   fmt::join(reported, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
-  return {
-      "new-data", Verdict::warn, detail,
-      "They count all the same. Look at them: a typing error, a reading of another unit, another "
-      "gauge, or an event that the model does not describe."};
+  return {"new-data", Verdict::warn, detail,
+          "They still count. Check them for a typing error, a reading of another unit, another "
+          "gauge, or an event that the model does not describe."};
 }
 
 PresetAddition addition_of(const JoinedData& joined, const std::string& files) {
@@ -72,7 +71,7 @@ PresetAddition addition_of(const JoinedData& joined, const std::string& files) {
                                    {"contradictions", nlohmann::ordered_json::array()},
                                    {"notes", joined.notes}};
   present::Table table{"new-data",
-                       "New readings that contradict what was known",
+                       "New readings that contradict the earlier posterior",
                        {{"row", "1", present::given}, {"reading"}, {"contradicts"}},
                        {},
                        true};
@@ -116,15 +115,14 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
   });
   if (scores.empty() || scores.front().size() != rows + of_effects) return std::nullopt;
   for (const std::size_t row : joined.fresh) {
-    double below = 0, above = 0;  // of an observation in an interval what is kindest to it
+    double below = 0, above = 0;  // for an observation in an interval its most favorable value
     for (const std::vector<NormalScore>& each : scores) {
       below += normal_cdf(each[row].high);
       above += normal_cdf(-each[row].low);
     }
     const double p = 2 * std::min(below, above) / static_cast<double>(points.size());
     if (!(p * static_cast<double>(joined.fresh.size()) < least)) continue;
-    found.push_back(
-        {row, "", fmt::format("as far off as that has a probability of {}", probability_text(p))});
+    found.push_back({row, "", fmt::format("two-sided predictive p-value {}", probability_text(p))});
   }
   return found;
 }
@@ -133,8 +131,8 @@ void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, Jo
   auto found = hardly_possible(study, before, joined);
   if (!found) {
     joined.notes.push_back(
-        "whether the new readings go with what was known was looked at by their place alone: the "
-        "law does not score them row by row");
+        "new readings were compared with known ones by their place only: the model has no score "
+        "for each row");
     found.emplace();
   }
   for (Contradiction& each : *found) {

@@ -17,8 +17,8 @@ struct Point {
   double life, weight;
 };
 
-// By the leading bits of what differs between lives at all, two digits of twelve, and then the few that share
-// these by comparison: half of what a monitor computed was comparisons.
+// Sorts by the leading bits in which lives differ, two digits of twelve, and then by comparison
+// within equal bits: comparisons took half of a monitor's time.
 void sort(std::vector<Point>& points) {
   constexpr std::size_t few = 256;
   constexpr int digit = 12;
@@ -126,7 +126,7 @@ double WeightedLives::quantile(double p) const {
 }
 
 double WeightedLives::mean_up_to(double x) const {
-  // The integral of the share that still lives: straight between points.
+  // The integral of the survival function: linear between points.
   if (life_.empty()) return std::nan("");
   if (x <= life_.front()) return x;
   double lived = life_.front();
@@ -156,7 +156,7 @@ WeightedLives WeightedLives::beyond(double x) const {
     weight.push_back(weight_[i]);
   }
   if (life.empty()) return {};
-  // Between two points a part of both is there: a point at once makes up for the difference.
+  // Between two points both contribute partly; the whole point corrects the difference.
   const double before = 1 - cdf(x) - std::accumulate(weight.begin(), weight.end(), 0.0);
   if (before > 0) {
     life.insert(life.begin(), 0);

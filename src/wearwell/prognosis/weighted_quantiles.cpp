@@ -16,7 +16,7 @@ struct Point {
   double value, weight;
 };
 
-// The weights of values by the leading bits of what differs between them.
+// The weights of values by the leading bits in which they differ.
 struct Bins {
   std::uint64_t least = ~std::uint64_t{0}, most = 0;
   int shift = 0;
@@ -37,7 +37,7 @@ struct Bins {
       most = std::max(most, order);
     }
     if (least > most) least = most = 0;
-    // The last bin is for what is infinite alone.
+    // The last bin holds only infinite values.
     shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - 11);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (counts(values[i], weights[i])) weight[of(values[i])] += weights[i];
@@ -48,7 +48,7 @@ struct Bins {
     }
   }
 
-  // The bin in which a quantile lies, and its neighbours that hold anything.
+  // The bin of a quantile, and its nonempty neighbors.
   struct Range {
     std::size_t first, last;
   };
@@ -67,7 +67,7 @@ struct Bins {
   }
 };
 
-// As WeightedLives::quantile, of sorted points behind a weight of `before`.
+// As WeightedLives::quantile, for sorted points after an earlier weight of `before`.
 double quantile_of(std::span<const Point> points, double before, double target) {
   double last = std::nan(""), last_middle = 0, last_weight = 0;
   for (std::size_t i = 0; i < points.size();) {

@@ -28,7 +28,7 @@ void branch_and_bound(const SearchProblem& problem, ModelPool& pool, Frontier& f
       Branch branch;
       while (frontier.take(worker, branch)) frontier.done(worker, search->search(branch));
     } catch (...) {
-      frontier.stop();  // or the others would wait for this thread
+      frontier.stop();  // the other threads would wait for this one
       throw;
     }
   };

@@ -5,20 +5,21 @@
 
 namespace wearwell {
 
-/// Searches every model of `root`, with which the frontier was made, cutting branches whose bound
-/// exceeds what the pool wants. When it returns with nothing left in the frontier, the pool holds
-/// what it promises. Throws what a thread threw.
+/// Searches every model of `root`, with which the frontier was made, and cuts branches whose bound
+/// exceeds the pool's limit. When it returns with an empty frontier, the pool's result is proven.
+/// Rethrows the exception of a thread.
 void branch_and_bound(const SearchProblem& problem, ModelPool& pool, Frontier& frontier,
                       const Branch& root, int threads);
 
-/// The part of branch and bound that knows a criterion. One for each thread.
+/// The part of branch and bound that depends on the criterion. One per thread.
 class BranchSearch {
  public:
   virtual ~BranchSearch() = default;
-  /// Offers the model of the first branch that search() leaves to whoever made the branch.
+  /// Offers the model of the first branch; search() assumes that the creator of a branch has
+  /// offered it.
   virtual void offer_root(const Branch& root) = 0;
-  /// Searches the branch; gives back to the frontier what it did not get to after some hundred
-  /// nodes, or when the search is stopped. Returns the nodes that it looked at.
+  /// Searches the branch; returns the unsearched part to the frontier after some hundred nodes, or
+  /// when the search is stopped. Returns the number of nodes visited.
   virtual double search(const Branch& branch) = 0;
 };
 

@@ -28,7 +28,7 @@ Criterion read_criterion(std::string_view name) {
     if (known == name) return criterion;
   }
   throw InputError(
-      fmt::format("criterion '{}' is unknown; it may be loo, aic, aicc, bic, cp or adjr2", name));
+      fmt::format("criterion '{}' is unknown; use loo, aic, aicc, bic, cp or adjr2", name));
 }
 
 std::string_view name_of(Criterion criterion) {

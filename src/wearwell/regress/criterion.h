@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-/// How submodels are ranked. `loo`: the leave-one-out sum of squares PRESS (so R2p); the others
+/// The ranking of submodels. `loo`: the leave-one-out sum of squares PRESS (so R2p); the others
 /// weigh the residual sum of squares against the number of terms. Formulas: least_squares.h.
 enum class Criterion { loo, aic, aicc, bic, cp, adjr2 };
 
@@ -15,10 +15,10 @@ enum class Criterion { loo, aic, aicc, bic, cp, adjr2 };
 Criterion read_criterion(std::string_view name);
 std::string_view name_of(Criterion criterion);
 
-/// A criterion as a positive score to minimize, the same for every criterion in form:
-/// score = factor[k] * error + offset[k] for a model of k terms, where error is PRESS (loo) or the
-/// residual sum of squares (the others). Both grow with k. E.g. bic: factor[k] = n^(k/n), since
-/// n log(rss) + k log(n) = n log(rss n^(k/n)).
+/// A criterion as a positive score to minimize, with the same form for every criterion: score =
+/// factor[k] * error + offset[k] for a model of k terms, where error is PRESS (loo) or the residual
+/// sum of squares (the others). Both grow with k. E.g. bic: factor[k] = n^(k/n), since n log(rss) +
+/// k log(n) = n log(rss n^(k/n)).
 class Score {
  public:
   /// rows: n; terms: the largest k; tss: total sum of squares; s2: residual variance of all
@@ -29,11 +29,11 @@ class Score {
   /// False for sizes with too few rows for the criterion; their score is infinite.
   bool admits(int size) const { return factor_[size] < std::numeric_limits<double>::infinity(); }
   double of(double error, int size) const { return factor_[size] * error + offset_[size]; }
-  /// The error at which a model of `size` has `score`; -infinity for sizes not admitted.
+  /// The error at which a model of `size` has `score`; -infinity for inadmissible sizes.
   double error_at(double score, int size) const;
   /// The criterion in its own unit: PRESS, AIC, ..., adjusted R2 (to maximize).
   double value(double score) const;
-  /// The score that is `distance` worse than `best`: for loo a fraction of PRESS, for the others
+  /// The score that is worse than `best` by `distance`: for loo a fraction of PRESS, for the others
   /// an absolute difference of the criterion.
   double worse_by(double best, double distance) const;
 

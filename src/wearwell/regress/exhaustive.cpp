@@ -26,7 +26,7 @@ class Walk {
     cloud_.sizes.resize(problem.terms + 1);
   }
 
-  /// All models that hold `fixed` and any of `free`.
+  /// All models that contain `fixed` and any of `free`.
   void run(TermSet fixed, TermSet free) {
     Submodel& root = path_[0];
     root.start(problem_, fixed | free);
@@ -34,7 +34,7 @@ class Walk {
     for (const int term : terms_of(fixed)) {
       int position = 0;
       while (position < root.count() && root.term(position) != term) ++position;
-      if (position == root.count()) return;  // dependent, as is every model of this walk
+      if (position == root.count()) return;  // dependent, as is every further model of this branch
       root.join(root, position);
       index |= index_bit_[term];
     }

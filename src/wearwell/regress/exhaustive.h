@@ -16,7 +16,7 @@ struct Cloud {
   };
   std::vector<Size> sizes;  ///< by number of terms, from 0
   struct Point {
-    float r2, r2p;  ///< NaN where the terms are dependent; r2p -infinity where not estimable
+    float r2, r2p;  ///< NaN if the terms are dependent; r2p -infinity if it is not estimable
   };
   /// On request, every model: bit i of the index is the i-th of the free terms.
   std::vector<Point> points;
@@ -25,11 +25,11 @@ struct Cloud {
   bool complete = true;  ///< false: stopped early, the rest is missing
 };
 
-/// Every model, or its place in the bins only.
+/// Every model, or only its place in the bins.
 enum class CloudKind { none, bins, points };
 
 /// Offers every model of `root` to the pool: depth first, each one orthogonalization away from the
-/// one before. `problem` must be made for loo, even where the pool goes by another criterion.
+/// previous one. `problem` must be made for loo, even if the pool uses another criterion.
 Cloud exhaustive_search(const SearchProblem& problem, ModelPool& pool, const Branch& root,
                         CloudKind kind, SearchControl& control, int threads);
 

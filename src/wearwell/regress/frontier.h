@@ -9,25 +9,25 @@
 
 namespace wearwell {
 
-/// A branch of the search: models that hold all `fixed` and any of `free`.
+/// A branch of the search: models that contain all `fixed` and any of `free`.
 struct Branch {
   TermSet fixed = 0;
   TermSet free = 0;
   double bound = 0;  ///< no model of the branch has a smaller score
 };
 
-/// The branches that nobody has looked at yet, smallest bound first, shared by all threads. A
-/// thread takes one, searches part of it and gives back what it did not get to.
+/// The unvisited branches, smallest bound first, shared by all threads. A thread takes one,
+/// searches part of it and returns the rest.
 class Frontier {
  public:
-  /// The search stops when `most_nodes` have been looked at.
+  /// The search stops after `most_nodes` visited nodes.
   Frontier(const Branch& root, int threads, SearchControl& control, double most_nodes);
 
-  /// The next branch for thread `worker`, waiting while others may still give some back. False
-  /// when the search is over: nothing left, or stopped.
+  /// The next branch for thread `worker`, waiting while others may still return some. False when
+  /// the search is over: nothing left, or stopped.
   bool take(int worker, Branch& branch);
   void give_back(const Branch& branch);
-  /// The thread is through with the branch it took, having looked at `nodes` nodes.
+  /// The thread has finished its branch, with `nodes` visited nodes.
   void done(int worker, double nodes);
 
   bool stopped() { return control_.stopped(); }
@@ -35,7 +35,7 @@ class Frontier {
   void stop();
 
   double nodes() const { return nodes_; }
-  /// The smallest bound of the branches left; infinity when there are none.
+  /// The smallest bound of the remaining branches; infinity if there are none.
   double bound() const;
 
  private:

@@ -44,9 +44,9 @@ double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& respo
                     const Eigen::VectorXd& weights, int folds, int repeats, std::uint64_t seed) {
   const Index n = columns.rows(), k = columns.cols();
   if (folds < 2 || folds > n)
-    throw InputError(fmt::format("{} folds; there may be 2 to {}, the number of rows", folds, n));
+    throw InputError(fmt::format("{} folds; must be 2 to {}, the number of rows", folds, n));
   if (repeats < 1) throw InputError(fmt::format("{} repeats of the folds; need 1", repeats));
-  // Whether a model close to dependence counts as one is for the search to judge.
+  // The search decides whether a nearly dependent model counts.
   const LinearFit fit = fit_least_squares(columns, response, weights, {}, 0.5 * rank_tolerance);
   Eigen::VectorXd root = Eigen::VectorXd::Ones(n);
   if (weights.size() != 0) root = weights.cwiseSqrt();
@@ -58,7 +58,8 @@ double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& respo
   double sum = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (const auto& out : random_folds(n, folds, seed, static_cast<std::uint64_t>(repeat))) {
-      // Predicted without them, rows B miss by (I - Q_B Q_B')^-1 e_B (as leave-one-out for one).
+      // Without the rows B in the fit their residuals are (I - Q_B Q_B')^-1 e_B (as in
+      // leave-one-out for one row).
       const Eigen::MatrixXd part = q(out, Eigen::all);
       const auto size = static_cast<Index>(out.size());
       const Eigen::LDLT<Eigen::MatrixXd> rest(Eigen::MatrixXd::Identity(size, size) -

@@ -40,7 +40,7 @@ Eigen::VectorXd root_weights(const Eigen::VectorXd& weights, Index rows) {
   for (const int other : on) others.push_back(name_of(other, names));
   if (others.empty())
     throw InputError(fmt::format("{} is zero in every row", name_of(column, names)));
-  throw InputError(fmt::format("{} is a combination of {}; leave one of them out",
+  throw InputError(fmt::format("{} is a combination of {}; remove one of them",
                                name_of(column, names), fmt::join(others, ", ")));
 }
 
@@ -133,7 +133,7 @@ std::vector<Dependence> find_dependences(const Eigen::MatrixXd& columns, double 
         r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(along);
     Dependence dependence{static_cast<int>(j), {}};
     for (Index i = 0; i < rank; ++i) {
-      // A share this small is rounding: coefficients of near-collinear columns carry no more.
+      // A smaller share is rounding: coefficients of near-collinear columns are no more precise.
       if (std::abs(needs[i]) * columns.col(independent[i]).norm() > 1e-6 * length)
         dependence.on.push_back(independent[i]);
     }

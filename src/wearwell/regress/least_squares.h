@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// A column counts as dependent on those before it when orthogonalizing shortens it below this
+/// A column counts as dependent on earlier ones if orthogonalization shortens it below this
 /// fraction of its length: the rule and the value of R's lm.
 inline constexpr double rank_tolerance = 1e-7;
 
@@ -25,7 +25,7 @@ struct LinearFit {
   Eigen::VectorXd leverages;      ///< in [0, 1], sum k
   Eigen::VectorXd loo_residuals;  ///< y_i minus its prediction without row i: e_i / (1 - h_i)
   double rss = 0;                 ///< sum of w_i e_i^2
-  double press = 0;               ///< sum of w_i (leave-one-out residual)^2; infinite where h_i = 1
+  double press = 0;               ///< sum of w_i (leave-one-out residual)^2; infinite if h_i = 1
   double tss = 0;                 ///< sum of w_i (y_i - weighted mean)^2, with or without constant
   double sigma = 0;               ///< sqrt(rss / (n - k))
   double r2 = 0;                  ///< 1 - rss / tss
@@ -39,8 +39,8 @@ struct LinearFit {
 };
 
 /// Fits by Householder QR. `weights` may be empty (all 1). `names`, for messages, may be empty.
-/// Throws InputError for weights that are not positive, fewer rows than columns + 1, or columns
-/// that are linearly dependent (named, with those that they depend on).
+/// Throws InputError for weights that are not positive, fewer rows than columns + 1, or linearly
+/// dependent columns (named, with those that they depend on).
 LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                             const Eigen::VectorXd& weights = {},
                             const std::vector<std::string>& names = {},
@@ -55,8 +55,8 @@ struct Dependence {
   std::vector<int> on;
 };
 
-/// Every column that depends on those before it, with the columns it needs. A column of zeros
-/// depends on none.
+/// Every column that depends on earlier ones, with the columns in its combination. A column of
+/// zeros depends on none.
 std::vector<Dependence> find_dependences(const Eigen::MatrixXd& columns,
                                          double tolerance = rank_tolerance);
 

@@ -59,7 +59,7 @@ double ModelPool::threshold() const {
 
 void ModelPool::update_limits() {
   const double all = threshold();
-  // Larger models than the last of all exact fits can only be exact, too, and lose the tie.
+  // Models larger than the last exact fit can at best be exact, too, and lose the tie.
   const bool exact = settings_.near == 0 && models_.size() >= settings_.keep &&
                      models_.back().error <= problem_.least_error;
   const int largest = exact ? models_.back().size : problem_.terms;

@@ -19,17 +19,17 @@ struct ScoredModel {
   double score = 0;
 };
 
-/// A strict order of all models: by score, scores within a relative 1e-10 (one step of a
-/// logarithmic grid) being ties; then by fewer terms; then by the first term where they differ.
+/// A strict order of all models: by score, where scores within a relative 1e-10 (one step of a
+/// logarithmic grid) are ties; then by fewer terms; then by the first term where they differ.
 bool better(const ScoredModel& a, const ScoredModel& b);
 
-/// What the search wants to keep, and hence the error above which a branch may be cut.
-/// Shared by all threads. What it keeps depends only on the set of models offered, not their order.
+/// The models that the search keeps, and hence the error above which a branch may be cut. Shared by
+/// all threads. The kept models depend only on the set of models offered, not on their order.
 class ModelPool {
  public:
   struct Settings {
-    std::size_t keep = 1;       ///< so many best models,
-    double near = 0;            ///< and all within this distance of the best (Score::worse_by),
+    std::size_t keep = 1;       ///< number of best models
+    double near = 0;            ///< and all within this distance of the best (Score::worse_by)
     std::size_t most = 10'000;  ///< but never more than this
     bool every_size = false;    ///< the best of each size is wanted, however bad
     /// Models of a larger score are not kept.
@@ -38,23 +38,23 @@ class ModelPool {
 
   ModelPool(const SearchProblem& problem, const Settings& settings);
 
-  /// A model of `size` between `lowest` and `highest` terms whose error certainly exceeds this
-  /// is of no interest. Any thread, no lock.
+  /// A model of `size` between `lowest` and `highest` terms whose error certainly exceeds this is
+  /// not kept. Any thread, no lock.
   double limit(int lowest, int highest) const {
     double most = limit_[lowest].load(std::memory_order_relaxed);
-    if (!settings_.every_size) return most;  // falls with the size
+    if (!settings_.every_size) return most;  // decreases with the size
     for (int size = lowest + 1; size <= highest; ++size)
       most = std::max(most, limit_[size].load(std::memory_order_relaxed));
     return most;
   }
 
-  /// A model met by the search, with its error as computed there. Keeps it if it is good enough.
+  /// A model from the search, with its error as computed there. Keeps it if it is good enough.
   void offer(TermSet set, int size, double error) {
     if (error <= interest_[size].load(std::memory_order_relaxed)) insert(set, size);
   }
 
-  /// From here on, unless `every_size`, the best of each size only follows the best models: what
-  /// else a search meets depends on how its threads ran.
+  /// From here on, unless `every_size`, the best of each size comes from the best models only:
+  /// other models in a search depend on the timing of threads.
   void end_seeding();
 
   /// Whether errors are PRESS rather than the residual sum of squares.
@@ -63,11 +63,11 @@ class ModelPool {
   double best_score() const;  ///< infinity without a model
   /// Best first. At most `keep` without `near`.
   std::vector<ScoredModel> best() const;
-  /// The best known of each size, by size; empty where none is.
+  /// The best known of each size, by size; empty if there is none.
   std::vector<std::optional<ScoredModel>> best_by_size() const;
   /// The score up to which every model is kept.
   double threshold() const;
-  /// True when more models than `most` were within `near`.
+  /// True if more models than `most` are within `near`.
   bool truncated() const { return truncated_ && models_.size() >= settings_.most; }
 
  private:

@@ -8,8 +8,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Nodes after which a thread gives its branch back, so that others find work and the branches
-/// with the smallest bounds come first.
+/// Nodes after which a thread returns its branch, so that others find work and the branches with
+/// the smallest bounds come first.
 constexpr int nodes_per_turn = 500;
 
 Eigen::Map<const Eigen::VectorXd> coordinates(const double* values, Index dimension) {
@@ -39,7 +39,7 @@ double MomentSearch::search(const Branch& branch) {
   return nodes_per_turn - left_;
 }
 
-/// All models of the branch but the fixed one alone, which has been offered.
+/// All models of the branch except the fixed one, which has been offered.
 void MomentSearch::dive(int depth) {
   Node& node = nodes_[depth];
   Submodel& submodel = node.submodel;
@@ -64,8 +64,8 @@ void MomentSearch::dive(int depth) {
   }
 }
 
-/// Makes candidates that every model of interest holds fixed, until nothing changes. False when no
-/// model of interest is left.
+/// Fixes candidates that every model of interest contains, until nothing changes. False if no model
+/// of interest is left.
 bool MomentSearch::tighten(Node& node) {
   Submodel& submodel = node.submodel;
   while (submodel.count() > 0) {
@@ -85,7 +85,7 @@ bool MomentSearch::tighten(Node& node) {
   return false;
 }
 
-/// Joins all `terms` in the model. False when no model can hold them all.
+/// Adds all `terms` to the model. False if no model can contain them all.
 bool MomentSearch::fix(Node& node, TermSet terms) {
   const Submodel& submodel = node.submodel;
   while (terms != 0) {
@@ -98,7 +98,7 @@ bool MomentSearch::fix(Node& node, TermSet terms) {
   return true;
 }
 
-/// Makes `to`, which may be `from`, the branch of `from` whose models hold the candidate.
+/// Makes `to`, which may be `from`, the branch of `from` whose models contain the candidate.
 void MomentSearch::join(const Node& from, int position, Node& to) const {
   const Eigen::VectorXd column =
       coordinates(from.submodel.column(position), problem_.moments.dimension()).normalized();
@@ -107,7 +107,7 @@ void MomentSearch::join(const Node& from, int position, Node& to) const {
   to.submodel.join(from.submodel, position);
 }
 
-/// With a lower bound of the model's PRESS: the pool evaluates what that lets pass.
+/// With a lower bound of the model's PRESS: the pool evaluates the models that pass it.
 void MomentSearch::offer(const Node& node) {
   const auto residuals = coordinates(node.submodel.residuals(), problem_.moments.dimension());
   pool_.offer(node.submodel.model(), node.submodel.model_size(),

@@ -9,9 +9,10 @@
 
 namespace wearwell {
 
-/// Branches of a search by leave-one-out where rows are many: bounds are of the moments of the rows
-/// (row_moments.h), so that a node costs the same however many rows there are. Only models that may
-/// belong in the pool are evaluated by the rows. The bounds are derived in subset_search.md.
+/// Branches of a search by leave-one-out with many rows: bounds use the moments of the rows
+/// (row_moments.h), so that the cost of a node does not depend on the number of rows. Only models
+/// that may belong in the pool are evaluated from the rows. The bounds are derived in
+/// subset_search.md.
 class MomentSearch final : public BranchSearch {
  public:
   MomentSearch(const SearchProblem& problem, ModelPool& pool, Frontier& frontier);
@@ -38,8 +39,8 @@ class MomentSearch final : public BranchSearch {
   const SearchProblem& problem_;
   ModelPool& pool_;
   Frontier& frontier_;
-  std::vector<Node> nodes_;  ///< by depth: the path from the branch to where the search is
-  int left_ = 0;             ///< nodes that may still be looked at in this turn
+  std::vector<Node> nodes_;  ///< by depth: the path from the branch to the present node
+  int left_ = 0;             ///< nodes that may still be visited in this turn
   std::vector<double> weighted_;
   std::vector<double*> columns_;
 };

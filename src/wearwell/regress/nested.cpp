@@ -19,9 +19,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Rows of branches that one search may look at: seconds, where the data are hard.
+/// Limit of rows times branches for one search: seconds, for hard data.
 constexpr double most_rows_of_nodes = 4e6;
-/// From so many rows on a branch costs no more (moment_search.h).
+/// With more rows the cost of a branch does not grow (moment_search.h).
 constexpr double most_rows = 2000;
 
 std::vector<Index> others(Index rows, const std::vector<Index>& out) {

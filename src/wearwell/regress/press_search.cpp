@@ -10,12 +10,12 @@ namespace {
 
 using namespace row_kernels;
 
-/// Nodes after which a thread gives its branch back, so that others find work and the branches
-/// with the smallest bounds come first.
+/// Nodes after which a thread returns its branch, so that others find work and the branches with
+/// the smallest bounds come first.
 constexpr int nodes_per_turn = 500;
 
-/// Rows are weighted with 1 / (1 - leverage), but not more than this: a smaller weight only
-/// weakens the bound, a larger one would lose the other rows in rounding.
+/// Rows are weighted with 1 / (1 - leverage), but at most with this: a smaller weight only weakens
+/// the bound, a larger one would lose the other rows in rounding.
 constexpr double most_scale = 1e4;
 
 }  // namespace
@@ -39,7 +39,7 @@ double PressSearch::search(const Branch& branch) {
   return nodes_per_turn - left_;
 }
 
-/// All models of the branch but the fixed one alone, which has been offered.
+/// All models of the branch except the fixed one, which has been offered.
 void PressSearch::dive(int depth) {
   Node& node = nodes_[depth];
   Submodel& submodel = node.submodel;
@@ -66,8 +66,8 @@ void PressSearch::dive(int depth) {
   }
 }
 
-/// Makes candidates that every model of interest holds fixed, and removes those that none holds,
-/// until nothing changes. False when no model of interest is left.
+/// Fixes candidates that every model of interest contains, and removes those that none contains,
+/// until nothing changes. False if no model of interest is left.
 bool PressSearch::tighten(Node& node) {
   Submodel& submodel = node.submodel;
   while (submodel.count() > 0) {
@@ -101,7 +101,7 @@ bool PressSearch::tighten(Node& node) {
   return false;
 }
 
-/// Joins all `terms` in the model. False when no model can hold them all.
+/// Adds all `terms` to the model. False if no model can contain them all.
 bool PressSearch::fix(Node& node, TermSet terms) {
   Submodel& submodel = node.submodel;
   while (terms != 0) {
@@ -136,8 +136,8 @@ void PressSearch::relax(Node& node) {
   node.bound = std::max(node.bound, node.relaxation.rss());
 }
 
-/// Finds the dual point of the node's relaxation, and with it the bounds of models that hold one
-/// more term.
+/// Finds the dual point of the node's relaxation, and with it the bounds of models with one more
+/// term.
 void PressSearch::bound_inclusions(Node& node) {
   const Submodel& submodel = node.submodel;
   const int rows = submodel.rows(), count = submodel.count();
@@ -152,7 +152,7 @@ void PressSearch::bound_inclusions(Node& node) {
   for (int t = 0; t < count; ++t) node.bound_with[t] = std::max(node.bound, bound_with(node, t));
 }
 
-/// Bound of the models that hold candidate t, by the node's dual point.
+/// Bound of the models that contain candidate t, by the node's dual point.
 double PressSearch::bound_with(const Node& node, int t) const {
   const Submodel& submodel = node.submodel;
   return node.dual_bound * node.dual_bound /
@@ -160,8 +160,8 @@ double PressSearch::bound_with(const Node& node, int t) const {
                              1 / submodel.length2(t), submodel.rows());
 }
 
-/// Removes candidates that no model of interest holds, as far as an older dual point shows: cheap,
-/// and it makes the relaxation smaller.
+/// Removes candidates that no model of interest contains, by an older dual point: cheap, and it
+/// makes the relaxation smaller.
 void PressSearch::screen(Node& node) const {
   Submodel& submodel = node.submodel;
   if (node.dual_bound == 0 || submodel.count() == 0) return;

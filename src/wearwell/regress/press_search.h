@@ -16,14 +16,14 @@ class PressSearch final : public BranchSearch {
   double search(const Branch& branch) override;
 
  private:
-  /// A branch with the numbers of its bound: the submodel's terms are fixed, its candidates free.
+  /// A branch with the data of its bound: the submodel's terms are fixed, its candidates free.
   struct Node {
     Submodel submodel;
     Relaxation relaxation;
     std::vector<double> scale;       ///< by row: 1 / (1 - leverage), the root of its weight
     std::vector<double> dual;        ///< by row: a dual point of this node's or an earlier bound
     double dual_bound = 0;           ///< the bound that it proves; 0 without one
-    std::vector<double> bound_with;  ///< by candidate: bound of the models that hold it
+    std::vector<double> bound_with;  ///< by candidate: bound of the models that contain it
     double bound = 0;
   };
 
@@ -41,8 +41,8 @@ class PressSearch final : public BranchSearch {
   const SearchProblem& problem_;
   ModelPool& pool_;
   Frontier& frontier_;
-  std::vector<Node> nodes_;  ///< by depth: the path from the branch to where the search is
-  int left_ = 0;             ///< nodes that may still be looked at in this turn
+  std::vector<Node> nodes_;  ///< by depth: the path from the branch to the present node
+  int left_ = 0;             ///< nodes that may still be visited in this turn
   std::vector<double> weighted_;
   std::vector<double*> columns_;
 };

@@ -10,8 +10,8 @@ namespace {
 
 using namespace row_kernels;
 
-/// Columns shorter than this fraction of their length after orthogonalization carry no direction
-/// of their own.
+/// Columns shorter than this fraction of their length after orthogonalization have no independent
+/// direction.
 constexpr double dependence_tolerance = 1e-8;
 
 int filled(int count) {
@@ -75,7 +75,7 @@ void Relaxation::find_replaceable(int count) {
   for (int u = 0; u < count; ++u) {
     if (coordinate_[u] >= 0) continue;
     costless_[u] = 1;
-    // Column u is this combination of the independent ones; what it uses it can replace.
+    // Column u is this combination of the independent ones; it can replace those that it uses.
     for (int t = 0; t < u; ++t) {
       double share = 0;
       for (int j = 0; j < u; ++j) {

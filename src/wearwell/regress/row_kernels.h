@@ -1,9 +1,9 @@
 #pragma once
 
 // The innermost loops of the subset search: sums over the rows of a regression. A column is a
-// contiguous array whose length is a multiple of `row_block`, filled up with zeros (leverage
+// contiguous array whose length is a multiple of `row_block`, padded with zeros (leverage
 // complements with ones). The sums run in a fixed order, in lanes that fit every x86-64 and ARM64
-// (a measured 3 times faster than the plain loop, which the compiler must not reorder).
+// (measured as 3 times faster than the plain loop, which the compiler must not reorder).
 
 namespace wearwell::row_kernels {
 

@@ -5,7 +5,7 @@
 namespace wearwell {
 
 /// The rows of a regression in an orthonormal basis of its columns and its response, and their
-/// moments of fourth order: what a search by leave-one-out asks of many rows, without the rows.
+/// fourth-order moments: a search by leave-one-out with many rows needs only these.
 ///
 /// With q_i row i of the basis, a residual is e_i = r'q_i and the leverage of a set of columns
 /// h_i = q_i' H q_i, where r and H are small; the sum of e_i^2 (1 + 2 h_i) is r' W r with

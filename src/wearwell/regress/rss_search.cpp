@@ -27,7 +27,7 @@ double RssSearch::search(const Branch& branch) {
   return nodes_per_turn - left_;
 }
 
-/// Fits all of the branch's terms. False when the fixed ones depend on each other.
+/// Fits all of the branch's terms. False if the fixed ones depend on each other.
 bool RssSearch::start(Node& node, TermSet fixed, TermSet free) {
   node.fixed = fixed;
   node.free = terms_of(free);
@@ -52,7 +52,7 @@ bool RssSearch::start(Node& node, TermSet fixed, TermSet free) {
   return true;
 }
 
-/// All models of the branch but the largest, which has been offered.
+/// All models of the branch except the largest, which has been offered.
 void RssSearch::dive(int depth) {
   --left_;
   Node& node = nodes_[depth];
@@ -67,7 +67,7 @@ void RssSearch::dive(int depth) {
       pool_.offer(all & ~bit(node.free[t]), size - 1, fit.rss() + fit.cost(t));
   }
 
-  // Branch i is without the i-th dearest term and holds those before it. It leaves out another
+  // Branch i removes the i-th most expensive term and keeps those before it. It removes another
   // one, too: the models without just one term have been offered.
   node.order.resize(count);
   std::iota(node.order.begin(), node.order.end(), 0);

@@ -8,20 +8,21 @@
 
 namespace wearwell {
 
-/// When a search ends early, and who hears of it meanwhile. Shared by all threads.
+/// The early end of a search, and its progress reports. Shared by all threads.
 class SearchControl {
  public:
   struct Limits {
     double seconds = std::numeric_limits<double>::infinity();
     const std::atomic<bool>* stop = nullptr;  ///< set by the user, e.g. on Ctrl-C; may be null
   };
-  /// Called with the nodes looked at, the bound on the score, the share done (0: unknown), seconds.
+  /// Called with the number of visited nodes, the bound on the score, the share done (0: unknown),
+  /// seconds.
   using Report = std::function<void(double nodes, double bound, double share, double seconds)>;
 
   SearchControl(const Limits& limits, Report report)
       : limits_(limits), report_(std::move(report)) {}
 
-  /// True when time is up, the user asked to stop, or a thread failed. For every node.
+  /// True if time is up, the user requested a stop, or a thread failed. Called for every node.
   bool stopped() {
     if (!stopped_ && ((limits_.stop && *limits_.stop) || seconds() >= limits_.seconds)) stop();
     return stopped_;

@@ -27,7 +27,7 @@ void check(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
     throw InputError(fmt::format("{} weights for {} rows", weights.size(), columns.rows()));
   for (Index i = 0; i < columns.rows(); ++i) {
     if (!columns.row(i).allFinite() || !std::isfinite(response[i]))
-      throw InputError(fmt::format("row {} holds a value that is not a finite number", i + 1));
+      throw InputError(fmt::format("row {} has a value that is not a finite number", i + 1));
     if (weights.size() != 0 && (!(weights[i] > 0) || !std::isfinite(weights[i])))
       throw InputError(
           fmt::format("the weight in row {} is {}; it must be positive", i + 1, weights[i]));
@@ -40,8 +40,8 @@ void check(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
   if (weights.size() != 0) require_size("the weights", weights);
 }
 
-/// From so many rows on the bounds of moments, which lack the squares of leverages, are as good as
-/// those of the rows.
+/// With this many rows the bounds from moments, which lack the squares of leverages, are as good as
+/// those from the rows.
 int many_rows(int terms) {
   return std::max(2000, 10 * terms * terms);
 }
@@ -59,7 +59,7 @@ double full_variance(const Eigen::MatrixXd& columns, const Eigen::VectorXd& resp
   return rotated.tail(spare).squaredNorm() / static_cast<double>(spare);
 }
 
-/// PRESS of residuals with orthonormal columns `q` of the model; empty when one row alone
+/// PRESS from residuals with orthonormal columns `q` of the model; empty if one row alone
 /// determines a coefficient.
 std::optional<double> press_of(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& q,
                                Index rows) {
@@ -68,7 +68,7 @@ std::optional<double> press_of(const Eigen::VectorXd& residuals, const Eigen::Ma
   return (residuals.array() / complement).square().sum();
 }
 
-/// The same of residuals and columns in coordinates of the rows of `basis`.
+/// The same from residuals and columns in coordinates of the rows of `basis`.
 std::optional<double> press_in_basis(const Eigen::MatrixXd& basis, const Eigen::VectorXd& residuals,
                                      const Eigen::MatrixXd& q) {
   constexpr Index block = 512;
@@ -90,10 +90,10 @@ void require_size(const std::string& name, const Eigen::VectorXd& values) {
   constexpr double least = 1e-100, most = 1e100;
   const double size = values.cwiseAbs().maxCoeff();
   if (size == 0 || (size >= least && size <= most)) return;
-  throw InputError(fmt::format(
-      "{}: the largest value is {:.3g}; its squares are no numbers to count with. Write "
-      "it in a unit in which it lies between {:g} and {:g}",
-      name, size, least, most));
+  throw InputError(
+      fmt::format("{}: the largest value is {:.3g}; its squares overflow or underflow. Use a unit "
+                  "in which it lies between {:g} and {:g}",
+                  name, size, least, most));
 }
 
 std::vector<int> terms_of(TermSet set) {
@@ -113,7 +113,7 @@ SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd&
   if (w.size() == 0) w.setOnes(rows);
   tss = (w.array() * (observed.array() - w.dot(observed) / w.sum()).square()).sum();
   if (!(tss > 0) || !std::isfinite(tss))
-    throw InputError("the response varies by less than its digits can tell");
+    throw InputError("the response varies by less than its precision");
 
   Eigen::MatrixXd all(rows, terms + 1);
   all << w.cwiseSqrt().asDiagonal() * data, w.cwiseSqrt().cwiseProduct(observed);

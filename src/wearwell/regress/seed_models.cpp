@@ -49,7 +49,7 @@ class Seeder {
   }
 
  private:
-  /// The model of `terms` with the others of `candidates` beside it.
+  /// The model of `terms` with the others of `candidates` as candidates.
   bool build(Submodel& model, TermSet terms, TermSet candidates) const {
     model.start(problem_, candidates);
     for (const int term : terms_of(terms)) {
@@ -75,7 +75,7 @@ class Seeder {
 
   void note(TermSet set, double error) {
     const int size = std::popcount(set);
-    if (!problem_.moments.empty()) {  // about PRESS, as if all leverages were the same
+    if (!problem_.moments.empty()) {  // approximate PRESS, as if all leverages were equal
       if (size >= problem_.rows) return;
       const double each = static_cast<double>(size) / problem_.rows;
       error /= (1 - each) * (1 - each);

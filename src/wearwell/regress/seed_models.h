@@ -5,8 +5,8 @@
 namespace wearwell {
 
 /// Offers good models to the pool before the search, so that it cuts early: forward selection
-/// through every size, then from the best of those exchanges of one term while they help. Cheap
-/// (some milliseconds) and the same every time.
+/// through every size, then exchanges of one term from the best of those, as long as they improve.
+/// Cheap (some milliseconds) and deterministic.
 void seed_models(const SearchProblem& problem, ModelPool& pool, TermSet forced);
 
 }  // namespace wearwell

@@ -8,7 +8,7 @@
 namespace wearwell {
 namespace {
 
-/// The search has judged the rank already; rounding must not judge it differently here.
+/// The search has determined the rank; rounding must not change that here.
 LinearFit fit_of(const SubsetModel& model, const Design& design, const Eigen::VectorXd& response,
                  const Eigen::VectorXd& weights) {
   return fit_least_squares(design.columns(Eigen::all, model.terms), response, weights, {},
@@ -42,9 +42,9 @@ Nested nest(const Design& design, const Eigen::VectorXd& response, const Eigen::
   if (search.submodels <= 1) {
     none.problem = "there is nothing to search";
   } else if (folds == 0) {
-    none.problem = "it was not asked for";
+    none.problem = "it was not requested";
   } else if (folds < 0 && response.size() > SelectionSettings::most_nested_rows) {
-    none.problem = "rows are many: a search is hardly optimistic";
+    none.problem = "with so many rows a search is hardly optimistic";
   } else if (!search.certified) {
     none.problem = "the search was stopped";
   }

@@ -27,7 +27,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
     for (bool first = true;; first = false) {
       const Eigen::MatrixXd columns = a(Eigen::all, active);
       const Eigen::VectorXd solution = columns.colPivHouseholderQr().solve(b);
-      // Rounding can call for a column that does not help: then nothing does any more.
+      // Rounding can select a column that does not improve the fit: then the iteration ends.
       if (first && !(solution[solution.size() - 1] > 0)) return x;
       double way = 1;
       for (std::size_t i = 0; i < active.size(); ++i) {
@@ -52,14 +52,14 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
 
 Eigen::VectorXd stacking_weights(const Eigen::MatrixXd& residuals,
                                  const Eigen::VectorXd& row_weights) {
-  if (residuals.cols() == 0) throw InputError("there is no model to weigh");
+  if (residuals.cols() == 0) throw InputError("there is no model to weight");
   if (!residuals.allFinite()) throw InputError("a leave-one-out residual is not finite");
   const Index rows = residuals.rows();
   Eigen::MatrixXd a(rows + 1, residuals.cols());
   a.topRows(rows) = residuals;
   if (row_weights.size() != 0) a.topRows(rows) = row_weights.cwiseSqrt().asDiagonal() * residuals;
-  // The simplex constraint as one more row: the least of |E u|^2 + (sum u - 1)^2 over u >= 0 is a
-  // multiple of the least |E v|^2 with sum v = 1.
+  // The simplex constraint as one more row: the minimizer of |E u|^2 + (sum u - 1)^2 over u >= 0 is
+  // a multiple of the minimizer of |E v|^2 with sum v = 1.
   const double scale = a.topRows(rows).colwise().norm().minCoeff();
   if (!(scale > 0)) {  // an exact fit
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(residuals.cols());

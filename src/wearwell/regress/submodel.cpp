@@ -39,7 +39,7 @@ void Submodel::join(const Submodel& from, int position, int first) {
   rows_ = from.rows_;
   model_ = from.model_ | bit(joining.term);
   model_size_ = from.model_size_ + 1;
-  // Its slot in the storage may be taken by another below, where `from` is this.
+  // Its slot in the storage may be reused by another below, if `from` is this.
   joining_.assign(joining.values, joining.values + rows_);
   const double* const q = joining_.data();
 

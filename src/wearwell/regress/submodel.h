@@ -7,20 +7,20 @@
 
 namespace wearwell {
 
-/// A model with its residuals and leverages, and other columns made orthogonal to it, so that one
-/// of them joins the model in a step proportional to the rows. Orthogonalization is modified
-/// Gram-Schmidt; column t joins at the price of one projection of every other column.
+/// A model with its residuals and leverages, and other columns made orthogonal to it, so that
+/// adding one takes a step proportional to the number of rows. Orthogonalization is modified
+/// Gram-Schmidt; adding column t costs one projection of every other column.
 class Submodel {
  public:
-  /// The empty model beside all `candidates`.
+  /// The empty model with all `candidates`.
   void start(const SearchProblem& problem, TermSet candidates);
 
-  /// Sets this to `from` with its candidate `position` in the model. Candidates before `first`, and
-  /// those that depend on the model now, are left out for good. Storage is reused; `from` may be
-  /// this.
+  /// Sets this to `from` with its candidate `position` added to the model. Candidates before
+  /// `first`, and those that now depend on the model, are removed permanently. Storage is reused;
+  /// `from` may be this.
   void join(const Submodel& from, int position, int first = 0);
 
-  /// Forgets a candidate.
+  /// Removes a candidate.
   void remove(int position) { candidates_.erase(candidates_.begin() + position); }
 
   TermSet model() const { return model_; }
@@ -31,20 +31,22 @@ class Submodel {
   const double* column(int position) const { return candidates_[position].values; }
   double length2(int position) const { return candidates_[position].length2; }
   const double* residuals() const { return residuals_.data(); }
-  /// 1 - leverage of each row; at most leverage_tolerance in a row that nothing else determines.
+  /// 1 - leverage of each row; at most leverage_tolerance in a row that alone determines a
+  /// coefficient.
   const double* complements() const { return complements_.data(); }
   int rows() const { return rows_; }
 
   double rss() const { return rss_; }
-  double rss_with(int position) const;  ///< after a candidate joins
-  double press() const;                 ///< infinite where the model is not estimable
+  double rss_with(int position) const;  ///< after a candidate is added
+  double press() const;                 ///< infinite if the model is not estimable
   double press_with(int position) const;
-  /// PRESS (loo) or the residual sum of squares, whichever the problem goes by.
+  /// PRESS (loo) or the residual sum of squares, by the problem's criterion.
   double error() const { return leave_one_out_ ? press() : rss(); }
   double error_with(int position) const {
     return leave_one_out_ ? press_with(position) : rss_with(position);
   }
-  /// False when one row alone determines a coefficient: then no larger model can be left one out.
+  /// False if one row alone determines a coefficient: then no larger model has leave-one-out
+  /// residuals.
   bool estimable() const { return !leave_one_out_ || least_complement_ > leverage_tolerance; }
 
  private:
@@ -52,7 +54,7 @@ class Submodel {
     int term;
     double* values;
     double length2;
-    double along;  ///< values' residuals
+    double along;  ///< residuals of `values`
   };
 
   bool leave_one_out_ = true;

@@ -21,7 +21,7 @@ TermSet read_terms(const char* what, const std::vector<int>& chosen, int terms) 
   TermSet set = 0;
   for (const int term : chosen) {
     if (term < 0 || term >= terms)
-      throw InputError(fmt::format("{} term {} is none of the {} terms", what, term, terms));
+      throw InputError(fmt::format("{} term {} is not one of the {} terms", what, term, terms));
     set |= bit(term);
   }
   return set;
@@ -37,8 +37,8 @@ void check(const SearchSettings& settings, int free) {
         fmt::format("the cloud of {} free terms has 2^{} models; at most 2^{}", free, free, most));
 }
 
-/// No model, of whatever terms, has a smaller score: the residual sum of squares of all terms,
-/// which PRESS cannot go below either, at the smallest size.
+/// A lower bound of the score of all models: the residual sum of squares of all terms, which also
+/// bounds PRESS, at the smallest size.
 double least_score(const SearchProblem& problem, TermSet forced) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(problem.columns);
   const Eigen::VectorXd rotated = qr.householderQ().transpose() * problem.response;
@@ -53,7 +53,7 @@ SubsetModel describe(const ScoredModel& model, const SearchProblem& problem,
   SubsetModel described;
   described.terms = terms_of(model.set);
   described.criterion = problem.score.value(model.score);
-  // The search has judged the rank already; rounding must not judge it differently here.
+  // The search has determined the rank; rounding must not change that here.
   const auto fit = fit_least_squares(columns(Eigen::all, described.terms), response, weights, {},
                                      0.5 * rank_tolerance);
   described.rss = fit.rss;
@@ -63,7 +63,7 @@ SubsetModel describe(const ScoredModel& model, const SearchProblem& problem,
   return described;
 }
 
-// The models that the pool has kept; `open`: the least score of what was not searched.
+// The models that the pool has kept; `open`: the smallest score of what was not searched.
 void tell_models(const ModelPool& pool, double open, bool all_sizes_proven,
                  const SearchProblem& problem, const Eigen::MatrixXd& columns,
                  const Eigen::VectorXd& response, const Eigen::VectorXd& weights,
@@ -122,7 +122,7 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
     pool.offer(start, static_cast<int>(terms_of(start).size()), 0);
   }
   pool.end_seeding();
-  double open = infinity;  // the least score of what was not searched
+  double open = infinity;  // the smallest score of what was not searched
   if (exhaustive) {
     const SearchProblem rows =
         problem.leave_one_out ? problem

@@ -45,7 +45,7 @@ std::vector<Term> polynomial_terms(const std::vector<std::string>& inputs, int d
   for (auto name = inputs.begin(); name != inputs.end(); ++name) {
     if (name->empty()) throw InputError("an input has no name");
     if (std::find(inputs.begin(), name, *name) != name)
-      throw InputError(fmt::format("input '{}' is given twice", *name));
+      throw InputError(fmt::format("input '{}' occurs twice", *name));
   }
   std::vector<Term> terms;
   for (int d = 0; d <= degree; ++d) {

@@ -38,10 +38,10 @@ Eigen::MatrixXd scaled_terms(const Design& design, std::span<const int> chosen,
 
 /// The model y = intercept + sum of coefficient[j] * (term j, unscaled).
 struct OriginalCoefficients {
-  double intercept = 0;        ///< implied by the scaling even where the model has no constant term
-  double intercept_error = 0;  ///< standard error
-  Eigen::VectorXd coefficients;     ///< one per chosen term; that of the constant is 0
-  Eigen::VectorXd standard_errors;  ///< likewise
+  double intercept = 0;          ///< implied by the scaling even if the model has no constant term
+  double intercept_error = 0;    ///< standard error
+  Eigen::VectorXd coefficients;  ///< one per chosen term; that of the constant is 0
+  Eigen::VectorXd standard_errors;  ///< the same
 };
 
 /// From coefficients of the scaled terms `chosen` of `design` and their covariance.

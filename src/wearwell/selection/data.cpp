@@ -23,11 +23,11 @@ Eigen::VectorXd read_numbers(const Table& table, const std::string& column) {
   return numbers;
 }
 
-/// A column that must tell rows apart.
+/// A column that must vary between rows.
 Eigen::VectorXd read_varied(const Table& table, const std::string& column) {
   const Eigen::VectorXd values = read_numbers(table, column);
   if ((values.array() == values[0]).all())
-    throw InputError(fmt::format("{}, column '{}' is {} in every row: nothing can be learned of it",
+    throw InputError(fmt::format("{}, column '{}' is {} in every row: it has no information",
                                  table.source, column, values[0]));
   return values;
 }
@@ -53,8 +53,8 @@ void refuse_twice(const char* what, const std::vector<std::string>& names) {
   }
 }
 
-/// The constant, and each of `names`: a column, or a product of columns. Columns new to `inputs`
-/// are appended there.
+/// The constant, and each of `names`: a column, or a product of columns. Appends columns that are
+/// new to `inputs`.
 std::vector<Term> terms_as_given(const Table& table, const std::vector<std::string>& names,
                                  std::vector<std::string>& inputs) {
   std::vector<Term> terms = {{{}, "1"}};
@@ -78,7 +78,7 @@ std::vector<Term> terms_as_given(const Table& table, const std::vector<std::stri
   return terms;
 }
 
-/// A term by its name, its inputs in any order.
+/// A term by its name, with its inputs in any order.
 int find_term(const std::vector<Term>& terms, const std::vector<std::string>& inputs,
               const std::string& name) {
   std::vector<int> factors;
@@ -93,18 +93,19 @@ int find_term(const std::vector<Term>& terms, const std::vector<std::string>& in
       return static_cast<int>(t);
     names.push_back(terms[t].name);
   }
-  throw InputError(fmt::format("--force: '{}' is no candidate term (nearest: '{}')", name,
+  throw InputError(fmt::format("--force: '{}' is not a candidate term (nearest: '{}')", name,
                                nearest_name(name, names)));
 }
 
 void check(const SelectData& data) {
-  if (data.response.empty()) throw InputError("--response is missing: the column to explain");
+  if (data.response.empty()) throw InputError("--response is missing: give the column to explain");
   if (data.inputs.empty() == data.terms.empty())
-    throw InputError(data.inputs.empty()
-                         ? "--inputs (with --degree) or --terms is missing: what may explain it"
-                         : "--inputs is given beside --terms; give one or the other");
+    throw InputError(
+        data.inputs.empty()
+            ? "--inputs (with --degree) or --terms is missing: give the columns that may explain it"
+            : "--inputs and --terms are both given; give one or the other");
   if (!data.terms.empty() && data.degree)
-    throw InputError("--degree goes with --inputs; --terms are taken as they are");
+    throw InputError("--degree applies to --inputs; remove it or use --inputs instead of --terms");
   if (data.degree.value_or(1) < 1)
     throw InputError(fmt::format("--degree is {}; it must be at least 1", *data.degree));
   refuse_twice("input", data.inputs);
@@ -151,15 +152,17 @@ SelectionResult read_selection(const SelectData& data, const Table& table) {
         terms.size(), most_search_terms));
   for (const std::string& input : result.inputs) {
     if (input == data.response)
-      throw InputError(fmt::format("'{}' is the response; it cannot explain itself", input));
+      throw InputError(fmt::format("'{}' is the response; it cannot be a term", input));
     if (input == data.weights)
-      throw InputError(fmt::format("'{}' weighs the rows; it cannot be an input too", input));
+      throw InputError(
+          fmt::format("'{}' is the column of weights; it cannot be an input too", input));
   }
   if (table.rows < min_rows)
     throw InputError(fmt::format("{} has {} rows; a selection needs at least {}", table.source,
                                  table.rows, min_rows));
   if (data.weights == data.response)
-    throw InputError(fmt::format("'{}' is the response; it cannot weigh the rows", data.response));
+    throw InputError(
+        fmt::format("'{}' is the response; it cannot be the column of weights", data.response));
 
   result.observed = read_varied(table, data.response);
   result.input_values.resize(result.observed.size(),

@@ -22,7 +22,7 @@ std::vector<double> list(const Eigen::VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
-/// Cells of the cloud between `low` and 1, `step` bins high, the darker the more models.
+/// Cells of the cloud between `low` and 1, `step` bins high; darker means more models.
 Json cloud_cells(const Cloud& cloud, bool predictive, double low, int step) {
   struct Cell {
     double size, from, to, count;
@@ -101,7 +101,7 @@ html::Figure size_figure(const SelectionResult& result, bool predictive, bool zo
   figure.title =
       fmt::format("{} against the number of terms{}", symbol, zoom ? ", near the best" : "");
   figure.caption =
-      all ? fmt::format("{} of {}{} models: the darker, the more models (logarithmic).{}", what,
+      all ? fmt::format("{} of {}{} models: darker means more models (logarithmic).{}", what,
                         search.cloud.complete ? "all " : "", html::given(search.cloud.models),
                         zoom ? "" : " Below zero counts as zero.")
           : fmt::format("{} of the best model of each size; best by the criterion.", what);
@@ -118,16 +118,15 @@ html::Figure observed_figure(const SelectionResult& result) {
   if (fit.loo_residuals.allFinite()) {
     marks.push_back(plot::points(
         {{"x", list(result.observed - fit.loo_residuals)}, {"y", list(result.observed)}},
-        {colour::measured, "predicted without the row itself", 0.6, 2, false, 25}));
+        {colour::measured, "predicted without the row", 0.6, 2, false, 25}));
   }
   marks.push_back(plot::points({{"x", list(fit.fitted)}, {"y", list(result.observed)}},
                                {colour::posterior, "fitted", 0.9, 2, false, 30}));
-  return {
-      "observed", "Observed against predicted",
-      "Points on the dashed line are met exactly. A row whose two points lie far apart pulls the "
-      "fit towards itself.",
-      plot::plot("Observed against predicted", {"predicted " + result.response},
-                 {"observed " + result.response}, std::move(marks), 300, true)};
+  return {"observed", "Observed against predicted",
+          "Points on the dashed line are predicted exactly. A row whose two points are far apart "
+          "has a large influence on the fit.",
+          plot::plot("Observed against predicted", {"predicted " + result.response},
+                     {"observed " + result.response}, std::move(marks), 300, true)};
 }
 
 html::Figure residual_figure(const std::string& id, const std::string& title,
@@ -157,16 +156,16 @@ html::Figure quantile_figure(const SelectionResult& result) {
     const double p = (static_cast<double>(i) + 0.5) / n;
     normal.push_back(std::numbers::sqrt2 * boost::math::erf_inv(2 * p - 1));
   }
-  return {
-      "quantiles", "Residuals against a normal law",
-      "Standardized residuals, sorted, where a normal law expects them: near the dashed line the "
-      "errors are normal; points off its ends are outliers.",
-      plot::plot("Residuals against a normal law", {"normal quantile"}, {"standardized residual"},
-                 {plot::line({{"x", {normal.front(), normal.back()}},
-                              {"y", {normal.front(), normal.back()}}},
-                             {colour::prior, "", 1, 1.5, true}),
-                  plot::points({{"x", normal}, {"y", list(sorted)}},
-                               {colour::posterior, "", 0.8, 2, false, 30})})};
+  return {"quantiles", "Normal probability plot of residuals",
+          "Standardized residuals, sorted, against normal quantiles: near the dashed line the "
+          "errors are normal; points off its ends are outliers.",
+          plot::plot(
+              "Residuals against normal quantiles", {"normal quantile"}, {"standardized residual"},
+              {plot::line(
+                   {{"x", {normal.front(), normal.back()}}, {"y", {normal.front(), normal.back()}}},
+                   {colour::prior, "", 1, 1.5, true}),
+               plot::points({{"x", normal}, {"y", list(sorted)}},
+                            {colour::posterior, "", 0.8, 2, false, 30})})};
 }
 
 html::Figure leverage_figure(const SelectionResult& result) {
@@ -177,9 +176,8 @@ html::Figure leverage_figure(const SelectionResult& result) {
   std::iota(row.begin(), row.end(), 1);
   return {
       "leverage", "Leverage",
-      "How far each row is from the others in the terms of the model: 1 means that the fit goes "
-      "through it whatever was observed there. Above the dashed line, twice the mean, a row is "
-      "worth a second look.",
+      "Distance of each row from the others in the terms of the model: at 1 the fit passes through "
+      "the row for any observed value. Check rows above the dashed line, twice the mean.",
       plot::plot("Leverage of each row against its standardized residual", {"leverage"},
                  {"standardized residual"},
                  {plot::horizontal_line(0, {colour::prior, "", 1, 1.5}),
@@ -200,15 +198,15 @@ std::vector<html::Figure> selection_fit_figures(const SelectionResult& result) {
   const LinearFit& fit = result.selection.fit;
   std::vector<html::Figure> figures = {
       observed_figure(result),
-      residual_figure(
-          "residuals", "Residuals against predicted",
-          "No trend and no funnel: the terms suffice and the error is the same everywhere.",
-          "predicted " + result.response, fit.fitted, fit.residuals),
+      residual_figure("residuals", "Residuals against predicted",
+                      "The residuals should show no trend and no funnel: then the terms suffice "
+                      "and the error is constant.",
+                      "predicted " + result.response, fit.fitted, fit.residuals),
       quantile_figure(result), leverage_figure(result)};
   for (std::size_t i = 0; i < result.inputs.size(); ++i) {
     figures.push_back(residual_figure(
         fmt::format("residuals-{}", i + 1), fmt::format("Residuals against {}", result.inputs[i]),
-        "A bend here asks for another term of this input.", result.inputs[i],
+        "Curvature indicates that another term of this input is needed.", result.inputs[i],
         result.input_values.col(static_cast<Eigen::Index>(i)), fit.residuals));
   }
   return figures;
@@ -228,10 +226,10 @@ std::vector<html::Figure> support_figures(const SelectionResult& result) {
   Axis share{"share of the models"};
   share.low = -0.02;
   share.high = 1.02;
-  return {{"support", "How sure each term is",
-           "In how many of the models found each term is, and the stacking weights of those models "
-           "together. A term near one is needed; a term near a half is a matter of taste.",
-           plot::plot("Share of the models found that hold each term", share, terms,
+  return {{"support", "Certainty of each term",
+           "The share of the models found with each term, and the sum of their stacking weights. A "
+           "term near one is needed; for a term near a half, the data do not decide.",
+           plot::plot("Share of the models found that contain each term", share, terms,
                       {plot::points({{"x", weight}, {"y", place}},
                                     {colour::measured, "weight", 0.9, 2, false, 60}),
                        plot::points({{"x", inclusion}, {"y", place}},

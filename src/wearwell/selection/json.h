@@ -6,10 +6,11 @@
 
 namespace wearwell {
 
-/// summary.json of a selection (keys: docs/how-to/select.md). A number that is not finite becomes null.
+/// summary.json of a selection (keys: docs/how-to/select.md). A number that is not finite becomes
+/// null.
 nlohmann::ordered_json to_json(const SelectionResult& result);
 
-/// The models that were found, best first, one a row.
+/// The models found, best first, one per row.
 std::string models_csv(const SelectionResult& result);
 
 }  // namespace wearwell

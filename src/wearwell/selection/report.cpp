@@ -53,13 +53,13 @@ Section verdict_section(const SelectionResult& result) {
        {"R2", number(fit.r2), "", fmt::format("adjusted {}", number(fit.adjusted_r2))},
        {"R2p", number(fit.r2p), "", "each row predicted without itself"},
        {"RMSE", number(fit.rmse), "",
-        fmt::format("RMSEp, each row without itself: {}", number(fit.rmsep))}}});
+        fmt::format("RMSEp, each row predicted without itself: {}", number(fit.rmsep))}}});
   std::vector<html::Figure> all = size_figures(result);
   all.resize(std::min(all.size(), figures_of_verdict));
   if (!all.empty()) section.add(Figures{std::move(all)});
   if (search.submodels > 1) {
-    section.add(Prose{
-        fmt::format("Honest for data to come: {}.", nested_sentence(result.selection.nested))});
+    section.add(
+        Prose{fmt::format("Unbiased for new data: {}.", nested_sentence(result.selection.nested))});
   }
   if (lacks_constant(result)) section.add(Prose{constant_sentence});
   return section;
@@ -74,7 +74,7 @@ Section size_section(const SelectionResult& result) {
                {"R2"},
                {"R2p"},
                {"Proven"},
-               {"Changes from the size before"}}};
+               {"Changes from the previous size"}}};
   std::vector<int> before;
   for (std::size_t size = 1; size < search.by_size.size(); ++size) {
     if (!search.by_size[size].model) continue;
@@ -92,8 +92,8 @@ Section size_section(const SelectionResult& result) {
   if (std::any_of(search.by_size.begin() + 1, search.by_size.end(),
                   [](const SizeBest& each) { return each.model && !each.proven; })) {
     section.add(
-        Prose{"Where it is not proven, this is the best model of that size that was found; the "
-              "proof of the best model does not need it."});
+        Prose{"If it is not proven, this is the best model found of that size; the proof of the "
+              "best model does not depend on it."});
   }
   return section;
 }
@@ -113,10 +113,10 @@ Section coefficient_section(const SelectionResult& result) {
                           each.original, each.original_error, of_scaled(100 * each.inclusion)});
   }
   Section section{"coefficients", "Coefficients"};
-  section.add(Prose{
-      "Each term is scaled to run from 0 to 1 over the data, so that the scaled coefficients "
-      "compare: how much the response changes over the range of the term. Standard errors take the "
-      "choice of terms for granted and are too small by what the search has used up."});
+  section.add(
+      Prose{"Each term is scaled to the range 0 to 1 over the data, so that scaled coefficients "
+            "are comparable: they give the change of the response over the range of the term. "
+            "Standard errors ignore the selection of terms and are therefore too small."});
   section.add(std::move(table));
   return section;
 }
@@ -159,7 +159,7 @@ Section method_section(const SelectionResult& result) {
       {"Rows", fmt::format("{}", result.observed.size())},
       {"Criterion", criterion_title(settings.criterion)},
       {"Submodels", html::given(search.submodels)},
-      {search.cloud.sizes.empty() ? "Branches looked at" : "Models looked at",
+      {search.cloud.sizes.empty() ? "Branches visited" : "Models evaluated",
        html::given(search.nodes)},
       {"Lower bound", fmt::format("{:.10g}", search.lower_bound)},
       {"Time taken", fmt::format("{:.2f} s", search.seconds)}};

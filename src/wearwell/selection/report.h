@@ -6,8 +6,8 @@
 
 namespace wearwell {
 
-/// A selection as one page that opens without a network: verdict, all models by size, the fit,
-/// coefficients, models near the best, method. There must be a model.
+/// A selection as one self-contained page: verdict, all models by size, the fit, coefficients,
+/// models near the best, method. There must be a model.
 std::string selection_report(const SelectionResult& result);
 
 }  // namespace wearwell

@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-/// A line on a terminal that says how a subset search stands, rewritten in place and wiped at the
+/// A line on a terminal with the progress of a subset search, updated in place and erased at the
 /// end.
 class SearchLine {
  public:
@@ -25,7 +25,7 @@ class SearchLine {
   bool shown_ = false;
 };
 
-/// "1.2 s left, ..." in words: best so far, bound, speed, and the time left where it is known.
+/// "1.2 s left, ...": best so far, bound, speed, and the remaining time if known.
 std::string describe(const SearchProgress& progress, Criterion criterion);
 
 }  // namespace wearwell

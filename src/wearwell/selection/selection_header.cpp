@@ -12,7 +12,7 @@ namespace {
 
 std::string equation_of(const SelectionResult& result) {
   if (result.selection.search.models.empty())
-    return result.response + " is explained by no model that was found";
+    return result.response + " is explained by no model found";
   std::string equation = result.response + " =";
   for (const CoefficientRow& each : coefficient_rows(result)) {
     const bool constant = !each.selected || each.term == "1";
@@ -26,20 +26,20 @@ std::string equation_of(const SelectionResult& result) {
 Check search_check(const SearchResult& search) {
   if (search.certified)
     return {"search", Verdict::pass, "no other model of these terms is better", ""};
-  return {"search", Verdict::fail, "stopped before the best model was proven to be the best",
+  return {"search", Verdict::fail, "stopped before the best model was proven",
           "Give it more time, or fewer terms."};
 }
 
 Check nested_check(const Nested& nested) {
   constexpr const char* name = "nested search";
-  if (nested.folds == 0) return {name, Verdict::pass, "not asked for", ""};
+  if (nested.folds == 0) return {name, Verdict::pass, "not requested", ""};
   if (!nested.problem.empty())
-    return {name, Verdict::warn, nested.problem, "How well unseen rows are predicted is unknown."};
+    return {name, Verdict::warn, nested.problem, "The prediction error for new rows is unknown."};
   const std::string detail = fmt::format(
       "R2 of rows left out of the whole search: {:.3f} +- {:.3f}", nested.r2, nested.r2_error);
   if (nested.r2 > 0) return {name, Verdict::pass, detail, ""};
-  return {name, Verdict::warn, detail + ", no better than their mean",
-          "These terms predict nothing that was not seen."};
+  return {name, Verdict::warn, detail + ", no better than the mean",
+          "These terms do not predict new rows."};
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace wearwell {
 
-/// What the summary.json of a selection begins with, as that of a study. Checks: whether the search
-/// came to its end, and whether rows that it has not seen are predicted better than by their mean.
+/// The start of the summary.json of a selection, as that of a study. Checks: whether the search was
+/// completed, and whether rows outside the search are predicted better than by their mean.
 Header selection_header(const SelectionResult& result);
 
 }  // namespace wearwell

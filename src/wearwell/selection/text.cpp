@@ -54,7 +54,7 @@ std::string model_table(const SelectionResult& result) {
   return text;
 }
 
-/// Terms that at least one in ten of the models holds, most frequent first.
+/// Terms of at least one in ten of the models, most frequent first.
 std::string support_table(const SelectionResult& result) {
   constexpr double rare = 0.1;
   const auto& support = result.selection.support;
@@ -73,7 +73,7 @@ std::string support_table(const SelectionResult& result) {
 }
 
 std::string size_table(const SelectionResult& result) {
-  Rows rows = {{"terms", "R2", "R2p", "proven", "changes from the size before"}};
+  Rows rows = {{"terms", "R2", "R2p", "proven", "changes from the previous size"}};
   std::vector<int> before;
   const auto& sizes = result.selection.search.by_size;
   for (std::size_t size = 1; size < sizes.size(); ++size) {
@@ -102,14 +102,14 @@ std::string best_by(Criterion criterion) {
 std::string nested_sentence(const Nested& nested) {
   if (!nested.problem.empty())
     return fmt::format(
-        "R2p is of the best after a search: rows it has not seen are predicted less well (how well "
-        "is not known: {})",
+        "R2p is that of the best model after a search: rows outside the search are predicted less "
+        "well (by an unknown amount: {})",
         nested.problem);
   std::string text = fmt::format(
       "rows left out of the whole search ({} parts): R2 {} +- {}, RMSE {}", nested.folds,
       number(nested.r2), fmt::format("{:.1g}", nested.r2_error), number(nested.rmse));
   if (nested.unproven > 0)
-    text += fmt::format("; {} of the searches were cut short, the best they had found is taken",
+    text += fmt::format("; {} of the searches were cut short and used their best model so far",
                         nested.unproven);
   return text;
 }
@@ -128,14 +128,14 @@ std::string gap_sentence(const SelectionResult& result) {
   const double best = search.models.front().criterion;
   if (result.settings.search.criterion == Criterion::adjr2)
     return fmt::format(
-        "The search was stopped: the best model found has an {} of {:.6g}; no model has one above "
+        "The search was stopped: the best model found has {} = {:.6g}; no model has a value above "
         "{:.6g}.",
         title, best, search.lower_bound);
   std::string gap = fmt::format("{:.4g}", best - search.lower_bound);
   if (result.settings.search.criterion == Criterion::loo)
     gap = fmt::format("{:.3g} %", 100 * (1 - search.lower_bound / best));
   return fmt::format(
-      "The search was stopped: the best model found has a {} of {:.6g}; no model has one below "
+      "The search was stopped: the best model found has {} = {:.6g}; no model has a value below "
       "{:.6g}, a gap of {}.",
       title, best, search.lower_bound, gap);
 }
@@ -151,7 +151,7 @@ std::string selection_text(const SelectionResult& result) {
   text += fmt::format("  {} of {} terms, the best of {} submodels by {}{}\n",
                       search.models.front().terms.size(), result.design.terms.size(),
                       plain_number(search.submodels), best_by(result.settings.search.criterion),
-                      search.certified ? ": proven" : " that was found: NOT PROVEN");
+                      search.certified ? ": proven" : " found: NOT PROVEN");
   text += fmt::format(
       "  {} rows of {}{}{}\n", result.observed.size(), result.data_file,
       result.weights_column.empty() ? "" : fmt::format(", weighted by {}", result.weights_column),
@@ -170,9 +170,10 @@ std::string selection_text(const SelectionResult& result) {
                         result.settings.search.near_most, result.settings.search.near);
   text += "\nBest of each size\n" + size_table(result);
   for (const Dependence& each : search.dependences) {
-    text +=
-        fmt::format("\n{} is a combination of {}: models with all of them were skipped.\n",
-                    result.design.terms[each.column].name, fmt::join(result.names(each.on), ", "));
+    text += fmt::format(
+        "\n"
+        "{} is a combination of {}: models with all of them were skipped.\n",
+        result.design.terms[each.column].name, fmt::join(result.names(each.on), ", "));
   }
   text += '\n';
   if (!search.certified) text += gap_sentence(result) + "\n";

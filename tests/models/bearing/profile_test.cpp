@@ -136,7 +136,7 @@ TEST(WornArea, RefusesImpossibleProfiles) {
   EXPECT_THAT(message(good, far), testing::HasSubstr("no position in common"));
   EXPECT_THAT(message(good, few), testing::HasSubstr("the profile after has 2 points"));
   EXPECT_THAT(message(good, good, 0.1), testing::HasSubstr("a flank of 0.1 m"));
-  EXPECT_THAT(message(good, good, 1e-4), testing::HasSubstr("20 are needed in each flank"));
+  EXPECT_THAT(message(good, good, 1e-4), testing::HasSubstr("each flank needs 20"));
 }
 
 }  // namespace

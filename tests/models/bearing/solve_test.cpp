@@ -203,7 +203,7 @@ TEST(Solve, NamesWhatIsWrong) {
             "both pressure and force and length are given; give one or the other");
   b = example();
   b.rate = 1e-16;
-  EXPECT_EQ(refusal(Quantity::rate, b), "rate is given, but the rate does not follow from it");
+  EXPECT_EQ(refusal(Quantity::rate, b), "rate is given, but the rate does not depend on it");
   b = example();
   b.clearance = -2e-5;
   EXPECT_EQ(refusal(Quantity::rate, b), "clearance is -2e-05 in SI units; it must be positive");

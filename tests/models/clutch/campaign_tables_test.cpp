@@ -129,7 +129,7 @@ TEST_F(CampaignTables, MissingCyclesAreRefusedOrFilled) {
   ASSERT_GT(lost, 300u);
   write_campaign(lossy);
   EXPECT_THAT(refused(as_written), AllOf(HasSubstr("cycles are logged between the weighings at"),
-                                         HasSubstr("write missing_cycles = \"fill\" into [data]")));
+                                         HasSubstr("add missing_cycles = \"fill\" to [data]")));
   EXPECT_EQ(refused(std::string(as_written) + "missing_cycles = 'refuse'\n"), refused(as_written));
   // `check` says what `fit` would.
   const ClutchStudy unfilled = study(as_written);
@@ -138,7 +138,7 @@ TEST_F(CampaignTables, MissingCyclesAreRefusedOrFilled) {
   const ClutchStudy filled = study(std::string(as_written) + "missing_cycles = 'fill'\n");
   EXPECT_EQ(filled.campaign.cycles.size(), whole.cycles.size());
   EXPECT_THAT(study_description(filled),
-              HasSubstr("were not logged; each counts as the cycle before it"));
+              HasSubstr("were not logged; each counts as a copy of the previous cycle"));
   EXPECT_THAT(filled.campaign.filled, SizeIs(15));
   // What a cycle too few or too many of its kind could do to a block is its scatter over the root of
   // their number; energies of cycles of one block differ by some per cent.

@@ -40,8 +40,8 @@ TEST(ClutchChecks, AWearRateThatDependsOnNothingFails) {
   EXPECT_LT(result.nested.r2, 0.1);
   const Check& check = wear_map_check(result);
   EXPECT_EQ(check.verdict, Verdict::fail);
-  EXPECT_THAT(check.detail, HasSubstr("has not seen"));
-  EXPECT_THAT(check.advice, HasSubstr("does not depend on the inputs"));
+  EXPECT_THAT(check.detail, HasSubstr("outside the search"));
+  EXPECT_THAT(check.advice, HasSubstr("no dependence of the wear rate on the inputs"));
   EXPECT_FALSE(result.trusted);
 }
 
@@ -67,7 +67,7 @@ TEST(ClutchChecks, ALifeOutsideTheRangeOfValidityIsNamed) {
   };
   EXPECT_EQ(check(1500).verdict, Verdict::pass);
   EXPECT_EQ(check(2200).verdict, Verdict::warn);
-  EXPECT_THAT(check(2200).detail, HasSubstr("'hill' lies outside the range of validity by 0.2 of"));
+  EXPECT_THAT(check(2200).detail, HasSubstr("'hill' lies outside the calibrated range by 0.2 of"));
   EXPECT_THAT(check(2200).detail, HasSubstr("slip_speed 2200, modelled from 1000 to 2000 rpm"));
   EXPECT_EQ(check(9000).verdict, Verdict::fail);
   EXPECT_EQ(check(300).verdict, Verdict::fail);
@@ -87,7 +87,7 @@ TEST(ClutchChecks, AnIntervalThatSaysNothingFails) {
   EXPECT_EQ(check(0.2).verdict, Verdict::pass);
   EXPECT_EQ(check(0.7).verdict, Verdict::warn);
   EXPECT_EQ(check(16404.74).verdict, Verdict::fail);
-  EXPECT_THAT(check(16404.74).detail, HasSubstr("'launch' is known to +- 1.64e+06 % only"));
+  EXPECT_THAT(check(16404.74).detail, HasSubstr("'launch' has an uncertainty of +- 1.64e+06 %"));
 }
 
 }  // namespace

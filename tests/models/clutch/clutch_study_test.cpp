@@ -81,8 +81,8 @@ TEST_F(ClutchTables, RefusesByRow) {
         [&] { read_weighings(write("w.csv", "plate,cycle,block,mass [g]\n" + rows)); });
   };
   EXPECT_THAT(weighings("1,0,start,250\n1,5,runin,249\n"),
-              HasSubstr("row 2, column 'block': 'runin' is no block"));
-  EXPECT_THAT(weighings("1,0,start,250\n1,5,point x,249\n"), HasSubstr("'point x' is no block"));
+              HasSubstr("row 2, column 'block': 'runin' is not a block"));
+  EXPECT_THAT(weighings("1,0,start,250\n1,5,point x,249\n"), HasSubstr("'point x' is not a block"));
   EXPECT_THAT(weighings("1,0,start,-250\n"), HasSubstr("row 1, column 'mass [g]'"));
   EXPECT_THAT(weighings("1,0.5,start,250\n"),
               HasSubstr("row 1, column 'cycle': 0.5 must be a whole number of at least 0"));

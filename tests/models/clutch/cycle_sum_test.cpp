@@ -277,7 +277,7 @@ TEST(CycleSum, RefusesOrSkipsWhatIsNotFinite) {
     EXPECT_THAT(message_of<InputError>([&] {
                   sum(refusing, {{1, 1, middle, 1e4}, {1, 2, hot, 1e4}, {1, 3, middle, 1e4}});
                 }),
-                HasSubstr("row 2: plate 1, cycle 2: the model gives no finite wear"));
+                HasSubstr("row 2: plate 1, cycle 2: the model has no finite wear"));
     CycleSum skipping(*each, true, NotFinite::skip), without(*each, true);
     sum(skipping, {{1, 1, middle, 1e4}, {1, 2, hot, 1e4}, {1, 3, middle, 1e4}});
     sum(without, {{1, 1, middle, 1e4}, {1, 3, middle, 1e4}});

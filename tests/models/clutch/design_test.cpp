@@ -148,7 +148,7 @@ TEST(Design, RefusesWhatCannotBe) {
               HasSubstr("levels of temperature must ascend"));
   EXPECT_THAT(refused([](auto& r) { r.highest[3] = 3; }),
               HasSubstr("feasible range of closing_time"));
-  EXPECT_THAT(refused([](auto& r) { r.inside = -1; }), HasSubstr("cannot be negative"));
+  EXPECT_THAT(refused([](auto& r) { r.inside = -1; }), HasSubstr("must not be negative"));
   EXPECT_THAT(refused([](auto& r) { r.most_energy = 10e3; }), HasSubstr("more than feasible"));
   EXPECT_THAT(refused([](auto& r) {
                 for (std::size_t i = 0; i < 4; ++i) {

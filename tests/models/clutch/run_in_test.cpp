@@ -135,7 +135,7 @@ TEST(RunIn, RefusesTooFewBlocks) {
   auto blocks = exact_blocks({1});
   blocks.resize(5);
   EXPECT_THAT(message_of<InputError>([&] { fit_run_in(blocks); }),
-              HasSubstr("5 blocks of run-in and run-out on 1 plates cannot give 5 constants"));
+              HasSubstr("5 blocks of run-in and run-out on 1 plates are too few for 5 constants"));
   EXPECT_THAT(message_of<InputError>([&] { fit_run_in({}); }), HasSubstr("0 blocks"));
 }
 

@@ -92,7 +92,7 @@ TEST(WornBlocks, RefusesWhatCannotBe) {
                 c.weighings.push_back({8, 0, 0.25, Block::start, 0, {}});
                 c.weighings.push_back({7, 5, 0.2, Block::run_out, 0, {}});
               }),
-              HasSubstr("row 5: plate 7: its weighings are not together"));
+              HasSubstr("row 5: plate 7: its weighings are not consecutive"));
   EXPECT_THAT(refused([](Campaign& c) { c.cycles.erase(c.cycles.begin() + 1); }),
               HasSubstr("row 2: plate 7: 1 cycles are logged between the weighings at 0 and 2, "
                         "where 2 ran"));
@@ -103,7 +103,7 @@ TEST(WornBlocks, RefusesWhatCannotBe) {
   EXPECT_THAT(refused([](Campaign& c) { c.cycles[3].energy = 0; }),
               HasSubstr("cycles, row 4: plate 7, cycle 4: the energy is 0 J"));
   EXPECT_THAT(refused([](Campaign& c) { c.cycles[1].plate = 8; }),
-              HasSubstr("cycles, row 3: plate 7: its cycles are not together"));
+              HasSubstr("cycles, row 3: plate 7: its cycles are not consecutive"));
   EXPECT_THAT(refused([](Campaign& c) { c.weighings[2].mass = c.weighings[1].mass + 1e-6; }),
               HasSubstr("row 3: plate 7 gained 1 mg between cycles 2 and 4: more than 4 standard"));
 }

@@ -280,7 +280,7 @@ TEST(PartTracker, SaysWhatCannotBe) {
   const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
   EXPECT_THAT(preset.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
   FollowedUnit seen(*preset.tracker, "h");
-  EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("not, as before, under 350 MPa"));
+  EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("but earlier under 350 MPa"));
   EXPECT_THAT(seen.take({none, 350e6}).problem, HasSubstr("life is missing"));
   EXPECT_THAT(seen.take({-1, 350e6}).problem, HasSubstr("0 or more"));
   FollowedUnit fresh(*preset.tracker, "z");

@@ -239,8 +239,8 @@ TEST_F(CurveStudy, FormsThatDoNotGoTogetherAreRefusedWithWhatDoes) {
   has(refused("curve = \"knee\"\nfatigue_limit = \"random\""), "second_slope");
   has(refused("curve = \"knee\"\nsecond_slope = \"infinite\""), "fatigue_limit");
   has(refused("second_slope = \"haibach\""), "needs curve = \"knee\"");
-  has(refused("curve = \"bastenaire\"\nfatigue_limit = \"random\""), "one limit for all");
-  has(refused("fatigue_limit = \"random\"\nscatter = \"grows\""), "grows goes with none");
+  has(refused("curve = \"bastenaire\"\nfatigue_limit = \"random\""), "one common limit");
+  has(refused("fatigue_limit = \"random\"\nscatter = \"grows\""), "use grows with fatigue_limit");
   has(refused("curve = \"knee\"", "[likelihood]\nfamily = \"normal\"\n"), "log10-normal or");
 }
 

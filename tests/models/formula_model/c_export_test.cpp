@@ -142,14 +142,14 @@ TEST_F(CExported, RefusesWhatHasNoC) {
                       rows_of(1)),
               HasSubstr("random steps"));
   EXPECT_THAT(refusal(with("wear = \"b * time\"", "\"d(wear)/d(time)\" = \"b\""), rows_of(1)),
-              HasSubstr("rows before its own"));
+              HasSubstr("depends on earlier rows"));
   EXPECT_THAT(refusal(with("family = \"normal\"\nmean = \"wear\"\nsd = \"sigma\"",
                            "family = \"largest-extreme-value\"\nlocation = \"wear\"\nscale = "
                            "\"sigma\""),
                       rows_of(1)),
-              HasSubstr("largest-extreme-value family, which is not exported to C"));
+              HasSubstr("largest-extreme-value family; C export supports"));
   EXPECT_THAT(refusal(straight, rows_of(1), {"unit", "u9", 0}), HasSubstr("no unit 'u9'"));
-  EXPECT_THAT(refusal(straight, rows_of(1), {"1st", "", 0}), HasSubstr("no name for C"));
+  EXPECT_THAT(refusal(straight, rows_of(1), {"1st", "", 0}), HasSubstr("not a valid C name"));
 }
 
 }  // namespace

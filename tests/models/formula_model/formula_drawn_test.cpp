@@ -269,9 +269,10 @@ TEST_F(FormulaDrawn, RefusalsNameThePlace) {
   };
   const std::string open = refusal(without(crossed, "rows_of = \"machine\"\n"));
   EXPECT_NE(open.find("random_effects.operator"), std::string::npos) << open;
-  EXPECT_NE(open.find("those of one machine or of one operator? None lies within the others. "
-                      "Say so: rows_of = \"machine\" under [data]"),
-            std::string::npos)
+  EXPECT_NE(
+      open.find("identifies the units, machine or operator? No label is nested in the others. "
+                "Add rows_of = \"machine\" to [data]"),
+      std::string::npos)
       << open;
   const std::string wrong = refusal(without(crossed, "rows_of = \"machine\"", "rows_of = \"F\""));
   EXPECT_NE(wrong.find("data.rows_of"), std::string::npos) << wrong;

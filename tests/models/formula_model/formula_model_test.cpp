@@ -99,7 +99,7 @@ TEST_F(ObservedLives, AreRefusedWhereARowSaysTwoThings) {
   for (const char* row : {"2,100,50,150\n", "2,100,50,\n", "2,100,100,150\n"})
     EXPECT_THAT(message_of<InputError>([&] { model(std::string("1,90,,\n") + row + "3,90,,\n"); }),
                 testing::AllOf(testing::HasSubstr("row 2, column"),
-                               testing::HasSubstr("empty where there is a measured value")))
+                               testing::HasSubstr("empty if there is a measured value")))
         << row;
   EXPECT_EQ(model("1,90,90,90\n2,100,,\n")->measured.front().observed.failures, 2u);
 }

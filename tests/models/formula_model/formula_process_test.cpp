@@ -327,11 +327,11 @@ TEST_F(FormulaProcessStudy, WhatIsNoProcessIsRefused) {
         [&] { wearwell::read_posterior_study(write("study.toml", text)).description(); });
   };
   EXPECT_NE(refusal(lasers("wiener-process", "scale = \"u\"\n", "limit = { rate = \"10 %/h\" }\n"))
-                .find("limits of this study are of increase"),
+                .find("thresholds of this study are of increase"),
             std::string::npos);
   EXPECT_NE(refusal(lasers("wiener-process", "sd = \"u * time/1 [h]\"\n",
                            "limit = { increase = \"10 %\" }\n"))
-                .find("in proportion to the mean"),
+                .find("proportional to the mean"),
             std::string::npos);
   write("laser.csv", "laser,hours,increase_percent\n1,10,0.5\n1,20,0.4\n2,10,0.1\n2,20,0.3\n");
   EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\n")).find("0.4 % after 0.5: a gamma"),

@@ -282,7 +282,7 @@ TEST(FormulaTracker, WhatCannotBeTaken) {
   EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
   EXPECT_THROW(unit.take({1 * um}), InputError);
   EXPECT_EQ(unit.take({1 * um, -0.5 * h}).problem,
-            "time = -0.5 h lies before 0, where paths begin");
+            "time = -0.5 h lies before 0, the start of paths");
   EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
   const UpdateResult far = unit.take({40 * um, 2 * h});
   EXPECT_TRUE(far.counted);

@@ -28,7 +28,7 @@ struct Options {
   bool json = false;
 };
 
-// Computed from numbers that were given, not estimated: so many digits, without zeros at their end.
+// Computed from exact inputs, not estimated: full digits without trailing zeros.
 std::string digits(double x, int count) {
   return numbers_text(fmt::format("{:.{}g}", x, count), Script::terminal);
 }
@@ -41,7 +41,7 @@ void print_text(const Answer& a) {
                plain_range(a.in_unit(a.interval->q05), a.in_unit(a.interval->q95)), a.unit.text,
                plain_number(a.in_unit(a.interval->q50)), plain_given(a.draws), a.seed);
     if (a.is_life())
-      fmt::print("B10 life: {} {}: one in ten reaches the depth before that\n",
+      fmt::print("B10 life: {} {}: one in ten reaches the depth before this time\n",
                  plain_number(a.in_unit(a.interval->b10)), a.unit.text);
   }
   fmt::print("\n");
@@ -57,7 +57,10 @@ void print_text(const Answer& a) {
   }
   if (const Bearing mean = a.given.mean(); a.question.wanted == Quantity::time)
     print_row("revolutions", digits(s.value * *mean.speed, 6));
-  fmt::print("\nChange of the {} when an input grows by 1 %:\n", a.question.command);
+  fmt::print(
+      "\n"
+      "Change of the {} when an input grows by 1 %:\n",
+      a.question.command);
   std::size_t width = 0;
   for (const auto& g : a.given.given) width = std::max(width, g.value.text.size());
   for (const auto& g : a.given.given) {
@@ -90,7 +93,7 @@ void add_bearing_command(CLI::App& app) {
     add_inputs(*sub, options->asked.inputs, question.unused);
     sub->add_option("--unit", options->asked.unit, "unit of the answer")->type_name("UNIT");
     if (question.wanted == Quantity::depth) {
-      sub->add_option("--limit", options->asked.limit, "allowable depth: states the margin to it")
+      sub->add_option("--limit", options->asked.limit, "allowable depth: reports the margin to it")
           ->type_name("'NUMBER m'");
     }
     sub->add_option("--draws", options->asked.draws, "random draws for the interval")
@@ -102,12 +105,13 @@ void add_bearing_command(CLI::App& app) {
         ->capture_default_str();
     sub->add_flag("--json", options->json, "print one JSON object");
     sub->footer(fmt::format(
-        "Every value has a unit, and may have an uncertainty, which then gives an interval:\n"
+        "Every value has a unit. An uncertainty gives the answer an interval:\n"
         "  '0.100 +- 0.005 mm' (standard deviation), '1 MPa +- 5 %',\n"
         "  '~ lognormal(0.1 mm, 0.005 mm)' (mean, standard deviation), '~ uniform(90 um, 110 "
         "um)',\n"
-        "  '1e-16 m^3/(N m) x/ 2' (lognormal: two in three between half and twice that)\n\n"
-        "Example:\n  {}",
+        "  '1e-16 m^3/(N m) x/ 2' (lognormal: two thirds lie between half and twice the median)\n\n"
+        "Example:\n"
+        "  {}",
         question.example));
     sub->callback([&question, options] { run(question, *options); });
   }

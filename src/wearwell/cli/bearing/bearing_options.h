@@ -8,8 +8,8 @@
 
 namespace wearwell::bearing {
 
-/// Adds --contact and the inputs; those in `hidden` are taken, so that they can be refused with a reason, but no help
-/// shows them. `inputs` must stay until the command has run.
+/// Adds --contact and the inputs. Options in `hidden` are parsed so that they can be refused with a
+/// reason, but help does not show them. `inputs` must outlive the command.
 void add_inputs(CLI::App& command, BearingInputs& inputs, const std::vector<Input>& hidden = {});
 
 /// One line of an answer.

@@ -31,7 +31,7 @@ struct ChartOptions {
   std::filesystem::path file;
 };
 
-/// One curve a sigma.
+/// One curve per sigma.
 struct Chart {
   Contact contact;
   std::vector<double> sigma, delta;
@@ -68,7 +68,8 @@ std::vector<double> read_values(const char* flag, const std::string& text) {
   }
 }
 
-/// Where the user's bearing lies: by its depth, or by the depth that its rate, load and life make.
+/// The position of the user's bearing: by its depth, or by the depth that follows from its rate,
+/// load and life.
 std::optional<Solution> user_point(const UncertainBearing& bearing) {
   if (bearing.given.empty()) return std::nullopt;
   const Bearing b = bearing.mean();
@@ -109,7 +110,7 @@ std::string csv(const Chart& chart) {
 std::string page(const Chart& chart) {
   std::vector<plot::Json> marks;
   for (std::size_t s = 0; s < chart.sigma.size(); ++s) {
-    // Around half the circle of hues, from blue to orange.
+    // Half the circle of hues, from blue to orange.
     const double share = chart.sigma.size() > 1
                              ? static_cast<double>(s) / static_cast<double>(chart.sigma.size() - 1)
                              : 0;
@@ -175,15 +176,15 @@ void add_chart_command(CLI::App& bearing) {
       ->type_name("LIST")
       ->capture_default_str();
   sub->add_option("-o,--output", options->file,
-                  "write to FILE.html or FILE.csv, not to the terminal")
+                  "write FILE.html or FILE.csv instead of the terminal")
       ->type_name("FILE");
   sub->footer(
-      "As it stands it prints Figure 4 of Ligterink and de Gee (1996); for their Figure 5 say\n"
+      "By default it prints Figure 4 of Ligterink and de Gee (1996). For their Figure 5 run\n"
       "  wearwell bearing chart --delta 2e-4:100e-4:491\n"
-      "and to look at it, add -o chart.html.\n"
+      "and for a picture add -o chart.html.\n"
       "A bearing given by radius, clearance and depth (or rate, pressure and revolutions) becomes "
-      "a last\n"
-      "row, of the kind 'point'.");
+      "the last\n"
+      "row, of kind 'point'.");
   sub->callback([options] { run(*options); });
 }
 

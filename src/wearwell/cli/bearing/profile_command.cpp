@@ -30,7 +30,7 @@ struct ProfileOptions {
   bool json = false;
 };
 
-/// A column of lengths, in the unit that the option gives, or else the heading.
+/// A column of lengths, in the unit of the option or of the heading.
 std::vector<double> read_lengths(const Table& table, const std::string& name, const char* flag,
                                  const std::string& text) {
   std::optional<Unit> given;
@@ -43,13 +43,14 @@ std::vector<double> read_lengths(const Table& table, const std::string& name, co
   const Unit unit = column_unit(table, column, "m", given);
   if (unit.text == "1")
     throw InputError(
-        fmt::format("{0} is missing, for example {0} um (the heading '{1}' of {2} has no unit)",
-                    flag, column.name, table.source));
+        fmt::format("{0} is missing, for example {0} um (heading '{1}' of {2} has no unit)", flag,
+                    column.name, table.source));
   return si_numbers(table, column.name, unit);
 }
 
 Profile read_profile(const char* flag, const std::string& file, const ProfileOptions& options) {
-  if (file.empty()) throw InputError(fmt::format("{} is missing: a file of two columns", flag));
+  if (file.empty())
+    throw InputError(fmt::format("{} is missing: give a file of two columns", flag));
   const Table table = read_table(file);
   return {read_lengths(table, options.position, "--position-unit", options.position_unit),
           read_lengths(table, options.height, "--height-unit", options.height_unit)};
@@ -60,39 +61,39 @@ std::optional<double> read_flank(const std::string& text) {
   return option_value("--flank", text, "m", Allowed::positive);
 }
 
-/// A wear rate and what it follows from.
+/// A wear rate and the quantities that it follows from.
 struct Result {
   WornArea worn;
   std::optional<double> rate, rate_sd,
-      rate_half;                ///< m^3/(N m); when load and revolutions are given
-  std::optional<double> depth;  ///< of a stationary contact with that area, m
+      rate_half;                ///< m^3/(N m); set when load and revolutions are given
+  std::optional<double> depth;  ///< depth of a stationary contact with that area, m
 };
 
-/// The inputs beside the area, all exact: k = A/(4 pi r^2 p_a n).
+/// The inputs other than the area, all exact: k = A/(4 pi r^2 p_a n).
 Result evaluate(const ProfileOptions& options) {
   const UncertainBearing given = options.bearing.read();
   if (!given.is_exact()) {
-    throw InputError("the interval here is that of the profiles; give the bearing without +-");
+    throw InputError("the interval comes from the profiles; give the bearing without +-");
   }
   const Bearing b = given.mean();
   if (b.depth || b.scar_width || b.rate) {
-    throw InputError("--depth, --scar-width and --rate are answers here; leave them out");
+    throw InputError("--depth, --scar-width and --rate are results here; leave them out");
   }
   if (!b.radius) throw InputError("--radius is missing");
   const bool load = b.pressure || b.force, turns = b.revolutions || b.speed || b.time;
   if (b.pressure && (b.force || b.length)) {
-    throw InputError("--pressure is given beside --force or --length; give one or the other");
+    throw InputError("--pressure and --force or --length are both given; give one or the other");
   }
   if (b.force.has_value() != b.length.has_value()) {
     throw InputError("--force and --length go together: p_a = F/(2 r L)");
   }
   if (b.revolutions && (b.speed || b.time)) {
-    throw InputError("--revolutions is given beside --speed or --time; give one or the other");
+    throw InputError("--revolutions and --speed or --time are both given; give one or the other");
   }
   if (b.speed.has_value() != b.time.has_value()) throw InputError("--speed and --time go together");
   if (load != turns) {
     throw InputError(
-        fmt::format("{} for a wear rate; without load and revolutions only the area is given",
+        fmt::format("{} for a wear rate; without load and revolutions only the area follows",
                     load ? "--revolutions (or --speed and --time) is missing"
                          : "--pressure (or --force and --length) is missing"));
   }
@@ -150,12 +151,12 @@ void print_text(const Result& r) {
                interval(*r.rate, *r.rate_half));
   }
   fmt::print("\n");
-  print_row("worn place", fmt::format("{:.4g} to {:.4g} mm", w.from * 1e3, w.to * 1e3));
+  print_row("worn region", fmt::format("{:.4g} to {:.4g} mm", w.from * 1e3, w.to * 1e3));
   if (r.depth) {
     print_row("depth of a scar of that area", fmt::format("{:.6g} mm", *r.depth * 1e3));
   }
   print_row("shift along the surface",
-            w.shift == 0 ? "none (the flanks have no feature to align by, or need none)"
+            w.shift == 0 ? "none (the flanks have no feature to align by, or need no shift)"
                          : fmt::format("{:.4g} um", w.shift * 1e6));
   print_row("raised by, turned by",
             fmt::format("{:.4g} um, {:.4g} um/mm", w.offset * 1e6, w.tilt * 1e3));
@@ -168,14 +169,14 @@ void run(const ProfileOptions& options) {
   constexpr double loose = 0.25;
   if (result.worn.flank_step > suspicious_step) {
     fmt::print(stderr,
-               "warning: the flanks are lower near the worn place than farther out (by {:.2g} "
-               "standard deviations): wear may reach into them; give a shorter --flank\n",
+               "warning: the flanks are lower near the worn region than farther out (by {:.2g} "
+               "standard deviations): they may be worn too; give a shorter --flank\n",
                result.worn.flank_step);
   }
   if (!(result.worn.sd < loose * result.worn.area)) {
     fmt::print(stderr,
-               "warning: the worn area hardly stands out from the noise; the rate is little more "
-               "than an upper bound\n");
+               "warning: the worn area is not distinguishable from the noise; read the rate as an "
+               "upper bound\n");
   }
   if (options.json) {
     print_json(result);
@@ -201,21 +202,22 @@ void add_profile_command(CLI::App& bearing) {
       ->type_name("COLUMN")
       ->capture_default_str();
   sub->add_option("--position-unit", options->position_unit,
-                  "unit of the positions, unless the heading has it")
+                  "unit of the positions, if the heading has none")
       ->type_name("UNIT");
   sub->add_option("--height-unit", options->height_unit,
-                  "unit of the heights, unless the heading has it")
+                  "unit of the heights, if the heading has none")
       ->type_name("UNIT");
   sub->add_option("--flank", options->flank,
-                  "length at either end that is not worn (default: a fifth of the profile)")
+                  "unworn length at either end (default: a fifth of the profile)")
       ->type_name("'NUMBER m'");
   options->bearing.contact = contact_name(Contact::stationary);
   add_inputs(*sub, options->bearing, {&Bearing::depth, &Bearing::scar_width, &Bearing::rate});
   sub->get_option("--contact")->group("");
   sub->add_flag("--json", options->json, "print one JSON object");
   sub->footer(
-      "The profiles run around the bearing, across the worn place, and begin and end beside it.\n"
-      "Their unworn ends align the two; load and revolutions turn the area into a rate.\n\n"
+      "The profiles run around the bearing, across the worn region, and begin and end outside it.\n"
+      "Their unworn ends align the two profiles; load and revolutions turn the area into a "
+      "rate.\n\n"
       "Example:\n"
       "  wearwell bearing profile --before new.csv --after worn.csv --position-unit mm \\\n"
       "    --height-unit um --radius '10 mm' --length '20 mm' --force '800 N' --revolutions 2e5");

@@ -17,7 +17,7 @@ void add_clutch_commands(CLI::App& app, int& exit_code) {
   add_life_command(*command);
   add_compare_command(*command);
   add_sql_command(*command);
-  add_sql_command(app)->group("");  // its name before it was one of clutch's
+  add_sql_command(app)->group("");  // the name before the command moved to clutch
   add_fleet_command(app, exit_code);
 }
 

@@ -12,15 +12,16 @@
 namespace wearwell::clutch {
 namespace {
 
-/// A result folder as one row of Table 4.
+/// A result folder as one row of Table 4 of the paper.
 std::vector<std::string> row_of(const std::filesystem::path& folder) {
   const std::filesystem::path file = summary_file(folder);
   const auto summary = read_json(file);
   const JsonReader json(summary, file);
   const std::string model = json.at("model").text();
   if (model != "clutch-wear")
-    throw InputError(fmt::format("{} is of model {}, not of a clutch; wearwell compare is for all",
-                                 file.string(), model));
+    throw InputError(
+        fmt::format("{} is of model {}, not of a clutch; wearwell compare takes every model",
+                    file.string(), model));
   const std::vector<JsonReader> maps = json.at("maps").items();
   if (maps.empty()) json.at("maps").fail("is empty");
   const JsonReader& map = maps.front();
@@ -38,7 +39,7 @@ std::vector<std::string> row_of(const std::filesystem::path& folder) {
 
 void add_compare_command(CLI::App& clutch) {
   CLI::App* command =
-      clutch.add_subcommand("compare", "Several materials beside each other, from their results");
+      clutch.add_subcommand("compare", "Compare several materials by their results");
   const auto folders = std::make_shared<std::vector<std::filesystem::path>>();
   command->add_option("DIR", *folders, "folders that wearwell fit wrote")->required();
   command->footer("Example:\n  wearwell clutch compare a-results b-results");

@@ -30,15 +30,15 @@ constexpr std::array<const char*, 4> flags = {"--slip-speed", "--torque", "--tem
                                               "--closing-time"};
 // Points between the levels are rounded to this, in the unit of the levels.
 constexpr std::array<double, 4> steps = {1, 0.1, 0.1, 0.01};
-/// Feasible ranges reach so far beyond the levels when nothing is said, in ranges.
+/// Default margin of feasible ranges beyond the levels, as a fraction of the levels' range.
 constexpr double default_reach = 0.1;
 
 struct Values {
   std::vector<double> values;  ///< as in OperatingPoint
-  double unit = 1;             ///< size of the unit that was written
+  double unit = 1;             ///< size of the given unit
 };
 
-/// "1200, 1700, 2800 rpm": numbers with one unit behind them; "1000 .. 3000 rpm" likewise.
+/// "1200, 1700, 2800 rpm": numbers followed by one unit; "1000 .. 3000 rpm" likewise.
 Values read_values(const std::string& flag, std::string text, const Input& input) {
   const auto fail = [&](const std::string& reason) {
     throw InputError(fmt::format("{}: '{}': {}", flag, text, reason));
@@ -62,7 +62,7 @@ Values read_values(const std::string& flag, std::string text, const Input& input
     try {
       x = read_quantity(numbers.substr(from, end - from), "1").value;
     } catch (const InputError&) {
-      fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
+      fail("write numbers separated by commas and followed by one unit: '1200, 1700, 2800 rpm'");
     }
     const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
     result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
@@ -87,7 +87,7 @@ DesignRequest read_request(const DesignOptions& options) {
     const std::string flag = fmt::format("--feasible-{}", flags[i] + 2);
     const Values range = read_values(flag, options.feasible[i], inputs[i]);
     if (range.values.size() != 2)
-      throw InputError(fmt::format("{}: a range is 'LOW .. HIGH UNIT'", flag));
+      throw InputError(fmt::format("{}: write a range as 'LOW .. HIGH UNIT'", flag));
     request.lowest[i] = range.values[0];
     request.highest[i] = range.values[1];
   }
@@ -110,25 +110,25 @@ void run(const DesignOptions& options) {
 }  // namespace
 
 void add_design_command(CLI::App& clutch) {
-  CLI::App* command = clutch.add_subcommand(
-      "design",
-      "Plan a rig campaign: full factorial, points outside it, points inside to validate");
+  CLI::App* command = clutch.add_subcommand("design",
+                                            "Plan a rig campaign: full factorial, points outside "
+                                            "it, and points inside it for validation");
   const auto options = std::make_shared<DesignOptions>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    command->add_option(flags[i], options->levels[i], "levels, with one unit behind")
+    command->add_option(flags[i], options->levels[i], "levels, followed by one unit")
         ->type_name("LEVELS")
         ->capture_default_str();
     command
         ->add_option(fmt::format("--feasible-{}", flags[i] + 2), options->feasible[i],
-                     "range of the points outside (default: a tenth of the levels' range further)")
+                     "range of the points outside (default: a tenth beyond the levels' range)")
         ->type_name("'LOW .. HIGH UNIT'");
   }
   command->add_option("--most-energy", options->most_energy, "feasible energy of one closing")
       ->type_name("'NUMBER kJ'");
-  command->add_option("--inside", options->inside, "points to validate with")
+  command->add_option("--inside", options->inside, "number of validation points")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--outside", options->outside, "points beyond the levels")
+  command->add_option("--outside", options->outside, "number of points beyond the levels")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of the candidates")

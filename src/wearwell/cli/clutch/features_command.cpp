@@ -32,7 +32,7 @@ int run(const FeatureOptions& options) {
     throw InputError(fmt::format("{}, {}", options.traces.string(), error.what()));
   }
   if (closings.empty())
-    throw InputError(fmt::format("{} holds no closing: torque never exceeds {}",
+    throw InputError(fmt::format("{} has no closing: torque never exceeds {}",
                                  options.traces.string(), options.torque_on));
   const std::string csv = closings_csv(closings);
   if (options.output.empty()) {
@@ -58,16 +58,18 @@ void add_features_command(CLI::App& clutch, int& exit_code) {
   const auto options = std::make_shared<FeatureOptions>();
   command->add_option("TRACES", options->traces, "plate, time, slip_speed, torque, temperature")
       ->required();
-  command->add_option("--torque-on", options->torque_on, "torque above which it closes")
+  command->add_option("--torque-on", options->torque_on, "torque above which the clutch closes")
       ->capture_default_str();
-  command->add_option("--slip-off", options->slip_off, "slip speed at which it is closed")
+  command
+      ->add_option("--slip-off", options->slip_off, "slip speed below which the clutch is closed")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "file (default: standard output)");
   command->footer(
       "A closing with a gap, one that never closes, or a torque of the wrong sign is written with "
-      "a "
-      "flag and\nnamed on standard error; the exit code is then 1.\n\nExample:\n  wearwell clutch "
-      "features traces.csv -o cycles.csv");
+      "a flag and\n"
+      "named on standard error; the exit code is then 1.\n\n"
+      "Example:\n"
+      "  wearwell clutch features traces.csv -o cycles.csv");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -39,13 +39,13 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
   for (const std::string& name : options.engines) {
     const bool duckdb = name == "duckdb";
     if (duckdb && options.engines.size() > 1)
-      throw InputError(
-          "--engine duckdb stands alone; several databases may stand beside each other");
+      throw InputError("--engine duckdb does not combine with other engines; several databases do");
     if (duckdb && (options.files.empty() || !options.table.empty()))
-      throw InputError("--engine duckdb reads files: name them, and no --table");
+      throw InputError("--engine duckdb reads files: give files and leave out --table");
     if (!duckdb && (!options.files.empty() || options.table.empty() || !options.state.empty()))
       throw InputError(
-          "a database needs --table, and neither files nor --state: it keeps its sums itself");
+          "a database needs --table, and takes neither files nor --state: it stores its sums "
+          "itself");
     if (duckdb) {
       engines.push_back(fleet::duckdb_engine({.files = options.files,
                                               .unit = unit_column(options.columns),
@@ -59,9 +59,9 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
     } else if (fleet::is_clickhouse(name)) {
       engines.push_back(fleet::clickhouse_engine(name, options.table));
     } else {
-      throw InputError(
-          fmt::format("--engine: '{}' is none of 'duckdb', 'postgresql://...', 'clickhouse://...'",
-                      printable(shortened(name.substr(0, name.find("://"))))));
+      throw InputError(fmt::format(
+          "--engine: '{}' is unknown; use 'duckdb', 'postgresql://...' or 'clickhouse://...'",
+          printable(shortened(name.substr(0, name.find("://"))))));
     }
   }
   return engines;
@@ -107,64 +107,63 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
 
 void add_fleet_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "fleet", "Clutch fleets: wear of every unit, computed in the database that holds its cycles");
+      "fleet", "Wear of every clutch of a fleet, computed in the database that holds its cycles");
   const auto options = std::make_shared<FleetOptions>();
   command
       ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
       ->required();
   command->add_option(
       "FILES", options->files,
-      "cycles, as for wearwell clutch predict: Parquet or CSV files, or a pattern in quotes");
+      "cycles, as for wearwell clutch predict: Parquet or CSV files, or a quoted pattern");
   command
       ->add_option(
           "--engine", options->engines,
-          "that computes: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
-          "clickhouse://USER@HOST:8123/DATABASE (clickhouses:// by TLS; HOST,HOST are replicas); "
-          "several, one after the other, where units are distributed over them")
+          "the engine: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
+          "clickhouse://USER@HOST:8123/DATABASE (clickhouses:// with TLS; HOST,HOST are replicas); "
+          "several databases one after the other where units are distributed over them")
       ->allow_extra_args(false)
       ->capture_default_str();
-  command->add_option("--table", options->table, "of cycles in a database: SCHEMA.TABLE");
+  command->add_option("--table", options->table, "the table of cycles in a database: SCHEMA.TABLE");
   command
       ->add_option("--prefix", options->prefix,
-                   "of the two tables that are made in a database: SCHEMA.PREFIX")
+                   "prefix of the two tables that are created in a database: SCHEMA.PREFIX")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for the results")
       ->capture_default_str();
   command
-      ->add_option(
-          "--columns", options->columns,
-          "unit, cycle, slip_speed, torque, temperature, closing_time, energy: NAME=COLUMN "
-          "or NAME=COLUMN:UNIT, where files call them otherwise; and time (dates or times) or "
-          "cycles_per_day, for an answer in days")
+      ->add_option("--columns", options->columns,
+                   "names of unit, cycle, slip_speed, torque, temperature, closing_time, energy in "
+                   "the files: NAME=COLUMN or NAME=COLUMN:UNIT; and time (dates or times) or "
+                   "cycles_per_day for results in days")
       ->type_name("NAME=COLUMN:UNIT");
   command->add_option("--state", options->state,
-                      "a database of DuckDB: go on from the sums in it, and leave the sums in it");
+                      "DuckDB database: continue from its sums and store the new sums in it");
   command->add_option("--level", options->levels, "wear levels in % of the worn-out volume")
       ->delimiter(',')
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();
   command
-      ->add_option(
-          "--horizon", options->horizons,
-          "further cycles after which units are counted (default: parts of the mean so far)")
+      ->add_option("--horizon", options->horizons,
+                   "horizons in cycles at which failures are counted (default: fractions of the "
+                   "mean so far)")
       ->delimiter(',')
       ->check(number_between(0, 1e15));
   command
       ->add_option("--days", options->days,
-                   "further days after which units are counted, each at its own cycles a day, "
-                   "where --columns has time or cycles_per_day (default there: 30, 90, 365)")
+                   "horizons in days at which failures are counted, with each unit's cycles per "
+                   "day, where --columns has time or cycles_per_day (default there: 30, 90, 365)")
       ->delimiter(',')
       ->check(number_between(0, 1e6));
   command->add_flag("--scatter-only", options->scatter_only,
-                    "without what is not known of map and run-in; much faster");
+                    "leave out the uncertainty of map and run-in; much faster");
   command->add_flag("--statements", options->statements,
-                    "have DuckDB run the statements of wearwell clutch sql, as other engines do, "
-                    "instead of a loop of our own: the same numbers, much slower");
-  command->add_option("--memory", options->memory, "MB that DuckDB may take (default: half)")
+                    "run the statements of wearwell clutch sql in DuckDB, as in other engines, "
+                    "instead of the built-in loop: the same numbers, much slower");
+  command->add_option("--memory", options->memory, "memory limit of DuckDB in MB (default: half)")
       ->check(CLI::Range(100L, 100'000'000L));
   command
       ->add_option("--threads", options->threads,
-                   "threads (default: all); results do not depend on it")
+                   "threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   CLI::Option* json =
       command->add_flag("--json", options->json, "print summary.json and nothing else");

@@ -71,11 +71,13 @@ void run(const LifeOptions& options) {
     fmt::print("{}\n", printable_json(json.dump(2)));
     return;
   }
-  fmt::print("One repetition takes {} kJ and wears {} mm^3 once run in; worn out at {} mm^3.\n",
-             plain_number(life.energy * 1e-3), plain_number(life.volume / mm3),
-             plain_given(model.worn_out / mm3));
+  fmt::print(
+      "One repetition takes {} kJ and wears {} mm^3 after run-in; the worn-out volume is {} "
+      "mm^3.\n",
+      plain_number(life.energy * 1e-3), plain_number(life.volume / mm3),
+      plain_given(model.worn_out / mm3));
   if (life.outside)
-    fmt::print("Outside the range of validity: {}.\n", names_of_inputs(life.outside));
+    fmt::print("Outside the calibrated range: {}.\n", names_of_inputs(life.outside));
   std::vector<std::vector<std::string>> rows = {
       {"worn [%]", "repetitions", "95 % scatter", "95 % full", "without run-in"}};
   for (const LifeAtLevel& at : life.levels)
@@ -83,21 +85,24 @@ void run(const LifeOptions& options) {
                     description(at.scatter), description(at.full),
                     plain_given(std::round(at.without_run_in))});
   fmt::print("{}", text_table(rows));
-  rows = {{"worn [%]", "volume [mm^3]", "95 % scatter", "of it", "95 % full", "of it"}};
+  rows = {{"worn [%]", "volume [mm^3]", "95 % scatter", "share", "95 % full", "share"}};
   for (const LifeAtLevel& at : life.levels)
     rows.push_back({plain_given(100 * at.level), plain_given(at.level * model.worn_out / mm3),
                     "+- " + plain_number(2 * at.sd / mm3),
                     fmt::format("{:.1f} %", 100 * at.relative),
                     "+- " + plain_number(2 * at.full_sd / mm3),
                     fmt::format("{:.1f} %", 100 * at.full_relative)});
-  fmt::print("The volume after so many:\n{}", text_table(rows));
+  fmt::print(
+      "Volume after this number of cycles:\n"
+      "{}",
+      text_table(rows));
 }
 
 }  // namespace
 
 void add_life_command(CLI::App& clutch) {
   CLI::App* command = clutch.add_subcommand(
-      "life", "Cycles to any wear level for an operating point or a duty that repeats");
+      "life", "Cycles to any wear level for an operating point or a repeated duty");
   const auto options = std::make_shared<LifeOptions>();
   command
       ->add_option("MODEL", options->model,
@@ -107,7 +112,7 @@ void add_life_command(CLI::App& clutch) {
   command->add_option("--torque", options->torque)->type_name("'NUMBER N m'");
   command->add_option("--temperature", options->temperature)->type_name("'NUMBER degC'");
   command->add_option("--closing-time", options->closing_time)->type_name("'NUMBER s'");
-  command->add_option("--duty", options->duty, "cycles of one repetition (as for predict)");
+  command->add_option("--duty", options->duty, "cycles of one repetition (format as for predict)");
   command->add_option("--level", options->levels, "wear levels in % of the worn-out volume")
       ->delimiter(',')
       ->check(number_between(1e-6, 1e6))

@@ -61,7 +61,7 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
   fmt::print("{}", text_table(rows, true));
 }
 
-/// Only what can be read again may take the place of a state.
+/// Only a file that can be read again as a state may be replaced by one.
 std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
   for (const PlateWear& p : sum.plates()) {
     if (!std::isfinite(p.volume) || !std::isfinite(p.variance) || !std::isfinite(p.energy) ||
@@ -81,18 +81,17 @@ void run(const PredictOptions& options, int& exit_code) {
   const bool full = !options.scatter_only, kept = !options.state.empty();
   if (kept && fingerprint.empty())
     throw InputError(
-        fmt::format("--state needs a model in a file, and {} is none", options.model.string()));
+        fmt::format("--state needs a model in a file; {} is not a file", options.model.string()));
   std::optional<LockFile> lock;
   if (kept)
     lock.emplace(options.state, [&] {
-      fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
-                 options.state.string());
+      fmt::print(stderr, "waiting for another wearwell that updates {}\n", options.state.string());
     });
   CycleSum sum(model, full, options.skip ? NotFinite::skip : NotFinite::refuse);
   if (kept && std::filesystem::exists(options.state))
     sum.restore(read_state(options.state, fingerprint, full ? model.replicates.size() : 0));
   std::optional<StagedFile> state, trace;
-  if (kept) state.emplace(options.state);  // refused before the work, not after
+  if (kept) state.emplace(options.state);  // refused before the work starts
   if (!options.trace.empty()) trace.emplace(options.trace);
   std::function<void(std::string_view)> write_trace;
   if (trace) write_trace = [&](std::string_view lines) { trace->write(lines); };
@@ -125,20 +124,20 @@ void add_predict_command(CLI::App& clutch, int& exit_code) {
                    "Parquet)")
       ->required();
   command->add_option("--state", options->state,
-                      "go on from this file if it is there, and leave the state in it");
+                      "continue from this state file if it exists, and write the new state to it");
   command->add_option("--trace", options->trace,
                       "write volume and interval after each cycle (CSV)");
-  command->add_option("--every", options->every, "of the trace, every so many cycles only")
+  command->add_option("--every", options->every, "write the trace only every N cycles")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
-  command->add_flag("--skip-not-finite", options->skip,
-                    "leave out and count cycles at which the model gives no finite number, "
-                    "instead of refusing the file");
+  command->add_flag(
+      "--skip-not-finite", options->skip,
+      "skip and count cycles at which the model has no finite value, instead of refusing the file");
   command->add_flag("--scatter-only", options->scatter_only,
-                    "only the paper's interval, by the scatter of cycles; much faster");
+                    "only the paper's interval, from the scatter of cycles; much faster");
   command
       ->add_option("--threads", options->threads,
-                   "threads (default: all); results do not depend on it")
+                   "threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "print one JSON object");
   command->footer(

@@ -19,7 +19,7 @@ struct SimulateOptions {
   int traces = 5;
 };
 
-// Of an earlier campaign they are replaced; whatever else is in the folder stays.
+// Files of an earlier campaign are replaced; other files in the folder stay.
 const std::vector<std::string> campaign_files = {"cycles.csv", "weighings.csv", "traces.csv",
                                                  "realized.csv"};
 
@@ -36,7 +36,7 @@ void run(const SimulateOptions& options) {
   folder.write("traces.csv", traces_csv(simulate_traces(campaign, options.traces, options.seed)));
   folder.write("realized.csv", realized_csv(simulation.realized));
   folder.commit(campaign_files);
-  fmt::print("{}: a simulated campaign of {} plates, {} cycles, {} weighings\n",
+  fmt::print("{}: simulated campaign of {} plates, {} cycles, {} weighings\n",
              options.output.string(), simulation.plate_factors.size(), campaign.cycles.size(),
              campaign.weighings.size());
 }
@@ -45,22 +45,26 @@ void run(const SimulateOptions& options) {
 
 void add_simulate_command(CLI::App& clutch) {
   CLI::App* command = clutch.add_subcommand(
-      "simulate", "Run a campaign on a simulated rig whose truth is known, into files as of a rig");
+      "simulate",
+      "Simulate a campaign with known truth and write its files in the format of a real rig");
   const auto options = std::make_shared<SimulateOptions>();
-  command->add_option("--design", options->design, "operating points (CSV), of clutch design")
+  command
+      ->add_option("--design", options->design,
+                   "operating points (CSV), as wearwell clutch design writes them")
       ->required();
-  command->add_option("--truth", options->truth, "what is true (TOML)")->required();
+  command->add_option("--truth", options->truth, "the true parameters (TOML)")->required();
   command->add_option("--seed", options->seed, "seed of the campaign")
       ->check(seed_number())
       ->capture_default_str();
-  command->add_option("--traces", options->traces, "closings to write raw traces of")
+  command->add_option("--traces", options->traces, "closings whose raw traces are written")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for the files")->required();
   command->footer(
-      "Writes cycles.csv, weighings.csv, traces.csv, and what no rig knows, realized.csv: the true "
-      "volumes.\n\nExample:\n  wearwell clutch simulate --design design.csv --truth truth.toml "
-      "--seed 2 -o campaign");
+      "Writes cycles.csv, weighings.csv, traces.csv, and realized.csv with the true volumes, which "
+      "a real rig cannot know.\n\n"
+      "Example:\n"
+      "  wearwell clutch simulate --design design.csv --truth truth.toml --seed 2 -o campaign");
   command->callback([options] { run(*options); });
 }
 

@@ -26,7 +26,7 @@ void run_sql(const SqlOptions& options) {
   if (std::filesystem::exists(options.result / "state.bin") &&
       !std::filesystem::exists(options.result / "model.json"))
     throw InputError(fmt::format(
-        "{} is of no clutch; a study of model \"formula\" is printed by: wearwell export sql",
+        "{} is not of a clutch; to print a study of model \"formula\" use: wearwell export sql",
         options.result.string()));
   const IdentifiedModel read = read_identified_model(options.result);
   const fleet::Dialect dialect = fleet::read_dialect(options.dialect);
@@ -60,12 +60,13 @@ CLI::App* add_sql_command(CLI::App& parent) {
   command
       ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
       ->required();
-  command->add_option("--dialect", options->dialect, "of the database")
+  command->add_option("--dialect", options->dialect, "SQL dialect of the database")
       ->required()
       ->check(one_of(fleet::dialect_names()));
   command
-      ->add_option("--table", options->table,
-                   "that holds the cycles; SCHEMA.TABLE, a part in double quotes may hold dots")
+      ->add_option(
+          "--table", options->table,
+          "table that holds the cycles: SCHEMA.TABLE; a part in double quotes may hold dots")
       ->required();
   command
       ->add_option("--columns", options->columns,
@@ -74,13 +75,13 @@ CLI::App* add_sql_command(CLI::App& parent) {
       ->type_name("NAME=COLUMN:UNIT");
   command
       ->add_option("--prefix", options->prefix,
-                   "of the two tables that the statements make; SCHEMA.PREFIX")
+                   "prefix of the two tables that the statements create: SCHEMA.PREFIX")
       ->capture_default_str();
-  command->add_option("--part", options->part, "one of the three statements alone")
+  command->add_option("--part", options->part, "print only one of the three statements")
       ->check(one_of({"all", "setup", "query", "combine"}))
       ->capture_default_str();
   command->add_flag("--scatter-only", options->scatter_only,
-                    "only the paper's interval, by the scatter of cycles; much faster");
+                    "only the paper's interval, from the scatter of cycles; much faster");
   command->footer(
       "Example:\n  wearwell clutch sql study-results --dialect postgresql --table fleet.cycles "
       "--columns "

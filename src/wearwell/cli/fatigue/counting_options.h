@@ -11,7 +11,7 @@ class App;
 
 namespace wearwell::fatigue {
 
-/// A signal and how its cycles are found, as options say it.
+/// A signal and the counting method, from the options.
 struct CountingOptions {
   SignalChoice signal;
   std::string method = "four-point", residual = "half";
@@ -19,8 +19,8 @@ struct CountingOptions {
   CountingRule rule(double class_width = 0) const;
 };
 
-/// --column, --unit, --method and --residual. `of_signal` goes before what is said of those that
-/// only a signal has.
+/// --column, --unit, --method and --residual. `of_signal` precedes the help of options that apply
+/// to signals only.
 void add_counting_options(CLI::App& command, CountingOptions& options,
                           const std::string& of_signal);
 

@@ -42,7 +42,7 @@ DesignQuestion read_question(const DesignOptions& options,
     question.line.ratio = option_value("--stress-ratio", options.stress_ratio, "1");
     if (!(*question.line.ratio < 1))
       throw InputError(
-          fmt::format("--stress-ratio {}: smallest over largest stress, must be less than 1",
+          fmt::format("--stress-ratio {}: smallest over largest stress; it must be less than 1",
                       options.stress_ratio));
   } else {
     question.line = design_line(models);
@@ -68,7 +68,8 @@ void write_folder(const AveragedDesignReport& report, ResultFolder& folder) {
 int run(const DesignOptions& options) {
   for (const auto& folder : options.folders) {
     if (!options.output.empty() && folder == options.output)
-      throw InputError(fmt::format("-o {}: is one of the results that are read", folder.string()));
+      throw InputError(fmt::format(
+          "-o {}: the folder is one of the results to average; give another", folder.string()));
   }
   AveragedDesignReport report;
   report.from = models_to_average(options.folders);
@@ -99,37 +100,39 @@ void add_design_command(CLI::App& fatigue, int& exit_code) {
   const auto options = std::make_shared<DesignOptions>();
   command
       ->add_option("RESULT", options->folders,
-                   "folders that wearwell fit wrote of models \"sn\", of the same tests")
+                   "folders that wearwell fit wrote for models \"sn\" of the same tests")
       ->required()
       ->expected(2, 100);
   command
       ->add_option("--stress", options->stresses,
-                   "alternating stress to tell lives at, like '300 MPa'; may be given again "
-                   "(default: over those tested)")
+                   "alternating stress at which lives are reported, like '300 MPa'; may be repeated "
+                   "(default: levels across the tested range)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  CLI::Option* mean = command->add_option("--mean-stress", options->mean_stress,
-                                          "of them all, like '100 MPa' (default: as tested)");
+  CLI::Option* mean =
+      command->add_option("--mean-stress", options->mean_stress,
+                          "mean stress of all of them, like '100 MPa' (default: as tested)");
   command
       ->add_option("--stress-ratio", options->stress_ratio,
-                   "smallest over largest stress, instead of a mean stress")
+                   "stress ratio R, smallest over largest stress, instead of a mean stress")
       ->excludes(mean);
-  command->add_option("--reliability", options->reliability, "share that outlasts the life, %")
+  command
+      ->add_option("--reliability", options->reliability,
+                   "reliability: share of parts that outlast the life, %")
       ->check(number_between(1, 99.9999));
-  command->add_option("--confidence", options->confidence, "with which it does, %")
+  command->add_option("--confidence", options->confidence, "confidence of that reliability, %")
       ->check(number_between(1, 99.99));
   command->add_option("-o,--output", options->output, "folder for the page and the tables");
   command->add_flag("--json", options->json, "print one JSON object");
   command->footer(
       "Without --reliability and --confidence: 90/90, B-basis, A-basis and 97.7/90. Weights are "
-      "those of wearwell "
-      "compare.\n\n"
+      "those of wearwell compare.\n\n"
       "Examples:\n"
       "  wearwell fatigue design basquin knee stromeyer -o design\n"
       "  wearwell fatigue design basquin knee --stress '300 MPa' --reliability 99 --confidence "
       "95\n\n"
-      "Exit codes: 0 done; 1 a study that has weight is not trusted; 2 the request is wrong, "
-      "nothing written.");
+      "Exit codes: 0 done; 1 a study with non-negligible weight is not trusted; 2 the request is "
+      "wrong, nothing written.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -23,10 +23,10 @@
 namespace wearwell::fatigue {
 namespace {
 
-// So many stresses and points give the digits that are printed.
+// This many stresses and points determine the printed digits.
 constexpr std::size_t most_cycles = 2048, most_cycles_with_limit = 512;
 constexpr Eigen::Index most_points_with_limit = 4000;
-// Of the weight of a posterior: lighter points are gathered.
+// Share of a posterior's weight: lighter points are merged.
 constexpr double gathered_share = 3e-5;
 
 struct LoadLifeOptions {
@@ -46,7 +46,7 @@ Knee read_knee(const std::string& text, const std::string& si) {
   const auto unit = at == std::string::npos ? std::nullopt : parse_unit(text.substr(at));
   if (at == std::string::npos)
     throw InputError(fmt::format(
-        "--knee: '{}' may be a life or a stress: say '{} cycles' or '{} {}'", text, text, text,
+        "--knee: '{}' may be a life or a stress; write '{} cycles' or '{} {}'", text, text, text,
         si == "Pa"  ? "MPa"
         : si == "1" ? "%"
                     : si));
@@ -64,8 +64,8 @@ DamageSum read_damage_sum(const std::string& text) {
   sum.factor = option_value("--damage-sum", text.substr(at + 2), "1", Allowed::positive);
   if (sum.factor < 1)
     throw InputError(
-        fmt::format("--damage-sum: the factor {} must be at least 1: two in three lie "
-                    "between the median divided by it and times it",
+        fmt::format("--damage-sum: the factor {} must be at least 1: two thirds lie between the "
+                    "median divided by the factor and the median times the factor",
                     sum.factor));
   return sum;
 }
@@ -73,18 +73,19 @@ DamageSum read_damage_sum(const std::string& text) {
 MinerRule read_rule(const std::string& text, const SnLaw& law, const Knee& knee) {
   if (text.empty()) {
     if (knee.any())
-      throw InputError("--knee: say what happens below it: --rule original, haibach or liu-zenner");
+      throw InputError(
+          "--knee: add the rule below the knee: --rule original, haibach or liu-zenner");
     return law.bends() ? MinerRule::original : MinerRule::elementary;
   }
   const auto& names = miner_rule_names();
   const auto rule =
       static_cast<MinerRule>(std::find(names.begin(), names.end(), text) - names.begin());
   if (rule == MinerRule::elementary && knee.any())
-    throw InputError("--knee: --rule elementary has none; leave one of them out");
+    throw InputError("--knee: --rule elementary has no knee; leave out one of them");
   return rule;
 }
 
-// What a block stands for: "350 km", "8 h".
+// The use of one block: "350 km", "8 h".
 void read_block_length(const std::string& text, LoadLifeReport& report) {
   if (text.empty()) return;
   const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
@@ -105,7 +106,7 @@ WeightedDraws summed_points(const SnLaw& law, const WeightedDraws& posterior) {
                    : gathered(posterior, gathered_share);
 }
 
-// By which the damage at the mean of the posterior changes where classes are fewer.
+// The relative change of the damage at the posterior mean with fewer classes.
 double reduction(const SnResult& result, const DamageRule& rule, const LoadCycles& all,
                  const LoadCycles& few) {
   const Eigen::VectorXd mean = result.posterior.values.transpose() * result.posterior.weights;
@@ -169,35 +170,37 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
   CLI::App* command = fatigue.add_subcommand(
       "life", "Damage and life under a load history, as distributions, from a fitted S-N study");
   const auto options = std::make_shared<LoadLifeOptions>();
-  command->add_option("RESULT", options->result, "folder that wearwell fit wrote of a model \"sn\"")
+  command
+      ->add_option("RESULT", options->result, "folder that wearwell fit wrote for a model \"sn\"")
       ->required();
   command
       ->add_option("HISTORY", options->counting.signal.file,
                    "one block: a signal, or counted cycles (range or amplitude, mean, cycles)")
       ->required();
-  add_counting_options(*command, options->counting, "of a signal: ");
+  add_counting_options(*command, options->counting, "for a signal: ");
   command->add_option("--time", options->counting.signal.time,
-                      "of a signal: a column of times; refuse a file in which samples are missing, "
-                      "and without --block tell lives in h");
+                      "for a signal: a column of times; refuses a file with missing samples and, "
+                      "without --block, reports lives in h");
   command->add_option("--scale", options->scale,
-                      "from the load to stress, like '0.35 MPa/N'; of a strain '206 GPa'");
+                      "factor from the load to stress, like '0.35 MPa/N'; for a strain '206 GPa'");
   command
-      ->add_option("--rule", options->rule,
-                   "how damage is summed (default: elementary; original with a random limit)")
+      ->add_option(
+          "--rule", options->rule,
+          "damage accumulation rule (default: elementary; original with a random fatigue limit)")
       ->check(one_of(miner_rule_names()));
-  command->add_option(
-      "--knee", options->knee,
-      "where the curve bends: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
+  command->add_option("--knee", options->knee,
+                      "knee of the curve: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
   command
-      ->add_option("--damage-sum", options->damage_sum,
-                   "at failure: a number, or a median and the factor that holds two in three")
+      ->add_option(
+          "--damage-sum", options->damage_sum,
+          "damage sum at failure: a number, or a median and the factor that covers two thirds")
       ->capture_default_str();
   command->add_option("--block", options->block,
-                      "what one block stands for: '350 km', '8 h'; lives are given in it");
+                      "use of one block: '350 km', '8 h'; lives are reported in this unit");
   command->add_option("--b-lives", options->b_lives, "percentages failed")
       ->check(number_between(1e-4, 99.9999))
       ->capture_default_str();
-  command->add_option("--confidence", options->confidence, "of the lower bounds, %")
+  command->add_option("--confidence", options->confidence, "confidence of the lower bounds, %")
       ->check(number_between(1, 99.99))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for the page and the tables");

@@ -32,7 +32,7 @@ struct RainflowOptions {
   bool json = false;
 };
 
-// A state goes on as it was begun.
+// A state continues with the settings of its first run.
 LoadHistory begin(const RainflowOptions& options, const SignalFile& file,
                   const CountingRule& rule) {
   std::error_code ignored;
@@ -40,15 +40,14 @@ LoadHistory begin(const RainflowOptions& options, const SignalFile& file,
     return LoadHistory(rule);
   SavedHistory saved = read_history_state(options.state);
   const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: {}; go on as it was begun, or with another --state",
+    throw InputError(fmt::format("{}: {}; continue with the same settings, or use another --state",
                                  options.state.string(), what));
   };
   if (saved.unit != file.unit())
-    refuse(
-        fmt::format("the signal before was in '{}', this one is in '{}'", saved.unit, file.unit()));
+    refuse(fmt::format("the state counts '{}', this signal is in '{}'", saved.unit, file.unit()));
   const CountingRule& before = saved.state.rule;
   if (!(before == rule))
-    refuse(fmt::format("it was counted with --method {} --residual {} --bin-width {}",
+    refuse(fmt::format("the state was counted with --method {} --residual {} --bin-width {}",
                        counting_name(before.counting), residual_name(before.residual),
                        before.class_width));
   return LoadHistory(std::move(saved.state));
@@ -57,9 +56,9 @@ LoadHistory begin(const RainflowOptions& options, const SignalFile& file,
 void refuse_without_cycles(const SignalFile& file, const LoadHistory::Counted& counted) {
   if (!counted.classes.cells().empty()) return;
   if (counted.samples == 1)
-    throw InputError(fmt::format("{}, column '{}' holds one sample: it has no cycle", file.source(),
-                                 file.column()));
-  throw InputError(fmt::format("{}, column '{}' is {} throughout: it has no cycle", file.source(),
+    throw InputError(fmt::format("{}, column '{}' has one sample and therefore no cycle",
+                                 file.source(), file.column()));
+  throw InputError(fmt::format("{}, column '{}' is {} throughout and has no cycle", file.source(),
                                file.column(), counted.lowest));
 }
 
@@ -85,13 +84,12 @@ void run(const RainflowOptions& options) {
   const bool kept = !options.state.empty();
   if (kept)
     lock.emplace(options.state, [&] {
-      fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
-                 options.state.string());
+      fmt::print(stderr, "waiting for another wearwell that updates {}\n", options.state.string());
     });
   SignalFile file(options.counting.signal);
   LoadHistory history = begin(options, file, rule);
   std::optional<StagedFile> state;
-  if (kept) state.emplace(options.state);  // refused before the work, not after
+  if (kept) state.emplace(options.state);  // refused before the work starts
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
@@ -121,7 +119,7 @@ void run(const RainflowOptions& options) {
 
 void add_rainflow_command(CLI::App& fatigue) {
   CLI::App* command = fatigue.add_subcommand(
-      "rainflow", "Count the cycles of a load history after ASTM E1049; files may exceed memory");
+      "rainflow", "Count the cycles of a load history by ASTM E1049; files may exceed memory");
   const auto options = std::make_shared<RainflowOptions>();
   command
       ->add_option("FILE", options->counting.signal.file,
@@ -129,9 +127,9 @@ void add_rainflow_command(CLI::App& fatigue) {
       ->required();
   add_counting_options(*command, options->counting, "");
   command->add_option("--time", options->counting.signal.time,
-                      "a column of times: refuse a file in which samples are missing");
+                      "a column of times; refuses a file with missing samples");
   CLI::Option* bins =
-      command->add_option("--bins", options->bins, "classes of range that are shown, at most")
+      command->add_option("--bins", options->bins, "largest number of range classes shown")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
   command
@@ -140,7 +138,7 @@ void add_rainflow_command(CLI::App& fatigue) {
       ->check(number_between(1e-300, 1e150))
       ->excludes(bins);
   command->add_option("--state", options->state,
-                      "go on from this file if it is there, and leave the state in it");
+                      "continue from this state file if it exists, and write the new state to it");
   command->add_option("-o,--output", options->output,
                       "folder for the page and the tables (CSV and Parquet)");
   command->add_flag("--json", options->json, "print one JSON object");

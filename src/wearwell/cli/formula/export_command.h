@@ -4,7 +4,7 @@
 
 namespace wearwell::formula_model {
 
-/// wearwell export c: a unit on line as C99.
+/// wearwell export c: the tracker of one unit as C99.
 void add_export_command(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell::formula_model

@@ -14,7 +14,7 @@ namespace wearwell::bearing {
 namespace {
 
 constexpr int min_draws = 100, max_draws = 10'000'000;
-constexpr double small_margin = 0.1;      // of the limit; below, the margin is called small
+constexpr double small_margin = 0.1;      // of the limit; a smaller margin is reported as small
 constexpr double small_clearance = 0.01;  // sigma; the paper's charts end at 0.002
 constexpr double large_amplification = 5;
 
@@ -25,11 +25,11 @@ double quantile(const std::vector<double>& sorted, double p) {
   return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
 }
 
-/// What to write instead of normal laws that are so wide that a good part of them is not positive;
-/// empty when there is none.
+/// What to write instead of normal distributions so wide that a considerable part is not positive;
+/// empty if there is none.
 std::string use_a_lognormal(const UncertainBearing& uncertain) {
   constexpr double widest =
-      1.0 / 3;  // of the mean: beyond, more than one in a thousand is negative
+      1.0 / 3;  // of the mean: with a larger sd more than one in a thousand is negative
   std::string advice;
   for (const auto& [option, value] : uncertain.given) {
     if (value.distribution != Uncertain::Distribution::normal || !(value.sd > widest * value.mean))
@@ -37,15 +37,15 @@ std::string use_a_lognormal(const UncertainBearing& uncertain) {
     const std::string amount = fmt::format("{:.6g}{}", from_si(value.unit, value.mean),
                                            value.unit.text == "1" ? "" : " " + value.unit.text);
     advice += fmt::format(
-        "; use a lognormal for {}, which is positive and has {:.3g} % for its "
-        "standard deviation: '{} x/ {:.2g}'",
+        "; use a lognormal for {}, which is positive and has a standard deviation of {:.3g} %: '{} "
+        "x/ {:.2g}'",
         option->flag, 100 * value.sd / value.mean, amount, equal_factor(value));
   }
   return advice;
 }
 
-/// Carries the uncertainty of the inputs to the answer, one random stream per option, so that an
-/// input keeps its draws whatever else is uncertain.
+/// Propagates the uncertainty of the inputs to the answer, with one random stream per option, so
+/// that the draws of an input do not depend on the other inputs.
 Interval propagate(Quantity wanted, const UncertainBearing& uncertain, std::optional<double> limit,
                    int draws, std::uint64_t seed) {
   std::vector<Rng> streams;
@@ -64,10 +64,9 @@ Interval propagate(Quantity wanted, const UncertainBearing& uncertain, std::opti
       answers.push_back(solve(wanted, drawn).value);
     } catch (const InputError& error) {
       if (++result.redrawn > draws) {
-        throw InputError(
-            fmt::format("the uncertainties are too wide: most draws are impossible, for example "
-                        "{}{}",
-                        error.what(), use_a_lognormal(uncertain)));
+        throw InputError(fmt::format(
+            "the uncertainties are too wide: most draws are impossible, for example {}{}",
+            error.what(), use_a_lognormal(uncertain)));
       }
     }
   }
@@ -96,7 +95,7 @@ std::optional<double> read_limit(const std::string& text) {
   return option_value("--limit", text, "m", Allowed::positive);
 }
 
-/// How far the depth stays from its limit, and what else may happen before it is reached.
+/// The margin of the depth to its limit, and the probability of exceeding it.
 std::string margin_statement(const Answer& a, const std::string& text_of_limit, double limit) {
   const Solution& s = a.solution;
   const double margin = 1 - s.value / limit;
@@ -110,7 +109,7 @@ std::string margin_statement(const Answer& a, const std::string& text_of_limit, 
   if (margin > 0) {
     text = fmt::format(
         "The depth is {:.3g} % below the limit of {}{}; a rate, pressure or number of revolutions "
-        "{:.3g} % higher would use it up.",
+        "{:.3g} % higher would reach it.",
         100 * margin, text_of_limit, margin < small_margin ? ", a small margin" : "",
         100 * reserve);
   } else {
@@ -145,7 +144,7 @@ const std::vector<Question>& questions() {
        Quantity::depth,
        "m",
        "mm",
-       "the wear depth after so many revolutions",
+       "the wear depth after a number of revolutions",
        {&B::depth, &B::scar_width},
        "wearwell bearing depth --contact stationary --radius '10 mm' --clearance '20 um' \\\n"
        "    --rate '1e-16 m^3/(N m)' --pressure '2 MPa' --revolutions 1e6 --limit '20 um'"},
@@ -154,7 +153,7 @@ const std::vector<Question>& questions() {
        Quantity::pressure,
        "Pa",
        "MPa",
-       "the apparent pressure that wears no deeper than the depth",
+       "the apparent pressure at which wear stays within the depth",
        {&B::pressure, &B::force, &B::length},
        "wearwell bearing pressure --contact bushing --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '50 um' --rate '~ lognormal(1e-16 m^3/(N m), 2e-17 m^3/(N m))' \\\n"
@@ -164,7 +163,7 @@ const std::vector<Question>& questions() {
        Quantity::length,
        "m",
        "mm",
-       "the bearing length that a force needs to wear no deeper than the depth",
+       "the bearing length at which wear under a force stays within the depth",
        {&B::pressure, &B::length},
        "wearwell bearing length --contact stationary --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '20 um' --rate '1e-16 m^3/(N m)' --force '800 N' --revolutions 1e6"},
@@ -173,7 +172,7 @@ const std::vector<Question>& questions() {
        Quantity::revolutions,
        "rev",
        "revolutions",
-       "how long until the depth is reached: in revolutions, or in time with --speed",
+       "the life until the depth is reached: in revolutions, or in time with --speed",
        {&B::revolutions, &B::time},
        "wearwell bearing life --contact journal --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '50 +- 5 um' --rate '1e-16 m^3/(N m) +- 10 %' --pressure '2 MPa' --speed '60 "
@@ -222,24 +221,23 @@ std::vector<std::string> warnings(const Answer& a) {
     const double amplification =
         depth_from_scar(s.sigma, *mean.scar_width / *mean.radius).amplification;
     if (s.sigma < small_clearance || amplification > large_amplification) {
-      result.push_back(fmt::format(
-          "the scar width is a bad measure of the depth at a clearance/radius of {:.3g}: an "
-          "error of 1 % in the width is one of {:.3g} % in the depth (amplification factor "
-          "{:.4g}); measure the depth itself",
-          s.sigma, amplification, amplification));
+      result.push_back(
+          fmt::format("the scar width is a poor measure of the depth at a clearance/radius of "
+                      "{:.3g}: an error of 1 % in the width is one of {:.3g} % in the depth "
+                      "(amplification factor {:.4g}); measure the depth directly",
+                      s.sigma, amplification, amplification));
     }
   }
   if (const double widest = widest_depth(s.sigma); a.scar && s.delta > widest) {
     result.push_back(fmt::format(
-        "beyond a depth of {:.4g} mm the journal has sunk in by more than its widest place "
-        "and leaves a slot; the worn area here is that of the journal's circle alone, "
-        "which is less",
+        "beyond a depth of {:.4g} mm the journal has sunk in by more than its largest width and "
+        "cuts a slot; the worn area here is that of the journal's circle only, which is less",
         widest * a.radius() * 1e3));
   }
   if (a.interval && a.interval->redrawn > 0) {
     result.push_back(fmt::format(
-        "{} impossible draws (a negative size, a depth beyond the geometry), {:.2g} % of all, were "
-        "drawn again, so the interval is that of the possible ones{}",
+        "discarded and redrew {} impossible draws (a negative size, a depth beyond the geometry), "
+        "{:.2g} % of all; the interval is conditional on possible values{}",
         a.interval->redrawn, 100.0 * a.interval->redrawn / (a.interval->redrawn + a.draws),
         use_a_lognormal(a.given)));
   }
@@ -272,7 +270,7 @@ Answer answer(const std::string& question, const std::string& contact,
   std::vector<std::string> names;
   for (const Question& each : questions()) names.emplace_back(each.command);
   const auto found = std::find(names.begin(), names.end(), question);
-  if (found == names.end()) throw std::logic_error("no question " + question);
+  if (found == names.end()) throw std::logic_error("no such question " + question);
   asked.inputs.contact = contact;
   std::vector<std::string> flags;
   for (const InputOption& each : input_options) flags.emplace_back(each.flag + 2);

@@ -17,11 +17,11 @@ BearingAhead read_bearing_ahead(const TomlReader& predict, const BearingData& da
   const auto length = positive_quantity(predict, "length", "m");
   ahead.pressure = mine("pressure", "Pa", data.common.pressure);
   if (!length) return ahead;
-  if (!ahead.force) predict.fail("length", "needs predict.force: together they are a pressure");
+  if (!ahead.force)
+    predict.fail("length", "needs predict.force: force and length together give the pressure");
   if (predict.has("pressure"))
-    predict.fail("pressure", "is given beside force and length; keep one way to say the load");
-  if (!ahead.radius)
-    predict.fail("length", "needs predict.radius: it is not the same for all data");
+    predict.fail("pressure", "is given, and so are force and length; state the load in one way");
+  if (!ahead.radius) predict.fail("length", "needs predict.radius: the data have more than one");
   const Unit& unit = data.pressure_unit;
   ahead.pressure =
       Quantity{from_si(unit, ahead.force->si() / (2 * ahead.radius->si() * length->si())), unit};

@@ -24,7 +24,7 @@ struct Series {
   Unit unit;
 };
 
-// Reads the inputs of all inspections, each from where the study has it.
+// Reads the inputs of all inspections from columns or conditions.
 class Inputs {
  public:
   Inputs(const TomlReader& root, const Source& source)
@@ -63,7 +63,7 @@ class Inputs {
     return *series;
   }
 
-  // One of two ways to say a thing.
+  // One of two ways to state a quantity.
   bool first_of(const std::string& first, const std::string& second,
                 const std::string& third) const {
     const bool one = has(first), other = has(second) || has(third);
@@ -72,7 +72,7 @@ class Inputs {
                     : one              ? third
                                        : first,
                     fmt::format("{}; give {}, or {} with {}",
-                                one ? fmt::format("is given beside {}", first) : "is missing",
+                                one ? fmt::format("is given, and so is {}", first) : "is missing",
                                 first, second, third));
     }
     return one;
@@ -85,7 +85,7 @@ class Inputs {
     if (constant) return std::vector<Contact>(table_.rows, *constant);
     if (!choice) {
       columns_.fail("contact",
-                    fmt::format("is missing; give a column of words, or conditions.contact: {}",
+                    fmt::format("is missing; give a column of text, or conditions.contact: {}",
                                 fmt::join(bearing::contact_names(), ", ")));
     }
     const Column& column = table_.column(choice->column);
@@ -94,7 +94,7 @@ class Inputs {
       const std::string word = cell_word(column, i);
       const auto contact = bearing::contact_named(word);
       if (!contact) {
-        throw InputError(fmt::format("{}: '{}' is no contact; it is one of {} (nearest: '{}')",
+        throw InputError(fmt::format("{}: '{}' is not a contact; it is one of {} (nearest: '{}')",
                                      place(table_, choice->column, i), word,
                                      fmt::join(bearing::contact_names(), ", "),
                                      nearest_name(word, bearing::contact_names())));
@@ -104,7 +104,7 @@ class Inputs {
     return contacts;
   }
 
-  // Which bearing each row belongs to; without a column each is one of its own.
+  // The bearing of each row; without a column each row is its own.
   std::vector<std::size_t> bearings(std::vector<std::string>& names) const {
     std::vector<std::size_t> numbers(table_.rows);
     const auto choice = read_word_column(columns_, "bearing", table_);
@@ -139,11 +139,11 @@ class Inputs {
   std::vector<DataColumn> read_;
 };
 
-// Depths below the size of an atom are in another unit than the study says. The prior of k is then so far from the data that no
-// quadrature over it ends.
+// Depths below the size of an atom indicate a wrong unit in the study. The prior of k is then so
+// far from the data that the quadrature does not converge.
 void require_depths(const BearingData& data, const ColumnChoice& depth, const Table& table) {
   constexpr double atom = 1e-10;                 // m
-  constexpr double shallow = 1e-7, deep = 1e-2;  // of depths that wear and are measured, m
+  constexpr double shallow = 1e-7, deep = 1e-2;  // of measured depths with wear, m
   double largest = 0;
   for (const double each : data.inspections.depth) largest = std::max(largest, std::abs(each));
   if (largest == 0 || largest >= atom) return;
@@ -152,10 +152,10 @@ void require_depths(const BearingData& data, const ColumnChoice& depth, const Ta
   for (const auto& [name, size] : {std::pair("um", 1e-6), {"mm", 1e-3}, {"m", 1.0}}) {
     const double meant = number * size;
     if (meant < shallow || meant > deep) continue;
-    likely = fmt::format("in {} it would be {:.3g} um: is that the unit?", name, meant / 1e-6);
+    likely = fmt::format("in {} it would be {:.3g} um: check the unit", name, meant / 1e-6);
     break;
   }
-  if (likely.empty()) likely = "no unit of length makes a wear depth of it: look at these cells";
+  if (likely.empty()) likely = "no unit of length makes it a wear depth: check these cells";
   throw InputError(
       fmt::format("{}: column '{}' (data.columns.depth): the largest depth is {:.4g} {}, less than "
                   "the size of an atom (1e-10 m); {}",

@@ -14,13 +14,13 @@
 
 namespace wearwell {
 
-/// What all inspections have in common is what a prediction is for, unless it says otherwise.
+/// Values that all inspections share are the default of a prediction.
 struct BearingCommon {
   std::optional<bearing::Contact> contact;
   std::optional<Quantity> radius, clearance, pressure, speed;
 };
 
-/// The inspections of a study, and how to speak of them in the user's terms.
+/// The inspections of a study, with their names and units for messages.
 struct BearingData {
   std::string source;  ///< the file, for messages
   TableLayout layout;
@@ -30,10 +30,10 @@ struct BearingData {
   std::size_t bearings = 0;
   std::vector<std::string> names;   ///< of the bearings
   std::vector<double> speed;        ///< of each row, rev/s, where revolutions are speed x time
-  std::vector<DataColumn> columns;  ///< as they were read
+  std::vector<DataColumn> columns;  ///< as read
 };
 
-/// From [data] and [conditions]; `folder` is where relative paths start. Throws InputError.
+/// From [data] and [conditions]; relative paths start at `folder`. Throws InputError.
 BearingData read_bearing_data(const TomlReader& root, const Source& source,
                               ObservationFamily family);
 
@@ -41,7 +41,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
 std::optional<Quantity> positive_quantity(const TomlReader& table, const std::string& name,
                                           const std::string& si);
 
-/// The contact that a table names, if it does.
+/// The contact of a table, if it has one.
 std::optional<bearing::Contact> contact_in(const std::optional<TomlReader>& table);
 
 }  // namespace wearwell

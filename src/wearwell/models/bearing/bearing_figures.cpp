@@ -31,7 +31,7 @@ double depth_at(const Duty& duty, double k) {
   return curve.depth(std::min(std::log(k), curve.limit()));
 }
 
-// A few of the sigmas from the least to the largest, for each a curve.
+// A selection of sigmas from the smallest to the largest, one curve for each.
 Numbers chosen(const std::set<double>& sigmas) {
   const Numbers all(sigmas.begin(), sigmas.end());
   if (all.size() <= most_curves) return all;
@@ -42,8 +42,8 @@ Numbers chosen(const std::set<double>& sigmas) {
   return few;
 }
 
-// p_a k n against delta for the contact of `drawn`: the clearances of the data as curves, the
-// inspections as points, each with the interval that k gives its wear number.
+// p_a k n against delta for the contact of `drawn`: a curve for each clearance of the data, and the
+// inspections as points with the interval of the wear number.
 html::Figure chart_figure(const BearingData& data, const PredictedBearing& drawn,
                           const QuantityDistribution& k) {
   Numbers delta, low, middle, high;
@@ -84,9 +84,9 @@ html::Figure chart_figure(const BearingData& data, const PredictedBearing& drawn
   }
   return {
       "chart", "Wear number against depth",
-      fmt::format("Contact: {}. Each inspection at its measured delta = depth/radius and at the "
-                  "wear number p_a k n that the fitted k gives it, with the 90 % interval of "
-                  "k: of the bearing in the middle, where bearings differ.",
+      fmt::format("Contact: {}. Each inspection is at its measured delta = depth/radius and at the "
+                  "wear number p_a k n of the fitted k, with its 90 % interval (k of the median "
+                  "bearing, if bearings vary).",
                   bearing::contact_name(drawn.duty.contact)),
       plot::plot("Wear number p_a k n against delta, with the inspections",
                  {"delta = depth/radius", false, 0.0}, {"p_a k n", false, 0.0}, marks, 320, true)};
@@ -101,8 +101,8 @@ double round_down(double x) {
   return power;
 }
 
-// The lower half of the bore around its centre, radii in bore radii, with deviations from the bore
-// enlarged.
+// The lower half of the bore around its center, radii in bore radii, with exaggerated deviations
+// from the bore.
 struct Profile {
   Numbers x, y;
   void add(double angle, double deviation, double factor) {
@@ -116,7 +116,7 @@ html::Figure scar_figure(const Unit& unit, const Duty& duty, double depth) {
   const double bore = duty.radius + duty.clearance;
   const double worn_radius = duty.contact == Contact::journal ? duty.radius - depth : duty.radius;
   const double worn_bore = duty.contact == Contact::bushing ? bore + depth : bore;
-  // The journal rests on what is below it.
+  // The journal rests on the lower half.
   const double down =
       (duty.contact == Contact::stationary ? duty.clearance + depth : worn_bore - worn_radius);
   const double largest = std::max(down, 2 * duty.clearance + depth) / bore;
@@ -140,7 +140,7 @@ html::Figure scar_figure(const Unit& unit, const Duty& duty, double depth) {
       plot::line({{"x", journal.x}, {"y", journal.y}}, {colour::posterior, "journal", 1, 1.5})};
   html::Figure figure{
       "scar", "The worn bearing",
-      fmt::format("To scale, except that deviations from the new bore are drawn {} times as large. "
+      fmt::format("To scale, except that deviations from the new bore are exaggerated {} times. "
                   "After {} revolutions at the median k: {} deep, contact {}.",
                   html::given(factor), html::number(duty.revolutions),
                   html::quantity(from_si(unit, depth), unit.text, 3),
@@ -169,8 +169,8 @@ void add_bearing_history(const bearing::WearModel& model, const BearingData& dat
     study.history.push_back(depth_request(model, data, duty, k, {}));
   }
   study.history_note = fmt::format(
-      "Drawn for {} contact, radius {}, clearance {}, pressure {}; the inspections lie where that "
-      "pressure would have loaded as much, whatever their own clearance.",
+      "For {} contact, radius {}, clearance {}, pressure {}; each inspection is placed at the "
+      "revolutions that give its load at this pressure, for any clearance.",
       bearing::contact_name(duty.contact),
       html::quantity(from_si(data.depth_unit, duty.radius), data.depth_unit.text),
       html::quantity(from_si(data.depth_unit, duty.clearance), data.depth_unit.text),

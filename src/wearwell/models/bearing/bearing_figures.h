@@ -12,13 +12,13 @@
 
 namespace wearwell {
 
-/// The depth of the bearing that is asked about, along its revolutions. The inspections of others
-/// lie where their p_a n would be reached under its pressure.
+/// The depth of the predicted bearing against its revolutions. Inspections of other bearings are
+/// placed where their p_a n is reached under its pressure.
 void add_bearing_history(const bearing::WearModel& model, const BearingData& data,
                          const PredictedBearing& drawn, double k, PosteriorStudy& study);
 
-/// The chart of wear numbers with the data on it (Figs. 4 and 5 of Ligterink and de Gee 1996), and
-/// the scar of the bearing that is asked about.
+/// The chart of wear numbers with the data (Figs. 4 and 5 of Ligterink and de Gee 1996), and the
+/// scar of the predicted bearing.
 std::map<std::string, std::vector<html::Figure>> bearing_figures(const BearingData& data,
                                                                  const PredictedBearing& drawn,
                                                                  const Fit& fit);

@@ -28,7 +28,7 @@ Uncertain read_input(const InputOption& option, const std::string& text) {
     const Uncertain value = read_uncertain(text, option.si);
     if (!(value.mean > 0)) throw InputError(fmt::format("'{}' must be positive", value.text));
     if (!std::isfinite(value.mean) || !std::isfinite(value.sd))
-      throw InputError(fmt::format("'{}' is no finite number in SI units", value.text));
+      throw InputError(fmt::format("'{}' is not a finite number in SI units", value.text));
     return value;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option.flag, error.what()));
@@ -63,7 +63,7 @@ UncertainBearing BearingInputs::read() const {
     if (texts[i].empty()) continue;
     for (const UncertainBearing::Given& other : result.given) {
       if (other.option->input == input_options[i].input)
-        throw InputError(fmt::format("{} is given beside {}; keep one of the two",
+        throw InputError(fmt::format("{} and {} are both given; keep one of them",
                                      input_options[i].flag, other.option->flag));
     }
     result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});

@@ -18,7 +18,7 @@ struct InputOption {
   Input input;
   const char* si;
   const char* help;
-  double factor = 1;  ///< of the input, to what is given
+  double factor = 1;  ///< from the value of the input to the solved quantity
 };
 inline constexpr std::array<InputOption, 12> input_options = {{
     {"--radius", &Bearing::radius, "m", "radius r of the journal"},
@@ -37,7 +37,7 @@ inline constexpr std::array<InputOption, 12> input_options = {{
     {"--diameter", &Bearing::radius, "m", "diameter of the journal, instead of --radius", 0.5},
 }};
 
-/// A bearing whose inputs may be uncertain.
+/// A bearing with inputs that may be uncertain.
 struct UncertainBearing {
   struct Given {
     const InputOption* option;
@@ -50,14 +50,14 @@ struct UncertainBearing {
   bool is_exact() const;
 };
 
-/// A bearing as it is written, before it is read.
+/// A bearing as written, before it is parsed.
 struct BearingInputs {
   std::string contact;
   std::array<std::string, input_options.size()> texts;
 
   const std::string& text(Input input) const;
 
-  /// Throws InputError that starts with the flag at fault.
+  /// Throws InputError that starts with the wrong flag.
   UncertainBearing read() const;
 };
 

@@ -5,7 +5,7 @@
 namespace wearwell::bearing {
 namespace {
 
-// An input of every inspection: a column, or the same for all.
+// An input of every inspection: a column, or one value for all.
 StudyKeys input_keys(const std::string& name, const std::string& column,
                      const std::string& constant, const std::string& meaning,
                      std::vector<std::string> unless = {}, std::vector<std::string> when = {}) {
@@ -24,9 +24,9 @@ StudyKeys study_keys() {
   StudyKeys keys = posterior_keys();
   add_keys(keys, {needed_key("data.columns.depth", "{ column = \"depth\", unit = \"um\" }",
                              "wear depth of each inspection"),
-                  {"data.columns.count", "\"count\"", "so many rows alike"},
+                  {"data.columns.count", "\"count\"", "number of equal rows"},
                   {"data.columns.bearing", "\"bearing\"",
-                   "which bearing a row is of; without it each row is of its own"}});
+                   "the bearing of a row; without it each row is its own bearing"}});
   add_keys(keys, input_keys("radius", "{ column = \"radius\", unit = \"mm\" }", "\"10 mm\"",
                             "radius of the journal"));
   add_keys(keys, input_keys("clearance", "{ column = \"clearance\", unit = \"um\" }", "\"25 um\"",
@@ -59,24 +59,25 @@ StudyKeys study_keys() {
        {"prior.sigma", "{ distribution = \"half-normal\", scale = \"5 um\" }",
         "scatter of one measured depth"},
        {"prior.k_scatter", "{ distribution = \"half-normal\", scale = 1 }",
-        "scatter of ln k between bearings: with it bearings differ"},
-       {"predict.revolutions", "[100000, \"400 krev\"]", "how deep then?"},
-       {"predict.time", "[\"500 h\"]", "how deep then? needs a speed"},
-       {"predict.limit", "\"80 um\"", "how long until that depth?"},
+        "scatter of ln k between bearings: gives each bearing its own rate"},
+       {"predict.revolutions", "[100000, \"400 krev\"]", "adds the depth then"},
+       {"predict.time", "[\"500 h\"]", "adds the depth then; needs a speed"},
+       {"predict.limit", "\"80 um\"", "failure threshold: adds the life until this depth"},
        {"predict.life_of", "\"b3\"",
-        "whose life: what remains to this bearing of the data, not the life of a new one"},
-       {"predict.risk", "0.01", "when to inspect a new bearing, at that risk of the limit"},
-       {"predict.b_lives", "[1, 10]", "until when have 1 and 10 % reached it? (1 and 10)"},
-       {"predict.credible_level", "0.9", "of lower bounds of B-lives"},
+        "a bearing of the data: its remaining useful life instead of the life of a new one"},
+       {"predict.risk", "0.01",
+        "risk of reaching the threshold; adds the inspection time of a new bearing"},
+       {"predict.b_lives", "[1, 10]",
+        "percentages failed; adds the lives at which 1 and 10 % have reached the threshold"},
+       {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives"},
        {"predict.required_revolutions", "\"1 Mrev\"",
-        "which pressure lets it last that long, to the limit?"},
+        "adds the pressure at which the threshold is reached after this use"},
        {"predict.required_time", "\"200 h\"", "the same, at a speed"},
        {"predict.force", "\"500 N\"",
-        "which length does it need? or with length, which pressure is it?"},
+        "adds the required length; or, with length, gives the pressure"},
        {"predict.length", "\"20 mm\"", "with force: the pressure"},
        {"predict.contact", "\"stationary\"",
-        "of what is predicted, as the next five; without one it "
-        "is that of [conditions]"},
+        "geometry of the predicted bearing, as the next five keys; the default is [conditions]"},
        {"predict.radius", "\"10 mm\"", "radius of the journal"},
        {"predict.clearance", "\"30 um\"", "radial clearance"},
        {"predict.pressure", "\"1.5 MPa\"", "pressure on the projected area"},

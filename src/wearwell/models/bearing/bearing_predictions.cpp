@@ -12,7 +12,7 @@
 #include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/study/life_levels.h"
 
-// Longer than others: all that [predict] of a bearing may ask for shares what it is asked of.
+// Longer than others: all predictions of a bearing share its description.
 
 namespace wearwell {
 namespace {
@@ -20,8 +20,8 @@ namespace {
 using bearing::Contact;
 using bearing::Duty;
 
-// The depth of one duty as a function of the wear rate; a bearing worn beyond its geometry stays
-// at the last depth that it has.
+// The depth of one duty as a function of the wear rate; a bearing worn beyond its geometry keeps
+// its last depth.
 std::function<double(double k)> depth_function(const Duty& duty, double k) {
   const bearing::DepthFunction curve = bearing::depth_functions({duty}, k).front();
   return [curve](double rate) { return curve.depth(std::min(std::log(rate), curve.limit())); };
@@ -31,7 +31,7 @@ std::string description(const Quantity& quantity) {
   return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
 }
 
-// Reads [predict]: of a bearing as in [conditions], or as said here.
+// Reads [predict]: a bearing as in [conditions], or as given here.
 class Predictions {
  public:
   Predictions(const TomlReader& predict, const bearing::WearModel& model, const BearingData& data,
@@ -59,27 +59,29 @@ class Predictions {
     const auto limit = positive_quantity(predict_, "limit", "m");
     const auto required = required_revolutions();
     if (required && !limit) {
-      predict_.fail(required_key_, "needs predict.limit: the depth that is allowed until then");
+      predict_.fail(required_key_, "needs predict.limit: the allowable depth then");
     }
     if (limit) reach(*limit, required);
     if (const auto name = predict_.text("life_of")) {
-      if (!limit) predict_.fail("life_of", "needs predict.limit: the depth that ends its life");
+      if (!limit)
+        predict_.fail("life_of", "needs predict.limit: the failure threshold of the depth");
       life_of_seen(*name, *limit);
     }
     for (const char* key : {"b_lives", "credible_level"}) {
       if (!predict_.has(key) || study_.life) continue;
-      predict_.fail(key,
-                    "needs predict.limit and predict.pressure: B-lives are those to the limit");
+      predict_.fail(
+          key,
+          "needs predict.limit and predict.pressure: B-lives are lives to the failure threshold");
     }
     if (predict_.has("risk") && !study_.life) {
       predict_.fail("risk",
-                    "needs predict.limit and predict.pressure: it is that of reaching the "
-                    "limit before the next inspection");
+                    "needs predict.limit and predict.pressure: it is the risk of reaching the "
+                    "threshold before the next inspection");
     }
     if (force_ && !required) {
       predict_.fail("force",
-                    "needs predict.required_revolutions (or required_time) for the length that it "
-                    "needs, or predict.length for the pressure that it gives");
+                    "needs predict.required_revolutions (or required_time) for the required "
+                    "length, or predict.length for the pressure");
     }
     return drawn(limit);
   }
@@ -88,20 +90,20 @@ class Predictions {
   const Quantity& need(const std::optional<Quantity>& quantity, const char* name,
                        const char* key) const {
     if (!quantity) {
-      predict_.fail(key, fmt::format("needs predict.{}: it is not the same for all data", name));
+      predict_.fail(key, fmt::format("needs predict.{}: the data have more than one", name));
     }
     return *quantity;
   }
 
   Duty duty(const char* key, double revolutions, double pressure) const {
     if (!has_contact_) {
-      predict_.fail(key, "needs predict.contact: it is not the same for all data");
+      predict_.fail(key, "needs predict.contact: the data have more than one");
     }
     return {contact_, need(radius_, "radius", key).si(), need(clearance_, "clearance", key).si(),
             pressure, revolutions};
   }
 
-  // With what is not said as in the last inspection.
+  // Missing values are those of the last inspection.
   PredictedBearing drawn(const std::optional<Quantity>& limit) const {
     PredictedBearing bearing{data_.inspections.duty.back(), {}};
     Duty& duty = bearing.duty;
@@ -114,12 +116,13 @@ class Predictions {
     return bearing;
   }
 
-  // The two ways to ask for a life: a number of revolutions, or a time at a speed.
+  // The two ways to state a life: a number of revolutions, or a time at a speed.
   std::optional<double> required_revolutions() {
     const auto turns = positive_quantity(predict_, "required_revolutions", "rev");
     const auto time = positive_quantity(predict_, "required_time", "s");
     if (turns && time) {
-      predict_.fail("required_time", "is given beside required_revolutions; keep one of the two");
+      predict_.fail("required_time",
+                    "is given, and so is required_revolutions; keep one of the two");
     }
     if (turns) {
       required_key_ = "required_revolutions";
@@ -133,11 +136,11 @@ class Predictions {
     return time->si() * need(speed_, "speed", "required_time").si();
   }
 
-  // A quantity of the bearing in the middle, and of a new one where bearings differ.
+  // A quantity of the median bearing, and of a new one if bearings vary.
   void add(QuantityRequest request, bool headline = false) {
     request.headline = headline && !model_.has_scatter;
     request.driver = [](const double* x) { return x[0]; };
-    // Wear that is faster than thought makes the depth larger and the life shorter.
+    // A higher wear rate increases the depth and shortens the life.
     request.safe_end = request.increasing ? 0.95 : 0.05;
     request.of = model_.has_scatter ? "median bearing" : "bearing";
     study_.quantities.push_back(request);
@@ -148,13 +151,13 @@ class Predictions {
     study_.quantities.push_back(request);
   }
 
-  // Of bearings like that whose life was asked for last.
+  // For the bearing of the last requested life.
   void b_lives(const LifeLevels& levels) {
     if (levels.percents.empty()) return;
     study_.quantity_groups.push_back(b_lives_of_items(study_.quantities.back(), "bearing", levels));
   }
 
-  // When a bearing like these reaches the limit, and until when it need not be looked at.
+  // The life of a bearing like these, and its time of inspection.
   void life(const Quantity& limit, double wear_per_pressure) {
     Unit unit{"1", 1, 0};
     std::string name = "revolutions";
@@ -186,13 +189,13 @@ class Predictions {
   std::size_t bearing_named(const std::string& name) const {
     const auto at = std::find(data_.names.begin(), data_.names.end(), name);
     if (at == data_.names.end())
-      predict_.fail("life_of", fmt::format("no bearing of the data is called '{}'{}", name,
+      predict_.fail("life_of", fmt::format("the data have no bearing '{}'{}", name,
                                            did_you_mean(name, data_.names)));
     return static_cast<std::size_t>(at - data_.names.begin());
   }
 
-  // Of one that was inspected: it keeps its geometry, and bears the load that is said, else that of
-  // its last inspection.
+  // For an inspected bearing: it keeps its geometry, and has the given load, or that of its last
+  // inspection.
   void life_of_seen(const std::string& name, const Quantity& limit) {
     const std::size_t number = bearing_named(name);
     const std::size_t last = bearing::last_inspection(data_.inspections, number);
@@ -277,8 +280,8 @@ class Predictions {
          limit.si(), deepest});
     if (!pressure_ && !required && !predict_.has("life_of")) {
       predict_.fail("limit",
-                    "needs predict.pressure for the life until then, or required_revolutions (or "
-                    "required_time) for the pressure that is allowed");
+                    "needs predict.pressure to give a life, or required_revolutions (or "
+                    "required_time) to give the allowable pressure");
     }
     if (pressure_) {
       life(limit, wear / pressure_->si());

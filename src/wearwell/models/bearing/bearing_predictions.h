@@ -8,20 +8,19 @@
 
 namespace wearwell {
 
-/// The measured depth after the revolutions of `duty`, about which searches start at the wear rate
-/// `k`.
+/// The measured depth after the revolutions of `duty`; searches start at the wear rate `k`.
 PredictionRequest depth_request(const bearing::WearModel& model, const BearingData& data,
                                 const bearing::Duty& duty, double k,
                                 std::optional<double> measured);
 
-/// The bearing that [predict] is about, as far as a report draws it.
+/// The bearing of [predict], for the figures of a report.
 struct PredictedBearing {
-  /// Revolutions: the most that were asked for or, if more, last inspected.
+  /// Revolutions: the largest requested or, if more, the last inspected.
   bearing::Duty duty;
-  std::optional<double> limit;  ///< allowed depth, m
+  std::optional<double> limit;  ///< allowable depth, m
 };
 
-/// Reads [predict]: of a bearing as in [conditions], or as said there. Adds predictions and
+/// Reads [predict]: a bearing as in [conditions], or as given there. Adds predictions and
 /// quantities to the study. Throws InputError.
 PredictedBearing read_bearing_predictions(const TomlReader& predict,
                                           const bearing::WearModel& model, const BearingData& data,

@@ -57,7 +57,8 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
   or_state(clearance.has_value(), "clearance", "30 um", "radial clearance");
   const auto contact = column("contact", {"contact"});
   or_state(contact.has_value(), "contact", "stationary",
-           "what the load turns with: stationary (a scar in the bushing), journal or bushing");
+           "the part that the load rotates with: stationary (a scar in the bushing), journal or "
+           "bushing");
   const auto bearing = column("bearing", {"unit"});
   columns += ColumnRoles::line("depth", *depth);
   roles.refuse_status();
@@ -69,22 +70,25 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
       fmt::format(
           "title = {}\n"
           "model = \"bearing-wear\"\n\n"
-          "{}[data.columns]\n{}\n"
-          "[conditions]                             # what is the same for all rows\n{}\n"
-          "[likelihood]\nfamily = \"normal\"\n# depth_error = \"2 um\"                   # of the "
-          "gauge, if you know it\n\n"
-          "# Weak defaults (docs/reference/priors.md) stand in for what you do not say of k and "
-          "sigma.\n{}\n"
-          "# [predict]                              # of a bearing like these, with\n"
-          "# pressure = \"1.5 MPa\"\n# limit = \"80 um\"                        # when is it worn "
-          "so "
-          "deep?\n"
-          "# risk = \"1 %\"                           # and when to inspect it?\n",
+          "{}[data.columns]\n"
+          "{}\n"
+          "[conditions]                             # the same for all rows\n"
+          "{}\n"
+          "[likelihood]\n"
+          "family = \"normal\"\n"
+          "# depth_error = \"2 um\"                   # sd of the gauge, if you know it\n\n"
+          "# Without priors of k and sigma, weak defaults apply (docs/reference/priors.md).\n"
+          "{}\n"
+          "# [predict]                              # a bearing like these, with\n"
+          "# pressure = \"1.5 MPa\"\n"
+          "# limit = \"80 um\"                        # failure threshold: adds its life\n"
+          "# risk = \"1 %\"                           # adds the time of inspection\n",
           toml_text("Wear rate of bearings, from " + roles.file()), roles.data_section(), columns,
           conditions,
-          scatter ? "[prior]\nk_scatter = { distribution = \"default\" }         # bearings "
-                    "differ; leave it "
-                    "out if all have one wear rate\n"
+          scatter ? "[prior]\n"
+                    "k_scatter = { distribution = \"default\" }         # unit-to-unit variation; "
+                    "remove if "
+                    "all bearings have one wear rate\n"
                   : ""));
 }
 

@@ -6,7 +6,7 @@
 
 namespace wearwell::bearing {
 
-/// A study of wear depths of journal bearings, or nothing where the headings name none.
+/// A study of wear depths of journal bearings; empty if the headings have none.
 std::optional<Scaffold> scaffold(ColumnRoles& roles);
 
 }  // namespace wearwell::bearing

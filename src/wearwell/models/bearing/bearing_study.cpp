@@ -30,8 +30,8 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
                                           "bearings needs at least 2",
                                           data.source));
   }
-  // Defaults: k as of any wear (models/joint), sigma no larger than what is measured, and bearings
-  // that differ by less than a factor of 10.
+  // Defaults: k as for any wear (models/joint), sigma no larger than the measured depths, and
+  // bearings within a factor of 10.
   const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
     spec.fallback = std::move(fallback);
     return read_prior(root, priors, spec);
@@ -41,7 +41,7 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
                             {"lognormal", Lognormal{1e-14, 4.2}, "mm^3/(N m)"}));
   if (model.depth_error) {
     if (priors && priors->has("sigma")) {
-      priors->fail("sigma", "is given, but likelihood.depth_error says that it is known; keep one");
+      priors->fail("sigma", "is given, but likelihood.depth_error fixes it; keep one");
     }
   } else {
     if (data.inspections.depth.size() < 2) {
@@ -52,7 +52,7 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
     }
     double largest = 0;
     for (const double d : data.inspections.depth) largest = std::max(largest, std::abs(d));
-    // Where bearings differ, not all of the residuals is the measurement's.
+    // If bearings vary, residuals are only partly measurement error.
     const double sigma = std::max((model.has_scatter ? 0.5 : 1) * guess.sigma, 1e-3 * largest);
     parameters.push_back(
         read({"sigma", "m", 0, INFINITY, sigma},
@@ -77,12 +77,12 @@ std::string description(const bearing::WearModel& model, const BearingData& data
                         data.bearings)
           : "";
   return fmt::format(
-      "depth = radius x delta(p_a k n, clearance/radius){}; depth measured with {} scatter of "
+      "depth = radius x delta(p_a k n, clearance/radius){}; depth measured with {} error of "
       "standard deviation {}",
       rate, model.family == ObservationFamily::normal ? "normal" : "lognormal", sd);
 }
 
-// Wear grows within each bearing, or where all k are one, within each geometry.
+// Wear grows within each bearing, or if all share k, within each geometry.
 FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
   const bearing::Inspections& inspections = data.inspections;
   std::vector<double> loading;
@@ -100,8 +100,8 @@ FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
     while (!alike(first)) ++first;
     group.push_back(first);
   }
-  const Rise rise{"wear depth grows with pressure times revolutions", loading, inspections.depth,
-                  group, true};
+  const Rise rise{"wear depth increases with pressure times revolutions", loading,
+                  inspections.depth, group, true};
   FitData result{bearing::wear_scores(model, inspections),
                  {},
                  {{"pressure times revolutions", loading}},
@@ -115,13 +115,13 @@ FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
   }
   result.remedies.scatter =
       model.family == ObservationFamily::normal
-          ? "A scatter that grows with the wear depth: try family = \"lognormal\"."
-          : "A scatter in proportion to the wear depth does not fit: try family = \"normal\".";
+          ? "The scatter grows with the wear depth: try family = \"lognormal\"."
+          : "Scatter proportional to the wear depth does not fit: try family = \"normal\".";
   result.labels = {{"bearing", inspections.bearing}};
   return result;
 }
 
-// Of bearings where they differ, else of inspections.
+// By bearing if they vary, else by inspection.
 DensityUnit density_of(const bearing::WearModel& model, const BearingData& data) {
   const std::vector<double>& depth = data.inspections.depth;
   DensityUnit unit = density_unit(data.depth_unit, depth.size());
@@ -179,7 +179,7 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
     }
     return requests;
   };
-  // What a report draws is the bearing that is asked about, else the last one inspected.
+  // A report draws the predicted bearing, or else the last one inspected.
   PredictedBearing drawn{data.inspections.duty.back(), {}};
   if (const auto predict = root.table("predict")) {
     drawn = read_bearing_predictions(*predict, model, data, k, study);

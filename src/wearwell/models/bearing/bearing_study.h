@@ -9,13 +9,13 @@ namespace wearwell {
 
 namespace bearing {
 
-/// What is unknown of the bearings of a study: [likelihood] and [prior]. Throws InputError.
+/// The unknowns of a bearing study: [likelihood] and [prior]. Throws InputError.
 WearModel read_wear_model(const TomlReader& root);
 
 }  // namespace bearing
 
-/// Reads `model = "bearing-wear"` (docs/reference/bearing.md) into `study`, whose general parts are read
-/// already.
+/// Reads `model = "bearing-wear"` (docs/reference/bearing.md) into `study`, whose common parts are
+/// already read.
 void read_bearing_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
 }  // namespace wearwell

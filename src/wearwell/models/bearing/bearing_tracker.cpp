@@ -28,9 +28,11 @@ namespace {
 using prognosis::Reading;
 
 constexpr std::size_t thinned_posterior = 1000, many_points = 4000, points_alone = 2000;
-constexpr double least_few = 0.3;  // of the few points' effective number: then many are taken
+// of the initial effective number of the few points: below it many points are used
+constexpr double least_few = 0.3;
 
-// Curves of one clearance over radius, as far as memory goes. Which of them are kept changes no bit.
+// Curves of one clearance over radius, within a memory limit. Which of them are cached does not
+// change results.
 class Curves {
  public:
   DepthFunction curve(const Duty& duty) const {
@@ -47,12 +49,13 @@ class Curves {
 
  private:
   static constexpr std::size_t most = 200;
-  static constexpr double from = -14, to = 2;  // logarithms of wear numbers; beyond, it solves
+  // logarithms of wear numbers; beyond them it solves directly
+  static constexpr double from = -14, to = 2;
   mutable std::mutex lock_;
   mutable std::map<std::pair<Contact, double>, std::shared_ptr<const DepthCurve>> curves_;
 };
 
-// What is said of the bearings to come, and the limit.
+// The future conditions and the threshold.
 struct Ahead : BearingAhead {
   Quantity limit;
 };
@@ -60,7 +63,10 @@ struct Ahead : BearingAhead {
 Ahead read_ahead(const TomlReader& root, const BearingData& data) {
   const auto predict = root.table("predict");
   const auto limit = predict ? positive_quantity(*predict, "limit", "m") : std::nullopt;
-  if (!limit) root.fail("predict", "needs limit: bearings are followed until they are so deep");
+  if (!limit)
+    root.fail(
+        "predict",
+        "needs limit: the failure threshold of the depth, towards which bearings are tracked");
   return {read_bearing_ahead(*predict, data), *limit};
 }
 

@@ -7,9 +7,10 @@
 
 namespace wearwell::bearing {
 
-/// Follows single bearings on line: each has its own k where the study has k_scatter, else all share one. Of a
-/// bearing's readings and its life only ln k of its own and sigma matter, so these two are what a node has. Throws
-/// InputError where the study has no predict.limit, or no column along which bearings are inspected.
+/// Tracks single bearings: each has its own k if the study has k_scatter, else all share one. The
+/// readings and the life of a bearing depend only on its ln k and on sigma, which are the two
+/// values of a node. Throws InputError if the study has no predict.limit, or no column that orders
+/// the inspections.
 std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::CarriedState& state);
 
 }  // namespace wearwell::bearing

@@ -7,19 +7,19 @@
 
 namespace wearwell::bearing {
 
-/// What wears in a journal bearing (Ligterink and de Gee 1996).
+/// The worn part of a journal bearing (Ligterink and de Gee 1996).
 enum class Contact {
-  stationary,  ///< a scar in the bushing, which the journal's circle cuts out
+  stationary,  ///< a scar in the bushing, cut out by the journal's circle
   journal,     ///< the journal, evenly all around: the load or the bushing turns
   bushing,     ///< the inside of a turning bushing, evenly all around
 };
 
-/// The contacts as users write them, in the order of the enumeration.
+/// The contacts in the spelling of study files, in the order of the enumeration.
 const std::vector<std::string>& contact_names();
 
 const char* contact_name(Contact contact);
 
-/// None for a word that is not in `contact_names`.
+/// Empty for a word that is not in `contact_names`.
 std::optional<Contact> contact_named(std::string_view name);
 
 }  // namespace wearwell::bearing

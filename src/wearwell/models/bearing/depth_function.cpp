@@ -12,11 +12,11 @@ namespace wearwell::bearing {
 namespace {
 
 constexpr double nodes_per_unit = 64;
-// Where bearings differ a posterior looks far below its middle.
+// If bearings vary, a posterior extends far below its median.
 constexpr double reach_below = 40, logarithms_per_unit = 24;
 constexpr double lowest = -600;  // depths below 1e-170 radii, where solving would underflow
 
-// Just short of the wear numbers that no delta reaches (see depth_for).
+// Just below the wear numbers that no delta reaches (see depth_for).
 double largest_log_wear_number(Contact contact) {
   constexpr double short_of = 0.9999;
   switch (contact) {
@@ -30,8 +30,8 @@ double largest_log_wear_number(Contact contact) {
   return std::log(std::numeric_limits<double>::max()) / 2;
 }
 
-// Where a table is as good as its claim: towards its limit the stationary contact's depth grows
-// without bound.
+// The range where the table meets its error bound: near its limit the stationary contact's depth
+// grows without bound.
 double end_of_table(Contact contact, double limit) {
   return contact == Contact::stationary ? std::log(0.1) : limit;
 }
@@ -63,7 +63,7 @@ DepthCurve::Point DepthCurve::solve(double x) const {
   if (!(x > lowest)) return {0, 0};
   const double w = std::exp(x);
   const double delta = depth_for(contact_, sigma_, w);
-  if (!(delta > 0)) return {0, 0};  // w has underflown
+  if (!(delta > 0)) return {0, 0};  // w has underflowed
   return {delta, w / wear_number_and_derivatives(contact_, sigma_, delta).d_delta};
 }
 

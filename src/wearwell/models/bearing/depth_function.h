@@ -10,10 +10,10 @@
 namespace wearwell::bearing {
 
 /// delta = depth/r as a function of x = ln(wear number), for one contact and one sigma: the inverse
-/// geometry `depth_for` as a primitive of fits, where it is asked for millions of times. A table
-/// with nodes 1/64 apart, whose slopes come from the implicit function theorem, d delta/dx =
-/// w/(dw/d delta), and below it one of ln delta, which is nearly straight there: a relative error
-/// below 1e-9 (tests). Beyond both it solves.
+/// geometry `depth_for`, tabulated because fits evaluate it millions of times. A table with nodes
+/// 1/64 apart, whose slopes come from the implicit function theorem, d delta/dx = w/(dw/d delta),
+/// and below it one of ln delta, which is nearly linear there: a relative error below 1e-9 (tests).
+/// Outside both it solves directly.
 class DepthCurve {
  public:
   using Point = HermiteTable::Point;
@@ -24,7 +24,8 @@ class DepthCurve {
   /// delta and its slope, for x <= limit().
   Point operator()(double x) const;
 
-  /// The x above which no depth exists, or nothing of the bearing is left; infinite for none.
+  /// The x above which no depth exists, or the bearing is completely worn; infinite if there is
+  /// none.
   double limit() const { return limit_; }
 
  private:
@@ -49,7 +50,7 @@ struct DepthFunction {
     return {radius * point.value, radius * point.slope};
   }
 
-  /// The depth [m]; the bearing has none for a `log_k` above `limit()`.
+  /// The depth [m]; the bearing has none if `log_k` exceeds `limit()`.
   double depth(double log_k) const { return radius * (*curve)(log_k + log_loading).value; }
 
   template <int N>
@@ -70,8 +71,8 @@ struct Duty {
   double revolutions = 0;  ///< n
 };
 
-/// The depth laws of many duties; those of one contact and one clearance/radius share a curve, laid
-/// where their wear numbers lie if k is within e^-10 and e^6 of `k`.
+/// The depth functions of many duties; those of one contact and one clearance/radius share a curve
+/// that covers their wear numbers for k within e^-10 and e^6 of `k`.
 std::vector<DepthFunction> depth_functions(const std::vector<Duty>& duties, double k);
 
 }  // namespace wearwell::bearing

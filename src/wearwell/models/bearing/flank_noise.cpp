@@ -10,14 +10,14 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Noise with memory `share` phi^lag of its variance.
+// Noise of which the share `share` of the variance has the autocorrelation phi^lag.
 struct Memory {
   double phi, share;
 };
 
-// Makes the rows of one flank independent and of unit variance, by predicting each from those
-// before it (the Kalman filter of a first-order process seen with white noise). Returns the
-// logarithm of the determinant of their correlation.
+// Makes the rows of one flank independent and of unit variance, by predicting each from earlier
+// ones (the Kalman filter of a first-order process observed with white noise). Returns the log
+// determinant of their correlation.
 double whiten(const Memory& memory, Eigen::Ref<Eigen::MatrixXd> rows) {
   Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(rows.cols());  // predicted, of each column
   double variance = memory.share, log_determinant = 0;
@@ -77,15 +77,15 @@ FlankNoise flank_noise(const std::vector<double>& residuals, const Eigen::Matrix
       const double squares = white.col(p).squaredNorm() - along.dot(root.solve(along));
       if (!(squares > 0)) continue;
       const double log_normal = 2 * root.matrixLLT().diagonal().array().log().sum();
-      // A third for noise without memory (the others sum to 26); else every phi is as likely, on a
-      // grid that is denser towards 1.
+      // Prior: a third for white noise (the others sum to 26); otherwise each phi of a grid is
+      // equally likely, with a grid denser towards 1.
       const double log_weight = (step == 0 ? std::log(13) : std::log(1 - phi)) -
                                 0.5 * (log_determinant + log_normal + degrees * std::log(squares));
       best = std::max(best, log_weight);
       candidates.push_back({log_weight,
                             std::sqrt(squares / degrees * sum_variance(memory, weights)),
                             1 + 2 * memory.share * phi / (1 - phi)});
-      if (step == 0) break;  // without memory its share is nothing
+      if (step == 0) break;  // without memory its share is zero
     }
   }
   FlankNoise noise{0, 0, 1};

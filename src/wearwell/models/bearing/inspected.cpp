@@ -10,20 +10,21 @@
 namespace wearwell::bearing {
 namespace {
 
-// From so many rows on a table is faster than their sum.
+// With more rows a table is faster than their sum.
 constexpr std::size_t rows_for_table = 8;
 
-// ln k of a depth that the geometry may exclude.
+// ln k of a depth that may be outside the geometry.
 double log_k_of(const Duty& duty, double depth, double limit) {
   if (duty.contact == Contact::stationary && depth >= 2 * duty.radius) return limit;
   if (duty.contact == Contact::journal && depth > duty.radius) return limit;
   return std::min(limit, single_log_k(duty, depth).value_or(-infinity));
 }
 
-// A lognormal depth y with standard deviation sigma is likeliest where the mean is about y (or
-// sqrt(sigma y), where sigma is larger). Where it is smaller there is another peak, low and wide:
-// far below y the law becomes so skew that y is nothing out of the way. With L = log(sigma/mean) and
-// A = log(y/sigma) the log-density goes with -(A + 2L)^2/(4L): its peak is at L = A/2.
+// A lognormal depth y with standard deviation sigma has its maximum likelihood where the mean is
+// about y (or sqrt(sigma y), if sigma is larger). For smaller means there is another peak, low and
+// wide: far below y the distribution becomes so skewed that y is not unusual. With L =
+// log(sigma/mean) and A = log(y/sigma) the log-density goes with -(A + 2L)^2/(4L): its peak is at L
+// = A/2.
 double log_density_far_below(double y, double sigma) {
   if (!(sigma < y)) return -infinity;
   constexpr double margin = 0.7;  // of that approximation
@@ -66,7 +67,7 @@ Inspected::Inspected(ObservationFamily family, std::vector<DepthFunction> curves
   }
   find_wells();
   if (size() < rows_for_table) return;
-  // Around the peak, where the sum is small and counts.
+  // Around the peak, where the sum is small and matters.
   constexpr double reach = 6, nodes_per_unit = 512;
   const double middle = std::isinf(peak_) ? std::min(limit_, highest_) : peak_;
   if (std::isinf(middle)) return;
@@ -74,7 +75,7 @@ Inspected::Inspected(ObservationFamily family, std::vector<DepthFunction> curves
                           [this](double x) { return sum_of_squares(x); });
 }
 
-// Of the depths about those of ln k, with its slope by ln k.
+// The residual sum of squares at ln k, with its slope by ln k.
 HermiteTable::Point Inspected::sum_of_squares(double log_k) const {
   HermiteTable::Point sum{0, 0};
   for (std::size_t i = 0; i < curves_.size(); ++i) {
@@ -86,19 +87,19 @@ HermiteTable::Point Inspected::sum_of_squares(double log_k) const {
   return sum;
 }
 
-// The minima of the sum of squares lie among what each depth says for itself: one, unless
-// inspections of different geometry contradict each other. Depths without wear pull down without
-// end, so it is looked for as far below as they can.
+// The minima of the sum of squares lie among the values of ln k of the single depths: there is one,
+// unless inspections of different geometry contradict each other. Depths without wear have no
+// finite value, so the search extends as far below as they may pull.
 void Inspected::find_wells() {
   double low = lowest_;
   const double high = highest_;
   for (const double depth : depths_) {
     if (!(depth > 0)) least_squares_ += depth * depth;  // no ln k comes closer
   }
-  if (std::isinf(high)) return;  // no wear at all: falls all the way
+  if (std::isinf(high)) return;  // no wear at all: decreasing everywhere
   constexpr double far = 30;     // in ln k: depths have fallen to less than a millionth
   if (std::isinf(low)) low = high - far;
-  if (!(high > low)) {  // one says all
+  if (!(high > low)) {  // one inspection determines it
     lowest_ = highest_ = peak_;
     return;
   }
@@ -146,7 +147,7 @@ Inspected::Point Inspected::at(double log_k, double sigma) const {
   }
   const HermiteTable::Point squares =
       squares_.covers(log_k) ? squares_(log_k) : sum_of_squares(log_k);
-  // One factor after the other: the square of a small sigma would be 0.
+  // One factor after the other: the square of a small sigma would underflow to 0.
   const double inverse = 1 / sigma;
   const double value = -0.5 * (squares.value * inverse) * inverse;
   return {value, -0.5 * (squares.slope * inverse) * inverse, -2 * value * inverse};
@@ -162,8 +163,8 @@ RateShape Inspected::shape(double sigma) const {
   shape.lowest = infinity;
   shape.highest = -infinity;
   for (std::size_t i = 0; i < size(); ++i) {
-    // The peak lies within some sigma^2/y of y; and what it has more than the density at y is
-    // zeta^2/8 where sigma is large, within 1.
+    // The peak lies within a few sigma^2/y of y; its excess over the density at y is zeta^2/8 if
+    // sigma is large, within 1.
     const double y = depths_[i], wide = 1 + 3 * std::min(1.0, (sigma / y) * (sigma / y));
     const double top = std::max(y, std::sqrt(sigma) * std::sqrt(y));
     shape.lowest = std::min(shape.lowest, log_k_of(duties_[i], y / wide, limit_));

@@ -8,15 +8,16 @@
 
 namespace wearwell::bearing {
 
-/// What is known of the log-likelihood of one bearing's ln k before it is integrated. It falls from
-/// the highest of its peaks on; in between it may do anything.
+/// Bounds on the log-likelihood of one bearing's ln k before it is integrated. It decreases on both
+/// sides of its outermost peaks; between them it may have any form.
 struct RateShape {
-  double lowest = 0, highest = 0;  ///< ln k of these peaks; -infinity: no wear is likeliest
-  double peak = 0;                 ///< ln k of a high one
-  double curvature = 0;            ///< about minus the second derivative there
-  double largest = 0;              ///< the log-likelihood is nowhere above this
-  double limit = 0;                ///< largest ln k that the geometry allows
-  bool one_peak = false;           ///< it rises up to the one and falls from there on
+  /// ln k of these peaks; -infinity: no wear has the maximum likelihood
+  double lowest = 0, highest = 0;
+  double peak = 0;        ///< ln k of a high one
+  double curvature = 0;   ///< approximately minus the second derivative there
+  double largest = 0;     ///< upper bound of the log-likelihood
+  double limit = 0;       ///< largest ln k that the geometry allows
+  bool one_peak = false;  ///< it has a single peak
 };
 
 /// The inspections of one bearing.
@@ -29,7 +30,7 @@ class Inspected {
     double by_sigma;
   };
 
-  /// Throws InputError for a depth that the geometry excludes.
+  /// Throws InputError for a depth outside the geometry.
   Inspected(ObservationFamily family, std::vector<DepthFunction> curves, std::vector<Duty> duties,
             std::vector<double> depths);
 
@@ -42,7 +43,7 @@ class Inspected {
 
   RateShape shape(double sigma) const;
 
-  /// No ln k of at most `log_k`, itself below all peaks, has a larger log-likelihood than this.
+  /// Upper bound of the log-likelihood for all ln k up to `log_k`, which is below all peaks.
   double largest_below(double log_k, double sigma) const;
 
   /// log of the density of each depth at ln k.
@@ -57,16 +58,17 @@ class Inspected {
   std::vector<Duty> duties_;
   std::vector<double> depths_;
   std::optional<Observations> observations_;  // for the lognormal family
-  HermiteTable squares_;     // the sum of squares by ln k, for the normal family: the only way in
-                             // which k enters, at any sigma; empty where rows are few
+  // the sum of squares by ln k, for the normal family: the only term with
+  HermiteTable squares_;
+  // k, for any sigma; empty if there are few rows
   double limit_;             // of ln k
-  double lowest_, highest_;  // ln k of what each depth says, or all together (normal family)
+  double lowest_, highest_;  // ln k from each depth, or from all together (normal family)
   double peak_;
   double information_ = 0;    // sum of (d depth/d ln k)^2 there, m^2
-  double least_squares_ = 0;  // no sum of squares is less
+  double least_squares_ = 0;  // minimum of the sum of squares
 };
 
-/// ln k of one inspection for itself; none when there is no wear.
+/// ln k from a single inspection; empty if there is no wear.
 std::optional<double> single_log_k(const Duty& duty, double depth);
 
 }  // namespace wearwell::bearing

@@ -21,13 +21,13 @@ void check(const Profile& profile, const char* name) {
   for (std::size_t i = 1; i < profile.position.size(); ++i) {
     if (!(profile.position[i] > profile.position[i - 1])) {
       throw InputError(fmt::format(
-          "row {} of the profile {}: position {:.6g} m is not above the one before, {:.6g} m",
+          "row {} of the profile {}: position {:.6g} m is not above the previous one, {:.6g} m",
           i + 1, name, profile.position[i], profile.position[i - 1]));
     }
   }
 }
 
-// Linear between points; `x` must lie inside.
+// Linear between points; `x` must be inside the range.
 double height_at(const Profile& profile, double x) {
   const auto& p = profile.position;
   const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(p.begin(), p.end(), x) - p.begin(),
@@ -37,9 +37,9 @@ double height_at(const Profile& profile, double x) {
   return std::lerp(profile.height[i - 1], profile.height[i], t);
 }
 
-// A profile averaged over a few points to either side of any place. Interpolated noise is smaller
-// between points than on them, so the misfit of plain profiles has its minimum half way between two
-// points, wherever the features lie; that of averages has not.
+// A profile averaged over a few points to either side of a position. Interpolated noise is smaller
+// between points than at them, so the misfit of plain profiles has its minimum half way between two
+// points, independent of the features; averages avoid that.
 class Averaged {
  public:
   Averaged(const Profile& profile, double half_width)
@@ -69,17 +69,17 @@ class Averaged {
   std::vector<double> integral_;
 };
 
-// The points of the profile after, and which of them are flank.
+// The points of the profile after wear, and which of them are flank.
 struct Window {
-  std::vector<double> x;       // position about the middle
-  std::vector<double> height;  // after
+  std::vector<double> x;       // position relative to the middle
+  std::vector<double> height;  // after wear
   std::size_t left, right;     // flanks are [0, left) and [right, size)
 
   bool is_flank(std::size_t i) const { return i < left || i >= right; }
   std::size_t flank_points() const { return left + x.size() - right; }
 };
 
-// Before less after, and the line that the flanks fit.
+// Before less after, and the line fitted to the flanks.
 struct Alignment {
   std::vector<double> difference;  // less the line
   Eigen::Vector2d line;            // height, tilt
@@ -109,8 +109,8 @@ Alignment align(const Before& before, const std::vector<double>& after, const Wi
   return result;
 }
 
-// 1 + 2 times the autocorrelations of the residuals, each flank for itself, up to where their sum
-// first turns negative.
+// 1 + 2 times the autocorrelations of the residuals, each flank separately, up to the first
+// negative sum.
 double correlation(const Alignment& alignment, const Window& window, double variance) {
   const std::size_t n = window.x.size();
   const std::size_t longest = std::min(window.left, n - window.right) / 2;
@@ -129,11 +129,11 @@ double correlation(const Alignment& alignment, const Window& window, double vari
   return sum;
 }
 
-// The shift of the least misfit, at most `farthest`: the best on a grid as fine as the points, then
-// between its neighbours. None where the flanks have no features to tell it by. Judged by the
-// averages: between two points interpolated noise alone is smaller, which looks like a better fit.
-// And the least of many misfits is small by chance: those of noise about noise scatter by the root
-// of the independent points in them.
+// The shift of least misfit, at most `farthest`: the best on a grid as fine as the points, refined
+// between its neighbors. Empty if the flanks have no features. Uses averages: between two points
+// interpolated noise is smaller, which looks like a better fit. The minimum of many misfits is
+// small by chance, so a shift must improve the fit by more than the scatter of noise, the root of
+// the number of independent points.
 std::optional<double> best_shift(const Profile& before, const Profile& after, const Window& window,
                                  double middle, double spacing, double farthest) {
   const Averaged smooth_before(before, 2 * spacing), smooth_after(after, 2 * spacing);
@@ -166,8 +166,8 @@ std::optional<double> best_shift(const Profile& before, const Profile& after, co
   return {};
 }
 
-// How far the inner quarters of the flanks lie below a line through the rest, in standard
-// deviations of the rest's noise.
+// Depth of the inner quarters of the flanks below a line through the rest, in standard deviations
+// of the rest's noise.
 template <class Before>
 double inner_step(const Before& before, const Window& window) {
   Window outer = window;
@@ -186,11 +186,11 @@ double inner_step(const Before& before, const Window& window) {
          std::sqrt(variance * correlation(alignment, outer, variance) * (1 / count + 1 / degrees));
 }
 
-// Where the profiles lie over each other. Positions of the window are counted from its middle.
+// The alignment of the profiles. Positions of the window count from its middle.
 struct Overlap {
   Window window;
   double middle = 0;
-  double farthest = 0;  ///< a quarter of a flank is kept free at either end, for the shift
+  double farthest = 0;  ///< a quarter of a flank is reserved at either end, for the shift
 };
 
 Overlap overlap_of(const Profile& before, const Profile& after, std::optional<double> flank) {
@@ -201,10 +201,10 @@ Overlap overlap_of(const Profile& before, const Profile& after, std::optional<do
   }
   const double width = flank.value_or(0.2 * (end - start));
   if (!(width > 0 && 2 * width < end - start)) {
-    throw InputError(fmt::format(
-        "a flank of {:.6g} m does not leave a worn place between two of them: the profiles share "
-        "{:.6g} m",
-        width, end - start));
+    throw InputError(
+        fmt::format("a flank of {:.6g} m at either end leaves no worn region between: the profiles "
+                    "overlap by {:.6g} m",
+                    width, end - start));
   }
   const double farthest = 0.25 * width;
   const double middle = 0.5 * (start + end);
@@ -221,23 +221,22 @@ Overlap overlap_of(const Profile& before, const Profile& after, std::optional<do
   constexpr std::size_t least = 20;
   if (window.left < least || n - window.right < least || window.right - window.left < 2) {
     throw InputError(fmt::format(
-        "the flanks of {:.6g} m hold {} and {} points, and {} lie between; {} are needed in each "
-        "flank",
-        width, window.left, n - window.right, window.right - window.left, least));
+        "the flanks of {:.6g} m have {} and {} points, with {} between; each flank needs {}", width,
+        window.left, n - window.right, window.right - window.left, least));
   }
   return {std::move(window), middle, farthest};
 }
 
-// The worn area between the flanks and its noise, once the profiles are aligned; `slope` is that of
-// the profile before by position, 0 where no shift was told.
+// The worn area between the flanks and its noise, after alignment; `slope` is the slope of the
+// profile before wear, 0 if no shift was estimated.
 template <class Slope>
 WornArea area_between(const Window& window, const Alignment& alignment, Eigen::Index unknowns,
                       double curvature, const Slope& slope) {
   const std::size_t n = window.x.size();
   const auto degrees = static_cast<double>(window.flank_points());
   const double variance = alignment.squares / (degrees - static_cast<double>(unknowns));
-  // Trapezoids between the flanks: a weight for each difference. The baseline moves with the
-  // flanks' noise: its area is gradient . (height, tilt, shift).
+  // Trapezoids between the flanks: one weight per difference. The baseline moves with the flanks'
+  // noise: its area is gradient . (height, tilt, shift).
   WornArea result;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -253,7 +252,7 @@ WornArea area_between(const Window& window, const Alignment& alignment, Eigen::I
     }
     const double weight = 0.5 * ((i + 1 < window.right ? window.x[i + 1] - x : 0) +
                                  (i > window.left ? x - window.x[i - 1] : 0));
-    // Along a curved surface the section widens with the depth.
+    // On a curved surface the section widens with the depth.
     const double d = alignment.difference[i];
     result.area += weight * (d + 0.5 * curvature * (d * d - variance));
     weights[i] = weight;
@@ -306,11 +305,11 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   result.flank_step = inner_step(moved(best), window);
   const auto degrees = static_cast<double>(window.flank_points());
   constexpr double least_independent = 6;
-  // Wear in the flanks looks like noise that goes together; that is said by the step.
+  // Wear in the flanks looks like correlated noise; the step reveals it.
   if (degrees < least_independent * result.correlation && !(result.flank_step > suspicious_step)) {
     throw InputError(fmt::format(
-        "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
-        "{:.2g} independent ones; {} are needed: take longer flanks",
+        "{:.3g} neighboring points of the flanks are correlated, so their {} points count as no "
+        "more than {:.2g} independent ones; {} are needed: use longer flanks",
         result.correlation, window.flank_points(), degrees / result.correlation,
         least_independent));
   }

@@ -12,23 +12,25 @@
 namespace wearwell::bearing {
 namespace {
 
-constexpr double tail = -16;       // log of what is left out over the largest
-constexpr double rule_step = 0.8;  // of a width: where one point's integrand lies
-// Of the mean width: where sigma is known there is one class, else 32 of them lie dense together.
+constexpr double tail = -16;       // log of the omitted part relative to the maximum
+constexpr double rule_step = 0.8;  // of a width: range of one point's integrand
+// Of the mean width: if sigma is known there is one class, else 32 of them are dense together.
 constexpr double grid_step = 0.25, grid_step_alone = 0.06;
 constexpr std::size_t sigma_classes = 32;
 
-// One point of the posterior, and what the bearing's rows make of it.
+// One point of the posterior, and the likelihood of the bearing's rows at it.
 struct PointOf {
   double log_k, sigma, scatter, log_scatter;
   double
-      log_weight;  // before rows that the posterior does not have, over what it has of this bearing's
+      // weight before rows that the posterior does not contain, over its likelihood of this
+      // bearing's rows
+      log_weight;
   double log_all = 0;      // the integral over all rows
   double from, to, width;  // of ln k
   double total() const { return log_weight + log_all; }
 };
 
-// Fractions of multiples of the golden ratio lie evenly.
+// Fractional parts of multiples of the golden ratio are evenly distributed.
 double fraction(std::size_t i) {
   constexpr double golden = 0.6180339887498949;
   const double x = golden * static_cast<double>(i);
@@ -87,7 +89,7 @@ std::vector<PointOf> points_of(const WearModel& model, const ThinnedPosterior& p
                   std::log(x[0]),
                   std::log(x[0]),
                   0};
-    // The normal family's rows come without these factors.
+    // The likelihood of the normal family comes without these factors.
     if (model.family == ObservationFamily::normal)
       point.log_weight -= fresh * (std::log(point.sigma) + half_log_two_pi);
     if (point.scatter > 0) {
@@ -108,7 +110,7 @@ struct Nodes {
   std::vector<double> log_k, sigma, log_weight;
 };
 
-// Points of about one sigma.
+// Points of nearly equal sigma.
 void lay_class(const std::span<const PointOf> points, const BearingRows& rows, double step,
                double most_nodes, double shift, Nodes& nodes) {
   double top = -infinity, sum = 0, sigma = 0, from = infinity, to = -infinity;
@@ -124,7 +126,7 @@ void lay_class(const std::span<const PointOf> points, const BearingRows& rows, d
   sigma /= sum;
   step *= std::max(1.0, std::ceil((to - from) / (step * most_nodes)));
   std::vector<double> term(points.size());
-  // Places of all classes are even together, not each of them from where it begins.
+  // Places are even over all classes together, not within each from its start.
   for (double n = std::floor(from / step); (n + shift) * step <= to; ++n) {
     const double u = (n + shift) * step;
     double highest = -infinity, likelihood = 0, of_sigma = -1;

@@ -10,7 +10,7 @@
 
 #include "wearwell/math/constants.h"
 
-// Longer than others: the integral, its panels and their nodes see one integrand.
+// Longer than others: the integral, its panels and their nodes use one integrand.
 
 namespace wearwell::bearing {
 namespace {
@@ -66,15 +66,15 @@ class Integrand {
     sums.by_sigma += share * value.at.by_sigma;
   }
 
-  // Nothing that counts beside `top` lies beyond z on `side` (+1 or -1).
+  // Whether everything beyond z on `side` (+1 or -1) is negligible relative to `top`.
   bool nothing_beyond(double z, double side, const Value& value, double top) const {
     const double least = top + negligible;
     if (!(value.g < least)) return false;
-    const double out = side * z;  // from the middle of all bearings
+    const double out = side * z;  // from the mean of all bearings
     const bool past_peaks = side > 0 ? z >= highest_ : z <= lowest_;
     constexpr double factor = 1.5;
     if (past_peaks) {
-      // On the way to the middle, stretch by stretch, bounded by what is where the stretch begins.
+      // Between z and the mean, piece by piece, each bounded by its value at the start.
       double here = z, likelihood = largest_on(side, here, value.likelihood);
       if (out >= 0) return likelihood - 0.5 * z * z < least;
       for (int n = 0; n < most_stretches; ++n, here /= factor) {
@@ -87,7 +87,7 @@ class Integrand {
     if (out < 0) return false;
     if (shape_.largest - 0.5 * z * z < least) return true;
     if (!shape_.one_peak) return false;
-    // On the way to the only peak it rises: at most to that of where the stretch ends.
+    // Towards the single peak it increases: at most to the value at the end of the piece.
     double here = z;
     for (int n = 0; n < most_stretches; ++n, here *= factor) {
       const double next = factor * here;
@@ -102,12 +102,12 @@ class Integrand {
   const RateShape& shape() const { return shape_; }
   double lowest() const { return lowest_; }    // z of the likelihood's lowest peak
   double highest() const { return highest_; }  // and of its highest
-  double last() const { return last_; }        // beyond it there is nothing
+  double last() const { return last_; }        // beyond it the integrand is zero
   double log_k() const { return log_k_; }
   double scatter() const { return scatter_; }
 
  private:
-  // Of z and what lies farther out on `side`, past the peaks.
+  // Upper bound at z and beyond on `side`, outside the peaks.
   double largest_on(double side, double z, double likelihood) const {
     return side > 0 ? likelihood : bearing_.largest_below(log_k_ + scatter_ * z, sigma_);
   }
@@ -123,8 +123,8 @@ struct Top {
   Integrand::Value value;
 };
 
-// Climbs from `start` to a top: Newton's steps with the curvature of the last two slopes, halving
-// where they leave what brackets the top.
+// Climbs from `start` to a maximum: Newton's steps with the curvature from the last two slopes,
+// halved where they leave the bracket.
 Top climb(const Integrand& integrand, Top start) {
   double curvature = std::min(1 / (start.width * start.width), std::numeric_limits<double>::max());
   double low = -infinity, high = integrand.last();
@@ -153,8 +153,8 @@ Top climb(const Integrand& integrand, Top start) {
   return best;
 }
 
-// A top near that of a likelihood linear in ln k; where that is nowhere, near the peak of the
-// likelihood or of all bearings, whichever is higher.
+// A maximum near that of a likelihood linear in ln k; if there is none, near the peak of the
+// likelihood or of the population, whichever is higher.
 Top find_top(const Integrand& integrand) {
   const RateShape& shape = integrand.shape();
   const double pull = shape.curvature * integrand.scatter() * integrand.scatter();
@@ -173,8 +173,8 @@ Top find_top(const Integrand& integrand) {
   return climb(integrand, start);
 }
 
-// The trapezoidal rule about `top` with the given step; none where it does not resolve the bell or
-// the bell does not end.
+// The trapezoidal rule around `top` with the given step; empty if it does not resolve the peak or
+// the peak does not end.
 std::optional<Sums> trapezoids(const Integrand& integrand, const Top& top, double step) {
   constexpr int most_nodes = 100;        // to either side
   constexpr double halves_agree = 3e-4;  // the error of the whole is about the square of theirs
@@ -185,7 +185,7 @@ std::optional<Sums> trapezoids(const Integrand& integrand, const Top& top, doubl
       const double z = top.z + side * n * step;
       if (n > most_nodes || z == top.z || z > integrand.last()) return {};
       const Integrand::Value value = integrand(z);
-      if (value.g > top.value.g + 30) return {};  // no top at all
+      if (value.g > top.value.g + 30) return {};  // no maximum at all
       Integrand::add(n % 2 == 0 ? even : odd, z, value, step, top.value.g);
       if (integrand.nothing_beyond(z, side, value, top.value.g)) break;
     }
@@ -195,7 +195,7 @@ std::optional<Sums> trapezoids(const Integrand& integrand, const Top& top, doubl
   return even;
 }
 
-// Gauss and Kronrod's nodes of a half, and their weights.
+// Gauss-Kronrod nodes of one half, and their weights.
 constexpr std::array<double, 8> gauss_kronrod = {
     0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
     0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
@@ -210,7 +210,7 @@ constexpr std::array<double, 4> gauss = {
     0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
     0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
 
-// A panel integrated by Gauss and Kronrod's 7 and 15 nodes; `error` is their difference.
+// A panel integrated by the Gauss-Kronrod rule with 7 and 15 nodes; `error` is their difference.
 struct Panel {
   double from, to;
   Sums sums;
@@ -249,7 +249,7 @@ double end(const Integrand& integrand, double z, double side, double top) {
   return z;
 }
 
-// The panels to begin with: cut where the integrand has its features.
+// The initial panels: split at the features of the integrand.
 std::vector<double> cuts(const Integrand& integrand, const Top& top) {
   const double from = end(integrand, std::min(top.z, 0.0), -1, top.value.g);
   const double to =
@@ -281,13 +281,13 @@ void add_nodes(const Integrand& integrand, const Panel& panel, std::vector<RateN
   }
 }
 
-// None, and `top` moved there, where a much higher one comes to light. `nodes`, where they are wanted, are those of
-// all panels.
+// Empty, with `top` moved there, if a much higher maximum is found. `nodes`, if requested, are
+// those of all panels.
 std::optional<Sums> adaptive(const Integrand& integrand, Top& top,
                              std::vector<RateNode>* nodes = nullptr) {
   constexpr std::size_t most_panels = 400;
   constexpr double tolerance = 1e-9;
-  constexpr double much = 20;  // far from overflow, but nodes were laid for less
+  constexpr double much = 20;  // far from overflow, but nodes were placed for a lower maximum
   const std::vector<double> edges = cuts(integrand, top);
   std::vector<Panel> panels;
   double highest = -infinity, at = 0;
@@ -326,12 +326,12 @@ std::optional<Sums> adaptive(const Integrand& integrand, Top& top,
   return sums;
 }
 
-// So far below any posterior the differences that are exponentiated here would be rounding.
+// So far below any posterior the exponentiated differences would be rounding errors.
 constexpr double lost = -1e9;
 constexpr double shortest_edge = 0.35;  // in ln k, of the plateau of depths below the noise
 
-// The even rule about `top`, begun `shift` of a step farther on; nothing where it does not resolve the bell or
-// the bell does not end.
+// The even rule around `top`, shifted by `shift` of a step; empty if it does not resolve the peak
+// or the peak does not end.
 std::vector<RateNode> even_nodes(const Integrand& integrand, const Top& top, double step,
                                  double shift) {
   constexpr int most_nodes = 200;        // to either side
@@ -362,7 +362,7 @@ RateIntegral log_rate_integral(const Inspected& bearing, double log_k, double si
   const Integrand integrand(bearing, log_k, sigma, scatter);
   Top top = find_top(integrand);
   if (!(top.value.g > lost)) return nothing;
-  // So narrow that only rounding tells its nodes apart: the normal law that it then is.
+  // So narrow that its nodes differ only by rounding: it is then a normal density.
   constexpr double narrow = 1e-9;
   std::optional<Sums> sums;
   if (top.width * scatter < narrow) {

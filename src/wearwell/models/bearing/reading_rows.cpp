@@ -15,7 +15,7 @@ ReadingRows::ReadingRows(const TomlReader& root, const BearingData& data, Observ
   for (const DataColumn& each : data.columns) {
     column_[each.name] = columns_.size();
     columns_.push_back({each.name, each.unit, each.name == "depth"});
-    // What is counted has a name, also where its numbers stand alone.
+    // A counted axis needs its name beside the unit, even for plain numbers.
     if (each.name == "revolutions" && each.unit.text == "1") columns_.back().unit.text = "rev";
   }
   if (!contact_) labels_.emplace_back("contact");
@@ -33,8 +33,7 @@ ReadingRows::ReadingRows(const TomlReader& root, const BearingData& data, Observ
   if (along == column_.end())
     root.required_table("data").required_table("columns").fail(
         "revolutions",
-        "is missing, and time too: bearings can be followed only where a column says how far "
-        "each has come");
+        "is missing, and time too: tracking needs a column for the use of each bearing");
   axis_ = along->second;
 }
 
@@ -56,7 +55,7 @@ std::string ReadingRows::read(const prognosis::Reading& reading, ReadingRow& row
   std::optional<Contact> contact = contact_;
   if (!contact) contact = contact_named(reading.labels.front());
   if (!contact)
-    return fmt::format("'{}' is no contact: {}", printable(reading.labels.front()),
+    return fmt::format("'{}' is not a contact: {}", printable(reading.labels.front()),
                        fmt::join(contact_names(), ", "));
   const double radius = value(reading, "radius");
   double pressure = value(reading, "pressure"), revolutions = value(reading, "revolutions");

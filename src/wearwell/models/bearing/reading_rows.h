@@ -19,10 +19,11 @@ struct ReadingRow {
   std::optional<double> speed;  ///< rev/s, where revolutions are speed x time
 };
 
-/// How readings become inspections: their columns are those of the study, all else is of [conditions].
+/// How readings become inspections: their columns are those of the study, the rest comes from
+/// [conditions].
 class ReadingRows {
  public:
-  /// Throws InputError where no column says how far a bearing has come.
+  /// Throws InputError if no column has the use of a bearing.
   ReadingRows(const TomlReader& root, const BearingData& data, ObservationFamily family);
 
   const std::vector<prognosis::ReadingColumn>& columns() const { return columns_; }
@@ -30,7 +31,7 @@ class ReadingRows {
   std::size_t axis() const { return axis_; }
   bool in_time() const { return in_time_; }  ///< whether the axis is time
 
-  /// Why this is no inspection; empty where it is one, which `row` is then.
+  /// Why this is not an inspection; empty if it is one, which is then in `row`.
   std::string read(const prognosis::Reading& reading, ReadingRow& row) const;
 
  private:

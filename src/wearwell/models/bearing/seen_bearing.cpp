@@ -40,7 +40,8 @@ struct Share {
 };
 
 Share share_of(const Inspected& inspected, const WearModel& model, const double* x, double weight) {
-  constexpr double step = 0.8, tail = -20;  // of a width; log of what is left out over the largest
+  // of a width; log of the omitted part relative to the maximum
+  constexpr double step = 0.8, tail = -20;
   Share share{std::log(x[0]), model.sigma(x), model.scatter(x), weight, 0, 0, 0};
   const std::vector<RateNode> nodes =
       rate_nodes(inspected, share.log_k, share.sigma, share.scatter, step);
@@ -58,7 +59,7 @@ Share share_of(const Inspected& inspected, const WearModel& model, const double*
   return share;
 }
 
-// Adds what a point says of ln k at even places.
+// Adds the density of ln k at one point, at even places.
 void add_share(const Share& share, const Inspected& inspected, double first, double step,
                std::vector<double>& density) {
   const double before =

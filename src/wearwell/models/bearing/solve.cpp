@@ -59,7 +59,7 @@ const char* name(Quantity wanted) {
   return "";
 }
 
-/// The inputs of one bearing, to be checked against what one quantity needs.
+/// The inputs of one bearing, to check against the needs of one quantity.
 struct Checked {
   const char* wanted;
   const Bearing& bearing;
@@ -94,7 +94,7 @@ struct Checked {
     for (const Input input : inputs) {
       if (bearing.*input) {
         throw InputError(
-            fmt::format("{} is given, but the {} does not follow from it", join({input}), wanted));
+            fmt::format("{} is given, but the {} does not depend on it", join({input}), wanted));
       }
     }
   }
@@ -151,7 +151,7 @@ double revolutions(const Bearing& b) {
   return b.revolutions ? *b.revolutions : *b.speed * *b.time;
 }
 
-/// Of a bearing whose depth is known, by whatever way.
+/// For a bearing of known depth, however it is given.
 Solution from_depth(const Bearing& b) {
   Solution s;
   s.sigma = *b.clearance / *b.radius;
@@ -210,8 +210,8 @@ Bearing sensitivity(Quantity wanted, const Bearing& b) {
   const double by_sigma = w.d_sigma * s.sigma / w.value;
   const double by_delta = w.d_delta * s.delta / w.value;
 
-  // Logarithmic derivatives of the balance (k p_a n) / w(sigma, delta) by every input; the quantity
-  // wanted then moves against each so that the balance stays.
+  // Logarithmic derivatives of the balance (k p_a n) / w(sigma, delta) by every input; the solved
+  // quantity compensates each.
   Bearing balance;
   balance.contact = b.contact;
   balance.radius = by_sigma + by_delta;

@@ -16,8 +16,8 @@ enum class Quantity {
   time,         ///< life at a speed, s
 };
 
-/// A bearing as far as it is known, in SI. A depth may be given as the width of its scar, a
-/// pressure as force and length, revolutions as speed and time.
+/// A partially known bearing, in SI. A depth may be given as the width of its scar, a pressure as
+/// force and length, revolutions as speed and time.
 struct Bearing {
   Contact contact = Contact::stationary;
   std::optional<double> radius;       ///< of the journal, m
@@ -40,17 +40,17 @@ struct Solution {
   double wear_number = 0;
 };
 
-/// Throws InputError, naming the offender, when an input is missing, given twice, not used, not
+/// Throws InputError, naming the offender, if an input is missing, given twice, not used, not
 /// positive, or impossible together with the others (a depth beyond the geometry, a wear number
 /// that no depth reaches).
 Solution solve(Quantity wanted, const Bearing& bearing);
 
-/// sigma, delta and wear number of a bearing of which radius, clearance and depth (or scar width)
-/// are given, and nothing else; `value` is the wear number too. Throws InputError as `solve` does.
+/// sigma, delta and wear number of a bearing with given radius, clearance and depth (or scar
+/// width), and nothing else; `value` is the wear number too. Throws InputError as `solve` does.
 Solution geometry(const Bearing& bearing);
 
-/// d ln(quantity) / d ln(input) for each input given: the percent by which the quantity changes
-/// when the input does by one.
+/// d ln(quantity) / d ln(input) for each given input: the change of the quantity in percent when
+/// the input changes by 1 %.
 Bearing sensitivity(Quantity wanted, const Bearing& bearing);
 
 }  // namespace wearwell::bearing

@@ -26,7 +26,7 @@ bool is_bare_number(const std::string& text) {
   return failure == std::errc{} && rest == end;
 }
 
-/// A difference of two quantities, so an offset (degrees Celsius) does not count.
+/// A difference of two quantities, so an offset (degrees Celsius) does not apply.
 double difference(const Quantity& q) {
   return q.value * q.unit.scale;
 }
@@ -41,7 +41,7 @@ Uncertain read_plus_minus(const std::string& left, const std::string& right, std
     result.sd = std::abs(difference(mean)) * read_quantity(right, "1").si();
   } else {
     const Quantity sd = read_quantity(right, si);
-    // A mean without a unit has that of its standard deviation.
+    // A mean without a unit has the unit of its standard deviation.
     const bool bare = is_bare_number(left) && sd.unit.text != "1";
     const Quantity mean = read_quantity(bare ? left + " " + sd.unit.text : left, si);
     refuse_two_readings(sd, mean.unit);
@@ -68,7 +68,7 @@ Uncertain read_factor(const std::string& left, const std::string& right, std::st
   result.mean = result.centre * std::exp(variance / 2);
   result.sd = std::abs(result.mean) * std::sqrt(std::expm1(variance));
   if (!(result.centre > 0))
-    throw InputError(fmt::format("'{} x/ {}': a lognormal quantity is above 0", left, right));
+    throw InputError(fmt::format("'{} x/ {}': a lognormal quantity must be above 0", left, right));
   return result;
 }
 
@@ -80,7 +80,7 @@ Uncertain read_law(const std::string& text, std::string_view si) {
   const std::string name = trimmed(text.substr(0, open));
   if (!whole || (name != "normal" && name != "lognormal" && name != "uniform")) {
     throw InputError(
-        fmt::format("'~ {}' is not a law; write normal(MEAN, SD), lognormal(MEAN, SD) or "
+        fmt::format("'~ {}' is not a distribution; write normal(MEAN, SD), lognormal(MEAN, SD) or "
                     "uniform(LOWER, UPPER)",
                     text));
   }
@@ -102,7 +102,7 @@ Uncertain read_law(const std::string& text, std::string_view si) {
   result.mean = first.si();
   result.sd = difference(second);
   if (result.distribution == Distribution::lognormal && !(result.mean > 0))
-    throw InputError(fmt::format("'~ {}': the mean of a lognormal is above 0", text));
+    throw InputError(fmt::format("'~ {}': the mean of a lognormal must be above 0", text));
   return result;
 }
 
@@ -119,7 +119,7 @@ Uncertain read_uncertain(std::string_view text, std::string_view si) {
     }
   }
   for (const std::string_view over : {"x/", "×/", "×÷", "x÷"}) {
-    // Behind a number or a unit, which no "x" ends, and before a number.
+    // After a number or a unit, which never ends in "x", and before a number.
     if (const auto at = written.find(over);
         at != written.npos && at > 0 && written[at - 1] == ' ') {
       times = at;

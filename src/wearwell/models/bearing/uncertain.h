@@ -8,15 +8,16 @@
 
 namespace wearwell {
 
-/// A quantity with the uncertainty that its user gives it.
+/// A quantity with its uncertainty, as given by the user.
 struct Uncertain {
   enum class Distribution { exact, normal, lognormal, uniform };
   Distribution distribution = Distribution::exact;
-  double mean = 0;    ///< SI
-  double sd = 0;      ///< SI
-  double centre = 0;  ///< SI: what an answer without uncertainty takes; mean, or the median of "x/"
-  Unit unit;          ///< of the mean, as written
-  std::string text;   ///< as written
+  double mean = 0;  ///< SI
+  double sd = 0;    ///< SI
+  /// SI: the value for an answer without uncertainty; mean, or the median of "x/"
+  double centre = 0;
+  Unit unit;         ///< of the mean, as written
+  std::string text;  ///< as written
 };
 
 /// Reads one of
@@ -24,8 +25,9 @@ struct Uncertain {
 ///   "0.100 +- 0.005 mm", "1 MPa +- 5 %"  normal: mean and standard deviation (% of the mean)
 ///   "~ lognormal(0.1 mm, 0.005 mm)"    mean and standard deviation of the quantity itself
 ///   "~ normal(0.1 mm, 0.005 mm)", "~ uniform(0.09 mm, 0.11 mm)"
-///   "1e-16 m^3/(N m) x/ 2"             lognormal: two in three between half of it and twice as much
-/// with the dimension of the SI unit `si`. A ± serves as +-. Throws InputError.
+///   "1e-16 m^3/(N m) x/ 2"             lognormal: two thirds between half the median and twice the
+///   median
+/// with the dimension of the SI unit `si`. A ± counts as +-. Throws InputError.
 Uncertain read_uncertain(std::string_view text, std::string_view si);
 
 double draw(const Uncertain& quantity, Rng& rng);

@@ -48,7 +48,7 @@ class WearLikelihood final : public LogDensity {
                                            gradient);
   }
 
-  // Of bearings where they differ, else of inspections.
+  // By bearing if they vary, else by inspection.
   std::vector<double> pointwise(std::span<const double> x) const override {
     const double log_k = std::log(x[0]), sigma = model_.sigma(x.data());
     if (!model_.has_scatter) return groups_.front().pointwise(log_k, sigma);
@@ -128,7 +128,7 @@ WearGuess guess(const Inspections& inspections) {
     log_squares += *log_k * *log_k;
     ++n;
   }
-  if (n == 0) throw InputError("no measured depth is positive; there is no wear to learn from");
+  if (n == 0) throw InputError("no measured depth is positive; the data show no wear");
   WearGuess result{wear / loading, 0, 0};
   result.scatter = std::sqrt(std::max(0.0, log_squares / n - std::pow(log_sum / n, 2)));
   const std::vector<DepthFunction> curves = depth_functions(inspections.duty, result.k);

@@ -14,11 +14,11 @@ namespace wearwell::bearing {
 struct Inspections {
   std::vector<Duty> duty;            ///< until the inspection
   std::vector<double> depth;         ///< measured, m
-  std::vector<std::size_t> bearing;  ///< which one was inspected, counted from 0
+  std::vector<std::size_t> bearing;  ///< index of the inspected bearing, from 0
 };
 
-/// What is unknown. Parameters in order: k [m^3/(N m)], sigma [m] unless the depth error is known,
-/// k_scatter if the bearings differ.
+/// The unknowns. Parameters in order: k [m^3/(N m)], sigma [m] unless the depth error is known,
+/// k_scatter if the bearings vary.
 struct WearModel {
   ObservationFamily family = ObservationFamily::normal;
   std::optional<double> depth_error;  ///< known standard deviation of a measured depth, m
@@ -26,7 +26,7 @@ struct WearModel {
 
   int dimension() const { return 1 + !depth_error + has_scatter; }
   double sigma(const double* x) const { return depth_error ? *depth_error : x[1]; }
-  /// Standard deviation of ln k between bearings; 0 when they do not differ.
+  /// Standard deviation of ln k between bearings; 0 if they do not vary.
   double scatter(const double* x) const { return has_scatter ? x[dimension() - 1] : 0; }
 };
 
@@ -38,26 +38,27 @@ struct WearModel {
 ///
 ///   L_b = int N(z; 0, 1) prod_i p(d_i | k exp(k_scatter z), sigma) dz,
 ///
-/// instead of being sampled: each is an integral over one variable, so the posterior keeps at most three parameters, whatever the number of bearings. Quadrature then
-/// reaches it (exact posterior, evidence, the agreement check), NUTS walks no funnel, and as many
-/// bearings as there are may be fitted. What is lost is the k of each single bearing.
+/// instead of being sampled: each is an integral over one variable, so the posterior keeps at most
+/// three parameters for any number of bearings. Quadrature then reaches it (exact posterior,
+/// evidence, the agreement check), NUTS meets no funnel, and the number of bearings is not limited.
+/// The k of each single bearing is not part of the posterior.
 ///
-/// `rate_integral.h` has the rule: bounded in effort whatever the data, within 1e-6 of brute force
-/// for inspections that contradict each other by any amount as well (tests).
+/// `rate_integral.h` has the rule: bounded effort for any data, within 1e-6 of brute force, also
+/// for inspections that contradict each other by any amount (tests).
 ///
-/// k that wears a bearing beyond its geometry is outside the support.
+/// A k that wears a bearing beyond its geometry is outside the support.
 std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
                                                   const Inspections& inspections,
                                                   std::size_t count);
 
-/// Where searches start.
+/// Start values of searches.
 struct WearGuess {
   double k;        ///< all wear numbers over all loadings
-  double sigma;    ///< root mean square of the depths about those of k
+  double sigma;    ///< root mean square residual of the depths at k
   double scatter;  ///< standard deviation of ln k between single inspections
 };
 
-/// Throws InputError when no depth is positive.
+/// Throws InputError if no depth is positive.
 WearGuess guess(const Inspections& inspections);
 
 }  // namespace wearwell::bearing

@@ -27,25 +27,29 @@ void check(Contact contact, double sigma, double delta) {
     throw InputError(fmt::format("depth/radius is {}; it must be 0 or more", delta));
   if (contact == Contact::stationary && delta >= 2) {
     throw InputError(fmt::format(
-        "depth/radius is {}; from 2 on the whole journal is outside the bushing's bore", delta));
+        "depth/radius is {}; at 2 and above the whole journal is outside the bushing's bore",
+        delta));
   }
   if (contact == Contact::journal && delta > 1)
-    throw InputError(fmt::format("depth/radius is {}; a journal has no more than 1", delta));
+    throw InputError(
+        fmt::format("depth/radius is {}; a journal cannot wear by more than 1", delta));
 }
 
 [[noreturn]] void refuse(double wear_number, const char* reason) {
   throw InputError(fmt::format("wear number p_a k n is {}; {}", wear_number, reason));
 }
 
-/// The radius of the surface that wears evenly, over the journal's.
+/// The radius of the evenly worn surface, over the journal's.
 double even_radius(Contact contact, double sigma) {
   return contact == Contact::bushing ? 1 + sigma : 1;
 }
 
-/// Newton's iteration on log(area) against log(delta). That curve rises with a slope that falls
-/// from 3/2, so the iteration comes up from below without passing the root, and cannot fail.
+/// Newton's iteration on log(area) against log(delta). That curve increases with a slope that
+/// decreases from 3/2, so the iteration approaches from below without passing the root, and always
+/// converges.
 double stationary_depth(double sigma, double wear_number) {
-  if (wear_number >= 0.25) refuse(wear_number, "no scar reaches 1/4, the whole journal's section");
+  if (wear_number >= 0.25)
+    refuse(wear_number, "no scar reaches 1/4, the whole section of the journal");
   if (wear_number == 0) return 0;
   const double area = 4 * pi * wear_number;
   // Start: area = 2 sigma (v - atan v) with v = tan(alpha), which holds for small sigma and delta;
@@ -58,7 +62,7 @@ double stationary_depth(double sigma, double wear_number) {
     const double excess = std::log(reached / area);
     const double step = excess * reached / (delta * lune_chord(sigma, delta));
     delta = std::min(delta * std::exp(-step), (delta + 2) / 2);
-    // The next step would be about the square of this one; near delta = 2 the curve bends more.
+    // The next step would be about the square of this one; near delta = 2 the curvature is larger.
     if (std::abs(step) < 1e-8 * (2 - delta) || std::abs(excess) < 4e-16) break;
   }
   return delta;
@@ -72,9 +76,9 @@ double wear_number(Contact contact, double sigma, double delta) {
                             ? lune_area(sigma, delta) / (4 * pi)
                             : delta * (2 * even_radius(contact, sigma) + delta) / 4;
   if (!std::isfinite(result))
-    throw InputError(
-        fmt::format("no wear number can be computed for clearance/radius {} and depth/radius {}",
-                    sigma, delta));
+    throw InputError(fmt::format(
+        "the wear number cannot be computed for clearance/radius {} and depth/radius {}", sigma,
+        delta));
   return result;
 }
 
@@ -95,7 +99,7 @@ double depth_for(Contact contact, double sigma, double wear_number) {
   if (!(wear_number >= 0) || std::isinf(wear_number)) refuse(wear_number, "it must be 0 or more");
   if (contact == Contact::stationary) return stationary_depth(sigma, wear_number);
   if (contact == Contact::journal && wear_number > 0.75)
-    refuse(wear_number, "above 3/4 nothing is left of the journal");
+    refuse(wear_number, "above 3/4 the journal is completely worn");
   const double radius = even_radius(contact, sigma);
   return 4 * wear_number / (radius + std::sqrt(radius * radius + 4 * wear_number));
 }

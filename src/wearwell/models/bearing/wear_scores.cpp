@@ -8,8 +8,8 @@
 namespace wearwell::bearing {
 namespace {
 
-// What the rows of one bearing so far say of its z, ln k_b = ln k + scatter z: the logarithm of a
-// density on even points.
+// The density of the bearing's z, ln k_b = ln k + scatter z, given its rows so far: its logarithm
+// at even points.
 struct Grid {
   std::vector<double> z, log_density;
 };
@@ -48,7 +48,7 @@ class BearingScores {
   }
 
  private:
-  // Of row i when its bearing's ln k is known; what no bearing survives is deeper than all.
+  // Of row i given its bearing's ln k; a k beyond the geometry gives a depth larger than any.
   double score(std::size_t i, double log_k, double sigma) const {
     if (!(log_k <= curves_[i].limit())) return -infinity;
     return ObservationDistribution(model_.family, curves_[i].depth(log_k), sigma).score(at_[i]);
@@ -68,12 +68,12 @@ class BearingScores {
     constexpr double negligible = 30;
     double low = -farthest, high = farthest;
     Grid grid;
-    // Closer and closer about where the density is, until it fills the grid.
+    // Refines around the mass of the density until it fills the grid.
     for (int zoom = 0; zoom < closest; ++zoom) {
       grid = grid_between(low, high, points, rows, j, log_k, sigma, scatter);
       if (j == 0) break;
       const double top = *std::max_element(grid.log_density.begin(), grid.log_density.end());
-      if (top == -infinity) return infinity;  // the rows before are impossible as it is
+      if (top == -infinity) return infinity;  // the earlier rows are impossible already
       int first = points, last = 0;
       for (int i = 0; i <= points; ++i) {
         if (grid.log_density[static_cast<std::size_t>(i)] < top - negligible) continue;

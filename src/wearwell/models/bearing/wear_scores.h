@@ -5,9 +5,8 @@
 
 namespace wearwell::bearing {
 
-/// Where each inspection lies in the law of its measurement. Where bearings differ, in the law that
-/// the earlier rows of the same bearing leave for it: an integral over the bearing's own k, on a
-/// grid, to about 0.02 of a score.
+/// The score of each inspection in its predictive distribution. If bearings vary, given the earlier
+/// rows of the same bearing: an integral over the bearing's k, on a grid, to about 0.02 of a score.
 Scores wear_scores(const WearModel& model, const Inspections& inspections);
 
 }  // namespace wearwell::bearing

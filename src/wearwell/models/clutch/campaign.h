@@ -7,18 +7,18 @@
 
 namespace wearwell::clutch {
 
-/// One closing as the rig logs it.
+/// One closing as logged by the rig.
 struct Cycle {
   int plate = 0;
-  long long number = 0;  ///< of this plate, from 1, ascending
+  long long number = 0;  ///< number within this plate, from 1, ascending
   OperatingPoint at;
   double energy = 0;  ///< J
 };
 
-/// What ran on a plate since its weighing before.
+/// The purpose of the cycles since the plate's previous weighing.
 enum class Block { start, run_in, point, run_out, sequence };
 
-/// A plate on the balance.
+/// A weighing of a plate.
 struct Weighing {
   int plate = 0;
   long long cycle = 0;  ///< the last cycle before it; 0 for the new plate
@@ -28,17 +28,17 @@ struct Weighing {
   std::string sequence;  ///< its name, for Block::sequence: "floating"
 };
 
-/// One material on the rig.
+/// The campaign of one material on the rig.
 struct Campaign {
   std::vector<DesignPoint> design;
   std::vector<Cycle> cycles;        ///< by plate, then by number
   std::vector<Weighing> weighings;  ///< by plate, then by cycle
   double density = 0;               ///< of the lining, kg/m^3
   double balance_sd = 0;            ///< standard deviation of one weighing, kg
-  /// Where cycles and weighings come from, row by row, for messages.
+  /// Sources of cycles and weighings, row by row, for messages.
   std::string cycles_source = "cycles", weighings_source = "weighings";
-  std::vector<std::string> plate_names = {};  ///< of plate 1, 2, ...; empty where they are numbers
-  std::vector<std::string> filled = {};       ///< what was filled in, a sentence for each plate
+  std::vector<std::string> plate_names = {};  ///< of plate 1, 2, ...; empty if plates are numbers
+  std::vector<std::string> filled = {};       ///< filled gaps, one sentence per plate
 
   std::string plate_name(int plate) const {
     return plate_names.empty() ? std::to_string(plate)

@@ -11,7 +11,7 @@
 namespace wearwell::clutch {
 namespace {
 
-/// The usual step of time between samples of one plate.
+/// The median time step between samples of one plate.
 double median_step(const std::vector<Sample>& samples) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -32,7 +32,7 @@ void check_time(const std::vector<Sample>& samples) {
   }
 }
 
-/// Samples first to last, both of the closing.
+/// First and last sample, both part of the closing.
 Closing measure(const std::vector<Sample>& samples, std::size_t first, std::size_t last,
                 double longest_step, const ClosingRule& rule) {
   Closing closing;

@@ -23,9 +23,9 @@ std::string data_text(const ClutchStudy& study, const ClutchResult& prepared) {
   for (const DesignPoint& point : campaign.design) ++points[static_cast<int>(point.role)];
   std::set<int> plates;
   for (const Cycle& cycle : campaign.cycles) plates.insert(cycle.plate);
-  std::string out = study.simulated
-                        ? "\nData, simulated from a known truth: no measurement stands behind it\n"
-                        : "\nData\n";
+  std::string out = study.simulated ? "\n"
+                                      "Data, simulated from a known truth, not measured\n"
+                                    : "\nData\n";
   std::vector<std::string> files;
   for (const auto& file : study.files) files.push_back(file.filename().string());
   if (study.layouts.empty()) out += fmt::format("  {}\n", fmt::join(files, ", "));
@@ -37,9 +37,10 @@ std::string data_text(const ClutchStudy& study, const ClutchResult& prepared) {
   out += fmt::format("  {} cycles of {} plates, {} weighings, {} samples of raw traces\n",
                      campaign.cycles.size(), plates.size(), campaign.weighings.size(),
                      study.traces.size());
-  out +=
-      fmt::format("  lining of {:.6g} kg/m^3, worn out at {:.6g} mm^3; balance good to {:.6g} mg\n",
-                  campaign.density, study.worn_out / mm3, campaign.balance_sd * 1e6);
+  out += fmt::format(
+      "  lining of {:.6g} kg/m^3, worn-out volume {:.6g} mm^3; balance with standard deviation "
+      "{:.6g} mg\n",
+      campaign.density, study.worn_out / mm3, campaign.balance_sd * 1e6);
   for (const std::string& each : campaign.filled) out += fmt::format("  {}\n", each);
   for (const std::string& flag : prepared.blocks.flags) out += fmt::format("  {}\n", flag);
   return out;
@@ -55,13 +56,16 @@ std::string study_description(const ClutchStudy& study) {
     if (weighing.block == Block::sequence) sequences.insert(weighing.sequence);
   }
   std::string out = fmt::format(
-      "{}\n  volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
-      "exp(-Ec/eps2)\n  w = a cubic in ds = omega0^r t2^q, Td and Mz, or any part of it\n",
+      "{}\n"
+      "  volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
+      "exp(-Ec/eps2)\n"
+      "  w = a cubic in ds = omega0^r t2^q, Td and Mz, or any submodel of it\n",
       study.title);
   out += data_text(study, prepare_campaign(study));
   out += "\nUnknowns\n";
   out += fmt::format(
-      "  w0, w1, w2 [mm^3/MJ], eps1, eps2 [MJ]  run-in of {} plates together, a factor for each\n",
+      "  w0, w1, w2 [mm^3/MJ], eps1, eps2 [MJ]  run-in of {} plates together, with a factor for "
+      "each\n",
       run_in_plates.size());
   const auto& e = study.exponents;
   out += fmt::format(
@@ -71,9 +75,11 @@ std::string study_description(const ClutchStudy& study) {
   std::vector<std::string> laws;
   for (const ScatterKind kind : scatter_kinds) laws.push_back(formula_of(kind));
   out += fmt::format(
-      "  sigma_w [mm^3/MJ]                        scatter of one cycle, by AIC one of: {}\n",
+      "  sigma_w [mm^3/MJ]                        scatter of one cycle, selected by AIC from: {}\n",
       fmt::join(laws, "; "));
-  out += "\nWill be predicted\n";
+  out +=
+      "\n"
+      "Predictions\n";
   if (!sequences.empty())
     out += fmt::format("  worn volume [mm^3] along the sequences {}\n", fmt::join(sequences, ", "));
   std::vector<double> levels;
@@ -82,8 +88,8 @@ std::string study_description(const ClutchStudy& study) {
     out += fmt::format("  cycles to {:g} % worn, {}: {}\n", fmt::join(levels, ", "), name,
                        point_text(at));
   out += fmt::format(
-      "  with 95 % intervals by the scatter of cycles alone, and by {} simulated repetitions of "
-      "the fit (seed {}) as well\n",
+      "  with 95 % intervals from the scatter of cycles only, and including {} simulated "
+      "repetitions of the fit (seed {})\n",
       study.replicates, study.seed);
   return printable_lines(out);
 }

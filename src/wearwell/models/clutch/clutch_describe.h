@@ -6,8 +6,8 @@
 
 namespace wearwell::clutch {
 
-/// What `wearwell fit` would do, ending with a newline: laws, data, unknowns with their units, what
-/// is predicted.
+/// Description of what `wearwell fit` does, ending with a newline: formulas, data, unknowns with
+/// their units, predictions.
 std::string study_description(const ClutchStudy& study);
 
 }  // namespace wearwell::clutch

@@ -51,7 +51,7 @@ Figure run_in_figure(const ClutchResult& r) {
     y.push_back(r.run_in.parameters[0] * r.run_in.run_in.g(x.back() * MJ) / mm3_per_MJ);
   }
   return {"run-in", "Run-in",
-          "Wear rate of each weighed block against the energy that its plate has taken up, and the "
+          "Wear rate of each weighed block against the energy that its plate has absorbed, and the "
           "curve w0 + w1 exp(−Ec/eps1) + w2 exp(−Ec/eps2) fitted to all plates together.",
           plot::plot("Wear rate falls with energy during run-in", {"energy Ec [MJ]"}, {w_title},
                      {plot::points({{"x", energy}, {"y", w}, {"energy", energy}, {"rate", w}},
@@ -81,8 +81,8 @@ Figure exponent_figure(const ExponentSearch& search) {
   const PairBest& best = search.pairs[search.best];
   return {
       "exponents", "Exponents of the surrogate input",
-      fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q: the "
-                  "darker, the higher, from {:.3f} to {:.3f}. The point is the best.",
+      fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q; darker is "
+                  "higher, from {:.3f} to {:.3f}. The point is the best.",
                   low, high),
       plot::plot("R2p over the exponents r and q", {"r"}, {"q"},
                  {plot::heat_map(
@@ -109,14 +109,14 @@ Figure parity_figure(const ClutchResult& r) {
                     {"point", as_numbers(r.points.number)},
                     {"measured", measured},
                     {"predicted", fitted}},
-                   {colour::posterior, "modelled with", 0.7})};
+                   {colour::posterior, "used for the fit", 0.7})};
   if (!x.empty())
     marks.push_back(
         plot::points({{"x", x}, {"y", y}, {"point", point}, {"measured", y}, {"predicted", x}},
                      {colour::measured, "held out", 0.9}));
   return {"parity", "Measured and predicted wear rates",
-          "Each point of the design, compensated for run-in and plate. Held-out points were not "
-          "fitted to.",
+          "Each point of the design, compensated for run-in and plate. The fit does not use "
+          "held-out points.",
           plot::plot("Measured against predicted wear rates", {"predicted [mm³/MJ]"},
                      {"measured [mm³/MJ]"}, std::move(marks))};
 }
@@ -167,10 +167,9 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
     figures.push_back(
         {fmt::format("map-{:.0f}", grid.temperature),
          fmt::format("Wear rate at {:g} °C", grid.temperature),
-         fmt::format(
-             "At a closing time of {:.3g} s: from {:.3g} to {:.3g} mm³/MJ here; the darkest "
-             "of all temperatures is {:.3g}.",
-             at.closing_time, *low, *high, most),
+         fmt::format("At a closing time of {:.3g} s: from {:.3g} to {:.3g} mm³/MJ; the darkest "
+                     "shade of all temperatures is {:.3g}.",
+                     at.closing_time, *low, *high, most),
          plot::plot(fmt::format("Wear rate at {:g} degrees", grid.temperature),
                     {"slip speed [rpm]"}, {"torque [N m]"},
                     {plot::heat_map({{"x", grid.x},
@@ -189,9 +188,9 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
 Figure normal_figure(const ClutchResult& r) {
   const Eigen::VectorXd scaled = scaled_residuals(r.points, r.maps.front(), r.scatter_fit().law);
   const NormalPlot points = normal_plot({scaled.begin(), scaled.end()});
-  return {"normal", "Are scaled residuals normal?",
-          "Residuals over their standard deviation in order, against normal quantiles: on the line "
-          "when the scatter is right.",
+  return {"normal", "Normality of scaled residuals",
+          "Residuals over their standard deviation in order, against normal quantiles: they follow "
+          "the line if the scatter is right.",
           plot::plot("Normal probability plot", {"normal quantile"}, {"scaled residual"},
                      {plot::line({{"x", {-3, 3}}, {"y", {-3, 3}}},
                                  {colour::prior, "N(0, 1)", 1, 1.5, true}),
@@ -234,14 +233,14 @@ Figure sequence_figure(const SequenceResult& s) {
     measured.push_back(w.measured / mm3);
   }
   return {"sequence-" + s.name, fmt::format("Worn volume, {} sequence", s.name),
-          fmt::format("Predicted cycle by cycle from the new plate. At the end predicted wear is "
-                      "{}. The inner band is the scatter of cycles, the outer one all that "
-                      "is uncertain (95 %).",
-                      error_text(s.final_error())),
+          fmt::format(
+              "Predicted cycle by cycle from the new plate. At the end predicted wear is {}. The "
+              "inner band is the scatter of cycles, the outer one the total uncertainty (95 %).",
+              error_text(s.final_error())),
           plot::plot("Worn volume against cycles", {"cycles", false, 0.0},
                      {"worn volume [mm³]", false, 0.0},
                      {plot::area({{"x", x}, {"y", full_high}, {"y2", full_low}},
-                                 {colour::wide, "95 %, all", 0.28}),
+                                 {colour::wide, "95 %, total", 0.28}),
                       plot::area({{"x", x}, {"y", high}, {"y2", low}},
                                  {colour::posterior, "95 %, scatter", 0.38}),
                       plot::line({{"x", x}, {"y", mean}}, {colour::posterior}),
@@ -268,11 +267,11 @@ Figure width_figure(const ClutchResult& r) {
     const char* paint = colour::chains[c++ % std::size(colour::chains)];
     marks.push_back(plot::line({{"x", x}, {"y", scatter}}, {paint, each.name + ", scatter"}));
     marks.push_back(
-        plot::line({{"x", x}, {"y", full}}, {paint, each.name + ", all", 0.7, 2, true}));
+        plot::line({{"x", x}, {"y", full}}, {paint, each.name + ", total", 0.7, 2, true}));
   }
   return {"width", "Width of the interval",
           "Half width of the 95 % interval of the volume, relative to the volume, when a level of "
-          "wear is reached. The scatter of cycles averages out; what is not known of the map, the "
+          "wear is reached. The scatter of cycles averages out; the uncertainty of the map, the "
           "run-in and the plate does not.",
           plot::plot("Relative interval width against wear level", {"worn [%]"},
                      {"± of the volume [%]"}, std::move(marks))};

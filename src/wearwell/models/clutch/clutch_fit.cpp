@@ -13,7 +13,7 @@
 #include "wearwell/models/clutch/nested_map.h"
 #include "wearwell/study/units_check.h"
 
-// Longer than others: the chain of one campaign with the check of each of its steps.
+// Longer than others: the chain of one campaign with the check of each step.
 namespace wearwell::clutch {
 namespace {
 
@@ -69,7 +69,7 @@ std::vector<SequenceResult> predict_sequences(const ClutchStudy& study, const Cl
   }
   for (const WornBlock& block : r.blocks.blocks) {
     if (!plates.count(block.plate)) continue;
-    // Everything that ran on the plate counts, whatever it was for.
+    // All cycles on the plate count, whatever their purpose.
     const CycleColumns cycles = columns_of(study.campaign.cycles, block.first, block.last);
     sum.rates(cycles, rates);
     sum.add(cycles, rates);
@@ -110,13 +110,12 @@ Check run_in_check(const RunInFit& fit) {
       findings.add(Verdict::fail,
                    fmt::format("the settled rate w0 is {:.3g} +- {:.3g} mm^3/MJ",
                                value / mm3_per_MJ, error / mm3_per_MJ),
-                   "Plates were not run until their wear settled: run them longer before the "
-                   "run-out.");
+                   "The wear of the plates has not settled: run them longer before the run-out.");
     else
       findings.add(Verdict::warn,
-                   fmt::format("w{} is {:.3g} +- {:.3g} mm^3/MJ, no more than 0 with certainty", i,
+                   fmt::format("w{} is {:.3g} +- {:.3g} mm^3/MJ, not significantly above 0", i,
                                value / mm3_per_MJ, error / mm3_per_MJ),
-                   "One exponential may do, or run-in was weighed too rarely.");
+                   "One exponential may be enough, or run-in was weighed too rarely.");
   }
   return findings.result(
       fmt::format("{} of {} starts agree; both modes are more than two "
@@ -124,21 +123,20 @@ Check run_in_check(const RunInFit& fit) {
                   fit.agreeing, fit.starts));
 }
 
-// R2p of the search's winner is above that of all it searched, whatever the data; points that no
-// search has seen can say otherwise: left out in turn, or held out by the design.
+// R2p of the search's best model is biased upward by selection; points outside the search give an
+// unbiased value: left out in turn, or held out by the design.
 Check map_check(const std::vector<WearMap>& maps, const Nested& nested,
                 const WearPoints& held_out) {
   Findings findings("wear map");
   if (!(nested.r2 > 0.5))
-    findings.add(Verdict::fail,
-                 fmt::format("R2 of points that the search has not seen is {:.3f}", nested.r2),
+    findings.add(Verdict::fail, fmt::format("R2 of points outside the search is {:.3f}", nested.r2),
                  nested.r2 > 2 * nested.r2_error
-                     ? "The inputs explain less than half of the wear rates: look for one that is "
-                       "missing, or run longer points."
-                     : "The wear rate does not depend on the inputs, as far as these points can "
-                       "tell: what the map shows is noise.");
+                     ? "The inputs explain less than half of the wear rates: look for a missing "
+                       "input, or run longer points."
+                     : "These points show no dependence of the wear rate on the inputs: the "
+                       "variation of the map is noise.");
   const std::string searched =
-      fmt::format("R2 of points left out of the whole search {:.3f} (R2p of its winner {:.3f})",
+      fmt::format("R2 of points left out of the whole search {:.3f} (R2p of its best model {:.3f})",
                   nested.r2, maps[0].fit.r2p);
   constexpr Index least_points = 5;
   if (held_out.size() < least_points) return findings.result(searched);
@@ -151,7 +149,7 @@ Check map_check(const std::vector<WearMap>& maps, const Nested& nested,
   }
   const auto n = static_cast<double>(held_out.size());
   for (std::size_t i = 1; i < maps.size(); ++i) {
-    const Eigen::ArrayXd gain = errors[i] - errors[0];  // by the search, point by point
+    const Eigen::ArrayXd gain = errors[i] - errors[0];  // from the search, point by point
     const double error = std::sqrt((gain - gain.mean()).square().sum() / (n * (n - 1)));
     const double z = gain.mean() / error;
     if (z < -1)
@@ -159,7 +157,7 @@ Check map_check(const std::vector<WearMap>& maps, const Nested& nested,
           z < -3 ? Verdict::fail : Verdict::warn,
           fmt::format("the {} model predicts the held-out points better ({:.1f} standard errors)",
                       maps[i].name, -z),
-          "The search has fitted noise: prefer the simpler model, or run longer points.");
+          "The search has fitted noise: use the simpler model, or run longer points.");
   }
   return findings.result(fmt::format("{}; R2 of the {} held-out points: {}", searched,
                                      held_out.size(), fmt::join(texts, ", ")));
@@ -168,7 +166,7 @@ Check map_check(const std::vector<WearMap>& maps, const Nested& nested,
 Check validation_check(const Validation& validation) {
   Findings findings("validation");
   if (validation.points.empty()) {
-    findings.add(Verdict::warn, "no point was held out",
+    findings.add(Verdict::warn, "no point is held out",
                  "Plan points of role 'validation' (wearwell clutch design).");
     return findings.result("");
   }
@@ -177,20 +175,20 @@ Check validation_check(const Validation& validation) {
       findings.add(Verdict::warn,
                    fmt::format("point {} lies {:+.1f} standard deviations from its prediction",
                                p.number, p.t),
-                   "Look at the traces and weighings of the points named; numbers are shown with "
-                   "and without them.");
+                   "Check the traces and weighings of these points; results are shown with and "
+                   "without them.");
   }
   if (!(validation.without_outliers.r2 > 0))
     findings.add(Verdict::fail,
                  fmt::format("R2 of the held-out points is {:.2f}", validation.without_outliers.r2),
-                 "The map predicts held-out points no better than their mean would.");
+                 "The map predicts held-out points no better than their mean does.");
   return findings.result(
       fmt::format("no outlier among {} held-out points (|t| up to {:.1f} is expected); R2 {:.3f}",
                   validation.all.points, validation.critical, validation.all.r2));
 }
 
 Check scatter_check(const ScatterFit& fit) {
-  // Of right campaigns at most 6 in 1000 are warned of, and 1 in 1000 fails.
+  // Of correct campaigns at most 6 in 1000 get a warning, and 1 in 1000 fails.
   constexpr double warns_below = 0.003, fails_below = 0.0005;
   Findings findings("scatter");
   for (const auto& [name, p] : {std::pair{"Kolmogorov-Smirnov", fit.kolmogorov.p},
@@ -198,7 +196,7 @@ Check scatter_check(const ScatterFit& fit) {
     if (p < warns_below)
       findings.add(p < fails_below ? Verdict::fail : Verdict::warn,
                    fmt::format("{}: scaled residuals are not normal, p = {:.3g}", name, p),
-                   "Look at the normal probability plot; intervals rest on it.");
+                   "Check the normal probability plot; the intervals assume normality.");
   }
   return findings.result(
       fmt::format("scaled residuals are normal (Kolmogorov-Smirnov p = {:.3f}, "
@@ -218,9 +216,9 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
     if (std::abs(z) > 2)
       findings.add(std::abs(z) > 4 ? Verdict::fail : Verdict::warn,
                    fmt::format("{}, {:.1f} full standard deviations", text, z),
-                   "The plate, or its conditions, differ from the campaign's.");
+                   "The plate, or its conditions, differ from those of the campaign.");
   }
-  return findings.result(sequences.empty() ? "no sequence was run"
+  return findings.result(sequences.empty() ? "the campaign has no sequence"
                                            : fmt::format("{}", fmt::join(good, "; ")));
 }
 
@@ -248,24 +246,25 @@ Check data_check(const Campaign& campaign, const ClutchResult& r) {
     if (!run.count(point.number)) missing.push_back(point.number);
   }
   if (!missing.empty())
-    findings.add(Verdict::warn,
-                 fmt::format("points {} of the design were not run", fmt::join(missing, ", ")),
-                 "The map knows less there; run them, or strike them from the design.");
+    findings.add(
+        Verdict::warn,
+        fmt::format("points {} of the design have no cycles", fmt::join(missing, ", ")),
+        "The map is less certain there; run these points, or remove them from the design.");
   for (const std::string& each : campaign.filled)
     findings.add(Verdict::warn, each,
-                 "docs/reference/clutch.md says what that does to the result.");
+                 "docs/reference/clutch.md explains the effect on the result.");
   for (const std::string& flag : r.blocks.flags)
-    findings.add(Verdict::warn, flag, "Look at the rows named; weigh longer blocks.");
+    findings.add(Verdict::warn, flag, "Check the rows named; weigh longer blocks.");
   for (const Closing& closing : r.closings) {
     if (!closing.flag.empty())
       findings.add(
           Verdict::warn,
           fmt::format("trace of plate {}, closing {}: {}", campaign.plate_name(closing.cycle.plate),
                       closing.cycle.number, closing.flag),
-          "Look at the trace.");
+          "Check the trace.");
   }
   return findings.result(
-      fmt::format("{} blocks weighed, none gained mass", r.blocks.blocks.size()));
+      fmt::format("{} blocks weighed; none gained mass", r.blocks.blocks.size()));
 }
 
 }  // namespace
@@ -280,7 +279,7 @@ WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& b
     if (block.block != Block::point) continue;
     const auto role = roles.find(block.point);
     if (role == roles.end())
-      throw InputError(fmt::format("plate {}: point {} was run but is not in the design",
+      throw InputError(fmt::format("plate {}: point {} has cycles but is not in the design",
                                    campaign.plate_name(block.plate), block.point));
     if ((role->second == Role::validation) != held_out) continue;
     double factor = run_in.run_in.mean(block.energy_before, block.energy_before + block.energy);
@@ -316,10 +315,10 @@ ClutchResult prepare_campaign(const ClutchStudy& study) {
   r.run_in = fit_run_in(r.blocks.blocks);
   r.points = wear_points(study.campaign, r.blocks.blocks, r.run_in, false);
   r.held_out = wear_points(study.campaign, r.blocks.blocks, r.run_in, true);
-  constexpr Index least_points = 25;  // more than the full cubic has terms
+  constexpr Index least_points = 25;  // more than the number of terms of the full cubic
   if (r.points.size() < least_points)
-    throw InputError(fmt::format("{} points to model with; at least {} are needed", r.points.size(),
-                                 least_points));
+    throw InputError(
+        fmt::format("{} points to fit; at least {} are needed", r.points.size(), least_points));
   return r;
 }
 

@@ -44,11 +44,11 @@ Json to_json(const Eigen::MatrixXd& matrix) {
 
 Eigen::MatrixXd read_matrix(const JsonReader& json, Index size) {
   const auto rows = json.items();
-  if (std::ssize(rows) != size) json.fail("is wrong: a covariance has the wrong size");
+  if (std::ssize(rows) != size) json.fail("is invalid: a covariance has the wrong size");
   Eigen::MatrixXd matrix(size, size);
   for (Index i = 0; i < size; ++i) {
     const std::vector<double> row = rows[static_cast<std::size_t>(i)].numbers();
-    if (std::ssize(row) != size) json.fail("is wrong: a covariance has the wrong size");
+    if (std::ssize(row) != size) json.fail("is invalid: a covariance has the wrong size");
     matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), size);
   }
   return matrix;
@@ -108,7 +108,7 @@ ModelTerm read_term(const JsonReader& json) {
                  json.at("minimum").number(),
                  json.at("range").number(),
                  json.at("coefficient").number()};
-  if (!(term.range > 0)) json.fail("is wrong: the range of a term must be positive");
+  if (!(term.range > 0)) json.fail("is invalid: the range of a term must be positive");
   return term;
 }
 
@@ -118,7 +118,7 @@ ScatterLaw read_scatter(const JsonReader& json) {
         try {
           return read_scatter_kind(json.at("kind").text());
         } catch (const InputError& error) {
-          json.at("kind").fail(fmt::format("is wrong: {}", printable(error.what())));
+          json.at("kind").fail(fmt::format("is invalid: {}", printable(error.what())));
         }
       }(),
       json.at("p").numbers()};
@@ -130,7 +130,7 @@ void check_format(const JsonReader& json, const std::filesystem::path& file, con
                   int version) {
   const auto name = json.json().is_object() ? json.find("format") : std::nullopt;
   if (!name || name->json() != Json(format))
-    throw InputError(fmt::format("{}: it is no {}", file.string(), format));
+    throw InputError(fmt::format("{}: it is not a {}", file.string(), format));
   const long long written = json.at("version").integer(0);
   if (written != version)
     throw InputError(fmt::format("{}: it has version {}, this program reads version {}",
@@ -146,7 +146,7 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   p.last_number = json.at("last_cycle").integer(0);
   p.energy = json.at("energy").number(0);
   p.closings = json.at("closings").number(0);
-  if (const auto far = json.find("energy_outliers")) {  // none in older states
+  if (const auto far = json.find("energy_outliers")) {  // missing in older states
     p.outliers.count = far->at("count").integer(0, p.cycles);
     p.outliers.worst_cycle = far->at("cycle").integer(0, p.last_number);
     p.outliers.worst_energy = far->at("energy").number(0);
@@ -164,21 +164,21 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   const std::vector<double> volumes = json.at("replicates").numbers();
   if (volumes.size() != replicates)
     json.at("replicates")
-        .fail(fmt::format("is of another kind: it holds {} replicates and {} are wanted: go on as "
-                          "the state was made, with or without --scatter-only",
+        .fail(fmt::format("does not match: it has {} replicates, but {} are needed: continue with "
+                          "the same options as before, with or without --scatter-only",
                           volumes.size(), replicates));
   p.replicates = Eigen::Map<const Eigen::ArrayXd>(volumes.data(), std::ssize(volumes));
   return p;
 }
 
-// The file itself, or of a folder of results the one in it.
+// The file itself, or that in a folder of results.
 std::filesystem::path model_in(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;
   const std::filesystem::path file = path / "model.json";
   if (std::filesystem::exists(file, ignored)) return file;
   throw InputError(fmt::format(
-      "{} is a folder, not a file, and holds no model.json, which wearwell fit writes of a clutch",
+      "{} is a folder, not a file, and has no model.json, which wearwell fit writes for a clutch",
       path.string()));
 }
 
@@ -244,7 +244,7 @@ WearModel read_model(const std::filesystem::path& path) {
   model.highest = read_point(validity.at("highest"));
   for (const Input& input : inputs) {
     if (!(model.lowest.*input.value <= model.highest.*input.value))
-      validity.fail(fmt::format("has its lowest {0} above its highest {0}", input.name));
+      validity.fail(fmt::format("has a minimum {0} above its maximum {0}", input.name));
   }
   model.worn_out = json.at("worn_out").positive();
   for (const JsonReader& each : json.at("replicates").items())
@@ -258,7 +258,7 @@ IdentifiedModel read_identified_model(const std::filesystem::path& path) {
   std::string id = read.sha1();
   if (id.empty())
     throw InputError(
-        fmt::format("sums are kept for a model in a file, and {} is none", path.string()));
+        fmt::format("a state needs a model in a file, and {} is not one", path.string()));
   return {std::move(model), std::move(id)};
 }
 

@@ -10,22 +10,22 @@
 
 namespace wearwell::clutch {
 
-/// model.json (docs/reference/clutch.md): everything in SI, temperatures in degrees Celsius. Writing and
-/// reading loses no bit.
+/// model.json (docs/reference/clutch.md): everything in SI, temperatures in degrees Celsius.
+/// Writing and reading is lossless.
 nlohmann::ordered_json to_json(const WearModel& model);
-/// Throws InputError that names the file and what is missing or wrong in it.
+/// Throws InputError that names the file and the missing or invalid part.
 WearModel read_model(const std::filesystem::path& file);
 
-/// With its SHA-1. Throws as read_model does, and where the model is in no file.
+/// With its SHA-1. Throws as read_model does, and if the model is not in a file.
 struct IdentifiedModel {
   WearModel model;
   std::string id;
 };
 IdentifiedModel read_identified_model(const std::filesystem::path& path);
 
-/// Plates half way, to go on from; `model` is the SHA-1 of the model file.
+/// Partly worn plates, to continue from; `model` is the SHA-1 of the model file.
 std::string state_text(const std::vector<PlateWear>& plates, const std::string& model);
-/// Throws InputError when the file is none, or belongs to another model, or was made with another
+/// Throws InputError if the file is not a state, belongs to another model, or was made with another
 /// number of replicates.
 std::vector<PlateWear> read_state(const std::filesystem::path& file, const std::string& model,
                                   std::size_t replicates);

@@ -28,7 +28,7 @@ struct Batch {
   CycleColumns cycles;
   CycleSum::Rates rates;
   std::shared_ptr<const std::vector<std::string>>
-      names;  ///< of all plates so far, where they have any
+      names;  ///< of all earlier plates, if they have names
 };
 
 enum Place { plate, number, slip_speed, torque, temperature, closing_time, energy, places };
@@ -38,7 +38,7 @@ constexpr const char* dimensions[places] = {"1", "cycle", "rad/s", "N m", "K", "
 
 class Reader {
  public:
-  /// `known`: the plates that an earlier file named.
+  /// `known`: the plates named in an earlier file.
   Reader(const std::filesystem::path& file, const std::vector<PlateWear>& known) : stream_(file) {
     std::vector<std::string> headings;
     const Table all = stream_.columns();
@@ -55,7 +55,7 @@ class Reader {
     }
     stream_.select(headings, headings[plate], named ? known_names : std::vector<std::string>());
     if (!known.empty() && named != stream_.has_words())
-      throw InputError(fmt::format("{}: its plates are {}, and those of the state are {}",
+      throw InputError(fmt::format("{}: its plates are {}, but those of the state are {}",
                                    stream_.source(), named ? "numbers" : "names",
                                    named ? "names" : "numbers"));
   }
@@ -193,8 +193,8 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
         "scatter_high [mm^3]{},outside\n",
         sum.with_replicates() ? ",sd_full [mm^3],full_low [mm^3],full_high [mm^3]" : ""));
   }
-  // Owned here: oneTBB does not free what it holds when a stage throws. Batches leave in the order
-  // in which they came, so that the place of the next one is free.
+  // Owned here: oneTBB does not free its items if a stage throws. Batches leave in their original
+  // order, so that the slot of the next one is free.
   std::vector<Batch> batches(batches_in_flight);
   std::size_t read_so_far = 0;
   const auto read = [&](tbb::flow_control& control) -> Batch* {

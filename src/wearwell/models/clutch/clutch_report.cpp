@@ -37,8 +37,7 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   Section section{"verdict", "Verdict"};
   if (study.simulated) {
     section.add(present::Callout{"warn", "Simulated.",
-                                 "This campaign was simulated from a known truth; no measurement "
-                                 "stands behind it."});
+                                 "This campaign is simulated from a known truth, not measured."});
   }
   const WearMap& map = r.maps.front();
   for (const NamedLife& each : r.lives) {
@@ -69,7 +68,7 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
       {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
        fmt::format("linear {:.3f}, full cubic {:.3f}", r.maps[1].fit.r2p, r.maps[2].fit.r2p)});
   tiles.push_back({"Plate to plate", fmt::format("{:.1f}", 100 * r.run_in.plate_sd), "%",
-                   "standard deviation of a plate's factor"});
+                   "standard deviation of the log of a plate's factor"});
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures;
   for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
@@ -85,12 +84,12 @@ Table life_table(const ClutchResult& r) {
                {"Worn", "%", given},
                {"Cycles", "1", fixed(0)},
                {"95 % by scatter", "1", present::life(5), true},
-               {"95 % by all", "1", present::life(5), true},
+               {"95 % total", "1", present::life(5), true},
                {"Without run-in", "1", fixed(0)},
                {"Volume by scatter, ±", "mm^3", digits(3)},
-               {"of it, ±", "%", fixed(1)},
-               {"Volume by all, ±", "mm^3", digits(3)},
-               {"of it by all, ±", "%", fixed(1)}}};
+               {"Relative, ±", "%", fixed(1)},
+               {"Total volume, ±", "mm^3", digits(3)},
+               {"Relative total, ±", "%", fixed(1)}}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       table.rows.push_back({each.name, 100 * at.level, at.repetitions,
@@ -118,7 +117,7 @@ Table sequence_table(const ClutchResult& r) {
                {"Measured", "mm^3"},
                {"Predicted", "mm^3"},
                {"Sd by scatter", "mm^3", digits(3)},
-               {"Sd by all", "mm^3", digits(3)}}};
+               {"Sd total", "mm^3", digits(3)}}};
   for (const SequenceResult& s : r.sequences) {
     for (const auto& w : s.weighings)
       table.rows.push_back({s.name, plate_cell(r, s.plate), static_cast<double>(w.cycle),
@@ -134,10 +133,10 @@ Section prediction_section(const ClutchResult& r) {
     section.add(Figures{{width_figure(r)}});
     section.add(life_table(r));
   }
-  section.add(Prose{
-      fmt::format("Averaging the inputs over a point instead of summing its cycles changes the "
-                  "predicted volume of the whole campaign by {:.3f}\u00a0%.",
-                  100 * r.averaging.total)});
+  section.add(
+      Prose{fmt::format("Using the mean inputs of a point instead of summing its cycles changes "
+                        "the predicted volume of the whole campaign by {:.3f}\u00a0%.",
+                        100 * r.averaging.total)});
   if (!r.sequences.empty())
     section.add(present::Details{"Every weighing of a sequence", {{sequence_table(r)}}});
   return section;

@@ -26,7 +26,7 @@ double log_normal_density(double x, double sd) {
   return -0.5 * std::log(2 * std::numbers::pi) - std::log(sd) - 0.5 * x * x / (sd * sd);
 }
 
-/// Each point predicted from all others, with the terms and the scatter that all points gave.
+/// Each point predicted from all others, with the terms and the scatter from all points.
 LooSummary leave_one_out(const ClutchResult& found) {
   const LinearFit& fit = found.maps.front().fit;
   const Eigen::VectorXd sd = point_sd(found.scatter_fit().law, found.points, fit.fitted);
@@ -40,7 +40,7 @@ LooSummary leave_one_out(const ClutchResult& found) {
   return summary;
 }
 
-/// The constants of run-in: estimate and standard error, and the normal law of both.
+/// The constants of run-in: estimate and standard error, and their joint normal distribution.
 std::vector<ParameterSummary> parameters_of(const RunInFit& fit) {
   constexpr double q95 = 1.6448536269514722;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -75,7 +75,7 @@ Result result_of(const ClutchStudy& study, const ClutchResult& found, bool repor
   header.model = "clutch-wear";
   header.equation =
       "volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
-      "exp(-Ec/eps2); w = a cubic in ds = omega0^r t2^q, Td and Mz, or any part of it";
+      "exp(-Ec/eps2); w = a cubic in ds = omega0^r t2^q, Td and Mz, or any submodel of it";
   for (const auto& file : study.files) header.data.files.push_back(file.filename().string());
   header.data.rows = study.campaign.weighings.size();
   header.data.fingerprint = fingerprint_of(study.campaign);

@@ -7,7 +7,7 @@
 
 namespace wearwell::clutch {
 
-/// The result of a clutch study as every command takes it. `report`: with the sections of a report.
+/// The result of a clutch study for all commands. `report`: with the sections of a report.
 Result result_of(const ClutchStudy& study, const ClutchResult& found, bool report);
 
 }  // namespace wearwell::clutch

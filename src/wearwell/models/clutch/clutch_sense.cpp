@@ -1,4 +1,4 @@
-// Whether what a clutch study says of lives can be used.
+// Whether the lives of a clutch study are usable.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -24,23 +24,21 @@ Check extrapolation_check(const WearModel& model, const std::vector<NamedLife>& 
       const double beyond = std::max({low - at, at - high, 0.0}) / width;
       if (!(beyond > validity_slack)) continue;
       farthest = std::max(farthest, beyond);
-      names.push_back(fmt::format("{} {:.4g}, modelled from {:.4g} to {:.4g} {}", input.name, at,
+      names.push_back(fmt::format("{} {:.4g}, calibrated from {:.4g} to {:.4g} {}", input.name, at,
                                   low, high,
                                   speed     ? "rpm"
                                   : celsius ? "degC"
                                             : input.si));
     }
     if (names.empty()) continue;
-    findings.add(farthest > farthest_outside ? Verdict::fail : Verdict::warn,
-                 fmt::format("the life '{}' lies outside the range of validity by {:.2g} of its "
-                             "width: {}",
-                             each.name, farthest, fmt::join(names, ", ")),
-                 "The map is a polynomial: outside the points it was fitted to it may do anything. "
-                 "Run points there, or ask inside.");
+    findings.add(
+        farthest > farthest_outside ? Verdict::fail : Verdict::warn,
+        fmt::format("the life '{}' lies outside the calibrated range by {:.2g} of its width: {}",
+                    each.name, farthest, fmt::join(names, ", ")),
+        "The map is a polynomial and unreliable outside its fitted points. Run points there, or "
+        "request lives inside the range.");
   }
-  return findings.result(
-      "every operating point whose life is asked for lies in the range of the "
-      "points modelled with");
+  return findings.result("every operating point of a life lies in the calibrated range");
 }
 
 Check sense_check(const std::vector<NamedLife>& lives) {
@@ -51,13 +49,13 @@ Check sense_check(const std::vector<NamedLife>& lives) {
     for (const LifeAtLevel& at : each.life.levels) relative = std::max(relative, at.full_relative);
     widest = std::max(widest, relative);
     if (!(relative > half_the_volume)) continue;
-    findings.add(
-        relative > 1 ? Verdict::fail : Verdict::warn,
-        fmt::format("the volume of '{}' is known to +- {:.3g} % only", each.name, 100 * relative),
-        "Such an interval says next to nothing of this life: it is not to be used.");
+    findings.add(relative > 1 ? Verdict::fail : Verdict::warn,
+                 fmt::format("the volume of '{}' has an uncertainty of +- {:.3g} %", each.name,
+                             100 * relative),
+                 "This interval is too wide to be informative: do not use this life.");
   }
   return findings.result(
-      fmt::format("every volume asked for is known to +- {:.3g} % or better", 100 * widest));
+      fmt::format("every volume has an uncertainty of +- {:.3g} % or better", 100 * widest));
 }
 
 }  // namespace wearwell::clutch

@@ -34,7 +34,7 @@ SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Diale
   fleet::refuse_alike(dialect, names);
 }
 
-/// What is summed for each unit, after the counts.
+/// The sums of each unit, after the counts.
 std::vector<std::string> SqlWriter::sum_names() const {
   std::vector<std::string> names = {"energy", "volume", "variance", "settled"};
   for (const char* input : input_columns) names.push_back(std::string("sum_") + input);
@@ -70,30 +70,31 @@ std::string SqlWriter::setup() const {
                                fleet::literal(dialect_, each.name), number(each.value)));
   const std::string head =
       "-- 1. Set-up: the model's numbers as rows, and a table for sums. May be run again.\n"
-      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are models "
-      "that "
-      "chance might have led to.\n";
+      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are its "
+      "bootstrap replicates.\n";
   if (clickhouse()) return head + setup_of_clickhouse(fmt::format("{}", fmt::join(rows, ",")));
   return fmt::format(
       "-- 1. Set-up: the model's numbers as rows, and a table for sums. May be run again.\n"
-      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are models "
-      "that "
-      "chance might have led to.\n"
-      "create table if not exists {0} (\n  model {1} not null, replicate integer not null, name "
-      "{1} "
-      "not null, value {2} not null,\n  primary key (model, replicate, name));\n"
-      "-- One row a unit.\n"
-      "create table if not exists {3} (\n  model {1} not null, unit {1} not null, after_cycle {4} "
-      "not null, last_cycle {4} not null{5},\n  primary key (model, unit));\n"
-      "delete from {0} where model = {6};\ninsert into {0} (model, replicate, name, value) "
-      "values\n{7};\n",
+      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are its "
+      "bootstrap replicates.\n"
+      "create table if not exists {0} (\n"
+      "  model {1} not null, replicate integer not null, name {1} not null, value {2} not null,\n"
+      "  primary key (model, replicate, name));\n"
+      "-- One row per unit.\n"
+      "create table if not exists {3} (\n"
+      "  model {1} not null, unit {1} not null, after_cycle {4} not null, last_cycle {4} not "
+      "null{5},\n"
+      "  primary key (model, unit));\n"
+      "delete from {0} where model = {6};\n"
+      "insert into {0} (model, replicate, name, value) values\n"
+      "{7};\n",
       model_table_, types_.text, types_.real, sums_table_, types_.whole, sums, id_,
       fmt::join(rows, ",\n"));
 }
 
 /// The parameters as one row.
 std::string SqlWriter::parameters() const {
-  // Of ClickHouse a value that is missing would be 0, not nothing.
+  // In ClickHouse a missing value would be 0, not null.
   const char* value = clickhouse() ? "maxIf(value, replicate = {} and name = {})"
                                    : "max(case when replicate = {} and name = {} then value end)";
   const std::string all = clickhouse()
@@ -117,15 +118,15 @@ std::string SqlWriter::in_si(const SqlColumn& column) const {
   return text;
 }
 
-/// Nothing where a number that names a unit is not whole.
+/// Null if a number that names a unit is not whole.
 std::string SqlWriter::unit() const {
   const std::string name = "t." + fleet::identifier(dialect_, source_.unit.name);
   if (!source_.unit.is_real) return name;
   return fmt::format("case when {0} = floor({0}) then cast({0} as bigint) end", name);
 }
 
-/// What `wearwell clutch predict` demands of a row. NaN is above every number, or no comparison with it
-/// is true.
+/// The conditions of `wearwell clutch predict` on a row. NaN exceeds every number, or no comparison
+/// with it is true.
 std::string SqlWriter::valid() const {
   std::string text = "cycle >= 1 and cycle <= 9e15 and cycle = floor(cycle)";
   for (const char* each : {"slip_speed", "torque", "closing_time", "energy"})
@@ -137,7 +138,7 @@ std::string SqlWriter::si(bool fresh) const {
   const std::string unit = this->unit();
   const std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
   SqlColumns columns;
-  // In ClickHouse nothing is a value of its own, which arrays leave out.
+  // In ClickHouse arrays leave out null.
   columns.add(clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : unit,
               clickhouse() && fresh && !source_.first ? "wearwell_unit" : "unit");
   columns.add(clickhouse() ? fmt::format("ifNull({}, 0)", cycle) : cycle, "cycle");
@@ -170,7 +171,7 @@ std::string SqlWriter::checked() const {
   SqlColumns columns;
   for (const char* each : {"unit", "cycle", "after_cycle", "energy_before"}) columns.keep(each);
   columns.add(valid(), "valid");
-  // A row that is refused counts as nothing. ClickHouse would leave what is no value out of arrays.
+  // A refused row counts as null. ClickHouse leaves null out of arrays.
   const char* choice = clickhouse() ? "if({}, {}, {})" : "case when {} then {} end";
   const auto add = [&](const std::string& value, const char* otherwise, const std::string& name) {
     columns.add(fmt::format(fmt::runtime(choice), valid(), value, otherwise), name);
@@ -208,10 +209,14 @@ std::string SqlWriter::powers() const {
         fmt::format("ds{}", p));
   }
   return fmt::format(
-      "select ordered.*, k.*,\n  {}\nfrom (\n-- energy of the cycles before each, in whole units; "
-      "a "
-      "row without values that can be counts as nothing but refused\n{}\n) as ordered cross "
-      "join\n{}{}",
+      "select ordered.*, k.*,\n"
+      "  {}\n"
+      "from (\n"
+      "-- energy of the cycles before each, in whole units; a row with invalid values counts only "
+      "as refused\n"
+      "{}\n"
+      ") as ordered cross join\n"
+      "{}{}",
       columns.text(), ordered(), parameters(), fence());
 }
 
@@ -233,7 +238,7 @@ std::string SqlWriter::rates() const {
       columns.text(), powers(), fence());
 }
 
-/// sigma_w, never below its floor; as in CycleSum of the rate before it is cut off at 0.
+/// sigma_w, never below its floor; as in CycleSum from the rate before it is clipped at 0.
 std::string SqlWriter::sigma() const {
   const auto p = [&](int i) { return parameters_.column(0, fmt::format("sigma{}", i)); };
   std::string text;
@@ -258,7 +263,7 @@ std::string SqlWriter::sigma() const {
 std::string SqlWriter::worn() const {
   SqlColumns columns;
   columns.add(sigma() + " * energy", "step");
-  // w + |w| is 2 w, or 0 where the rate is negative: exactly, and in less time than a choice.
+  // w + |w| is 2 w, or 0 if the rate is negative: exact, and faster than a conditional.
   for (std::size_t b = 0; b <= replicates_; ++b)
     columns.add(fmt::format("(w{0} + abs(w{0})) * {1}", b, b == 0 ? "half_fine" : "half_energy"),
                 fmt::format("settled{}", b));
@@ -305,14 +310,19 @@ std::string SqlWriter::query() const {
   for (std::size_t b = 1; b <= replicates_; ++b)
     sum(fleet::whole(dialect_, fmt::format("settled{}", b)));
   return fmt::format(
-      "-- 2. Query: adds the sums of all cycles behind the last that was counted of each unit. May "
-      "be run again, and adds nothing then.\n"
-      "-- Whole numbers, so that no order of rows changes a bit. Units: energy 2^{} J, volume and "
-      "settled 2^{} m^3, variance 2^{} m^6,\n-- replicates v1 .. (with run-in) and s1 .. (without) "
-      "2^{} m^3.\n"
-      "insert into {}{} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
-      "scatter\n{}\n) "
-      "as worn\ngroup by unit{};\n",
+      "-- 2. Query: adds the sums of all cycles after the last counted one of each unit. May be "
+      "run again, and then adds nothing.\n"
+      "-- Integers, so that the order of rows does not change a bit. Units: energy 2^{} J, volume "
+      "and settled 2^{} m^3, variance 2^{} m^6,\n"
+      "-- replicates v1 .. (with run-in) and s1 .. (without) 2^{} m^3.\n"
+      "insert into {}{} ({})\n"
+      "select\n"
+      "  {}\n"
+      "from (\n"
+      "-- volumes of a run-in plate, and scatter\n"
+      "{}\n"
+      ") as worn\n"
+      "group by unit{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
       std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(),
       columns.text(), worn(), adding());

@@ -1,27 +1,28 @@
-// What ClickHouse wants otherwise.
+// ClickHouse's variants of the statements.
 #include <fmt/format.h>
 
 #include "wearwell/models/clutch/sql_writer.h"
 
 namespace wearwell::clutch {
 
-/// The same rows a second time change nothing: they are read by their largest value. Its client wants
-/// them in one line.
+/// Inserting the same rows twice changes nothing: they are read by their largest value. Its client
+/// needs them in one line.
 std::string SqlWriter::setup_of_clickhouse(const std::string& rows) const {
   std::string sums;
   for (const char* each : count_names) sums += fmt::format(",\n  {} {}", each, types_.whole);
   for (const std::string& each : sum_names()) sums += fmt::format(",\n  {} {}", each, types_.sum);
   return fmt::format(
       "set max_query_size = 16777216, max_ast_elements = 1000000, max_expanded_ast_elements = "
-      "10000000;\ncreate table if not exists {0} (\n  model String, replicate Int32, name String, "
-      "value "
-      "Float64) engine = ReplacingMergeTree order by (model, replicate, name);\n"
-      "-- One row a unit and run of statement 2, of which no two may run at the same time: nothing "
-      "here refuses the second.\n"
-      "create table if not exists {1} (\n  model String, unit String, after_cycle Int64, "
-      "last_cycle "
-      "Int64{2}) engine = MergeTree order by (model, unit, after_cycle);\n{4}"
-      "insert into {0} (model, replicate, name, value) values{3};\n",
+      "10000000;\n"
+      "create table if not exists {0} (\n"
+      "  model String, replicate Int32, name String, value Float64) engine = ReplacingMergeTree "
+      "order by (model, replicate, name);\n"
+      "-- One row per unit and run of statement 2. Never run statement 2 twice at the same time: "
+      "nothing here prevents it.\n"
+      "create table if not exists {1} (\n"
+      "  model String, unit String, after_cycle Int64, last_cycle Int64{2}) engine = MergeTree "
+      "order by (model, unit, after_cycle);\n"
+      "{4}insert into {0} (model, replicate, name, value) values{3};\n",
       model_table_, sums_table_, sums, rows,
       source_.staged
           ? fmt::format("create temporary table {} (model String, unit String, after_cycle Int64, "
@@ -30,7 +31,7 @@ std::string SqlWriter::setup_of_clickhouse(const std::string& rows) const {
           : "");
 }
 
-/// In one block, which is there whole or not at all.
+/// In one block, which is inserted completely or not at all.
 std::string SqlWriter::keep() const {
   if (!source_.staged) return "";
   return fmt::format(
@@ -39,8 +40,9 @@ std::string SqlWriter::keep() const {
       sums_table_, kept_names(), fresh_table_);
 }
 
-/// The rows first, from shards perhaps; then the sums, which are here alone. Names that nothing else has, since 18.16 takes no others for a
-/// join where shards answer, and servers of today take none of the SELECT that joins. Where a join finds nothing there is 0.
+/// The rows first, from shards perhaps; then the sums, which are local. Column names are unique,
+/// since ClickHouse 18.16 needs that for a join across shards, and current servers do not accept
+/// names of the outer SELECT. A join without a match gives 0.
 std::string SqlWriter::fresh_of_clickhouse(const std::string& rows) const {
   return fmt::format(
       "select *, wearwell_unit as unit, wearwell_after as after_cycle, wearwell_energy as "
@@ -50,8 +52,9 @@ std::string SqlWriter::fresh_of_clickhouse(const std::string& rows) const {
       rows, sums_table_, id_);
 }
 
-/// ClickHouse of 2018 has no window functions: the cycles of a unit as an array, in order. Sorted rows come in blocks of a bounded size, those
-/// of arrays would come all at once, and each number of a row is a column of the block.
+/// ClickHouse of 2018 has no window functions: the cycles of a unit are a sorted array. Sorted rows
+/// come in blocks of a bounded size; arrays would come all at once, and each value of a row is a
+/// column of the block.
 std::string SqlWriter::ordered_by_arrays() const {
   const std::string row =
       "cycle, valid, slip_speed, torque, temperature, closing_time, fixed_energy";

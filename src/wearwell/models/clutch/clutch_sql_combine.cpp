@@ -4,7 +4,7 @@
 #include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/sql_writer.h"
 
-// Longer than others: the parts of one statement, one after the other as they are written.
+// Longer than others: the parts of one statement in their order.
 namespace wearwell::clutch {
 
 using fleet::number;
@@ -51,7 +51,8 @@ std::string SqlWriter::totals() const {
   return unit_sums();
 }
 
-/// Volume of replicate b after `n` more cycles of the unit's own mean duty; run-in as a geometric series.
+/// Volume of replicate b after `n` more cycles of the unit's own mean duty; run-in as a geometric
+/// series.
 std::string SqlWriter::future(std::size_t b, const std::string& volume, const std::string& settled,
                               const std::string& n) const {
   const auto mode = [&](const char* name, const char* scale) {
@@ -63,7 +64,7 @@ std::string SqlWriter::future(std::size_t b, const std::string& volume, const st
                      mode("slow_left", "slow_energy"), mode("fast_left", "fast_energy"));
 }
 
-/// Levels within each other: sums, what is left of run-in, Newton's steps to the worn-out volume.
+/// Nested SELECTs: sums, the remaining run-in, Newton's steps to the worn-out volume.
 std::string SqlWriter::wear() const {
   SqlColumns duty;
   duty.add("energy / cycles", "duty_energy");
@@ -100,7 +101,7 @@ std::string SqlWriter::wear() const {
     }
     return sum;
   };
-  // The volume is a concave function of n: from the left, Newton's steps never go too far.
+  // The volume is a concave function of n: from the left, Newton's steps never overshoot.
   for (int i = 0; i < newton_steps; ++i) {
     const std::string n = fmt::format("n{}", i);
     text = fmt::format(
@@ -156,17 +157,21 @@ std::string SqlWriter::combine() const {
   }
   return fmt::format(
       "-- 3. Combine: wear of each unit with its intervals of 95 % (volume +- 2 standard "
-      "deviations): by "
-      "the scatter of cycles, and by\n-- all that is uncertain. life_left: cycles until it is worn "
-      "out, at "
-      "its own mean duty; its interval is that of the volume then over the\n-- rate of wear then. "
-      "Cycles outside the range of the points modelled with are counted, not left out. Rows that "
+      "deviations): by the scatter of cycles, and by\n"
+      "-- the total uncertainty. life_left: cycles until it is worn out, at its own mean duty; its "
+      "interval is that of the volume then over the\n"
+      "-- wear rate then. Cycles outside the calibrated range are counted, not left out. Rows that "
       "are\n"
-      "-- refused (no value, not positive) are left out, and repeated cycles are counted twice: "
-      "where "
-      "either is not 0, the answer is not to be used.{}\n"
-      "select\n  {}\nfrom (\n{}\n) as wear\norder by worn desc;\n",
-      replicates_ == 0 ? "\n-- No replicates: the full interval knows of scatter and plate only."
+      "-- refused (no value, not positive) are left out, and repeated cycles are counted twice: if "
+      "either is not 0, do not use the answer.{}\n"
+      "select\n"
+      "  {}\n"
+      "from (\n"
+      "{}\n"
+      ") as wear\n"
+      "order by worn desc;\n",
+      replicates_ == 0 ? "\n"
+                         "-- No replicates: the full interval includes scatter and plate only."
                        : "",
       columns.text(), wear());
 }
@@ -184,8 +189,8 @@ std::string SqlWriter::late() const {
   std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
   const char* join = "inner";
   if (clickhouse()) {
-    // Its 18.16 loses a joined table's name where shards answer, and fails where the right side of an inner join is empty; a left join has
-    // 0 there, and no cycle is.
+    // ClickHouse 18.16 loses a joined table's name across shards, and fails if the right side of an
+    // inner join is empty; a left join gives 0 there, and no cycle has the number 0.
     table = fmt::format("(select {} as unit, {} as cycle from {} as t)", unit, cycle, table);
     unit = "t.unit";
     cycle = "t.cycle";
@@ -200,7 +205,7 @@ std::string SqlWriter::late() const {
       sums_table_, id_, unit, cycle);
 }
 
-/// Adds to a unit's row where it has one; not where another run counted in between.
+/// Adds to a unit's existing row, unless another run has counted in between.
 std::string SqlWriter::adding() const {
   if (clickhouse()) return "";
   std::vector<std::string> sets;
@@ -216,14 +221,15 @@ std::string SqlWriter::adding() const {
       fmt::join(sets, ",\n  "));
 }
 
-/// Of a row whose values are not what they must be. ClickHouse has no truth that is missing.
+/// Whether the values of a row are invalid. ClickHouse has no null boolean.
 std::string SqlWriter::refused() const {
   return fmt::format(fmt::runtime(clickhouse() ? "not ({})" : "not coalesce({}, false)"), valid());
 }
 
 namespace {
 
-/// The energy of a row over that of its closing, 0 where a value lies so far out that the product is no number.
+/// The energy of a row over that of its closing, 0 if a value is so extreme that the product
+/// overflows.
 std::string closing_ratio() {
   std::string can_be = "raw_energy > 0 and raw_energy < 1e300";
   for (const char* each : {"slip_speed", "torque", "closing_time"})
@@ -289,7 +295,7 @@ std::string SqlWriter::times() const {
     columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
     columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
     columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
-    // Texts that are dates have no other moment of the day than its begin.
+    // Texts that are dates have no time of day other than 0.
     columns.add(duckdb ? fmt::format("cast(max(epoch({}) % 86400) as double)", time) : nothing,
                 "clock");
   }

@@ -40,7 +40,7 @@ void read_simulation(const TomlReader& table, ClutchStudy& study) {
   for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
 }
 
-/// What `wearwell update` goes on from: a path and lines of a file mean nothing there.
+/// The data that `wearwell update` continues from: a path and lines of a file are not valid there.
 void keep_table(const std::string& name, const std::string& source, Table table, bool by_sql,
                 ClutchStudy& study) {
   table.source = source;
@@ -48,7 +48,7 @@ void keep_table(const std::string& name, const std::string& source, Table table,
   if (by_sql || !study.tables.emplace(name, std::move(table)).second) study.carried = false;
 }
 
-/// One table of [data]: KEY = "file", or a table [data.KEY] with file, sql, columns and the rest.
+/// One table of [data]: KEY = "file", or a table [data.KEY] with file, sql, columns and so on.
 CampaignTable open_table(const TomlReader& data, const char* key, const Source& source,
                          ClutchStudy& study) {
   const bool is_name = data.has(key) && data.is_text(key);
@@ -74,7 +74,7 @@ CampaignTable open_table(const TomlReader& data, const char* key, const Source& 
   return table;
 }
 
-/// Keeps what was read of some columns of numbers, for people.
+/// Keeps numeric columns as read, for messages.
 void keep_columns(const CampaignTable& from, const char* key,
                   const std::vector<std::pair<const char*, const char*>>& columns,
                   ClutchStudy& study) {
@@ -177,9 +177,9 @@ ClutchStudy read_clutch_study(const TomlReader& root, const Source& source) {
   const auto simulation = root.table("simulation");
   const auto data = root.table("data");
   if (simulation && data)
-    root.fail("data",
-              "stands beside [simulation]; give one of the two, the files of a rig or a "
-              "simulation, not both");
+    root.fail(
+        "data",
+        "is given, and so is [simulation]; keep one of them, the files of a rig or a simulation");
   if (!simulation && !data)
     root.fail("data", "is missing: [data] with the files of a rig, or [simulation]");
   if (simulation) {

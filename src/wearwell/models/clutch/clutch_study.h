@@ -24,19 +24,19 @@ namespace wearwell::clutch {
 /// A study file of `model = "clutch-wear"`, read and checked.
 struct ClutchStudy {
   std::filesystem::path file;
-  std::string file_text;  ///< what it held when it was read
+  std::string file_text;  ///< content when it was read
   std::string title;
-  /// Where the campaign comes from: a rig's files or a simulation.
+  /// The source of the campaign: a rig's files or a simulation.
   std::vector<std::filesystem::path> files;  ///< that were read
   std::vector<std::string> sha1s;            ///< of each, when it was read
   std::vector<TableLayout> layouts;          ///< of each; of a rig only
   bool simulated = false;
   std::optional<Truth> truth;            ///< of a simulated campaign
-  std::vector<DataColumn> data_columns;  ///< of a rig's tables, as they were read
-  /// A rig's tables as `Source::tables` hands them over again, to go on from; none where that cannot be: one is asked for by sql, or two
-  /// are of one file.
+  std::vector<DataColumn> data_columns;  ///< of a rig's tables, as read
+  /// A rig's tables in the form of `Source::tables`, to continue from; empty where that is
+  /// impossible: one comes from sql, or two are in one file.
   std::map<std::string, Table> tables;
-  bool carried = true;  ///< whether they are there
+  bool carried = true;  ///< whether they are available
   Campaign campaign;
   std::vector<Realized> realized;  ///< likewise
   std::vector<double> plate_factors;
@@ -70,7 +70,7 @@ struct SequenceResult {
   double final_error() const { return weighings.back().predicted / weighings.back().measured - 1; }
 };
 
-/// Of a prediction that is off by this share: "1.4 % below the measured wear".
+/// For a prediction with this relative error: "1.4 % below the measured wear".
 std::string error_text(double share);
 
 /// Best R2p with a surrogate: of all points, and the mean over the temperature levels (Table A1).
@@ -117,28 +117,29 @@ struct ClutchResult {
   const ScatterFit& scatter_fit() const { return scatter.candidates[scatter.best]; }
 };
 
-/// Everything before the search: closings, blocks, run-in and points. Throws InputError where the
-/// campaign is not one that can be fitted.
+/// All steps before the search: closings, blocks, run-in and points. Throws InputError if the
+/// campaign cannot be fitted.
 ClutchResult prepare_campaign(const ClutchStudy& study);
-/// What was read of the cycles, to find mistaken units.
+/// The cycles as read, to find wrong units.
 std::vector<DataColumn> cycle_columns(const Campaign& campaign);
 
 /// Weighed blocks of design points, of the given use, compensated for run-in and plate.
 WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& blocks,
                        const RunInFit& run_in, bool held_out);
 
-/// Beyond so many widths of the range of validity a life is not to be trusted.
+/// A life outside the calibrated range by more of its widths is not trusted.
 inline constexpr double farthest_outside = 0.5;
-/// A 95 % interval wider than +- so much of the volume is warned of; beyond all of it, it fails.
+/// A 95 % interval wider than this share of the volume gives a warning; wider than the volume, it
+/// fails.
 inline constexpr double half_the_volume = 0.5;
 
-/// Whether the operating points whose life is asked for were modelled, and whether what is said of
-/// their volume says anything.
+/// Whether the operating points of lives are in the calibrated range, and whether their volumes
+/// have informative intervals.
 Check extrapolation_check(const WearModel& model, const std::vector<NamedLife>& lives);
 Check sense_check(const std::vector<NamedLife>& lives);
 
 /// Features, run-in, map, scatter, validation, prediction and life in one go. `threads`: 0 for all;
-/// the result does not depend on it. `progress`, where there is one, counts exact searches.
+/// the result does not depend on it. `progress`, if given, counts exact searches.
 ClutchResult run_clutch_study(const ClutchStudy& study, int threads = 0,
                               Progress* progress = nullptr);
 

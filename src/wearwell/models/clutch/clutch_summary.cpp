@@ -204,7 +204,7 @@ std::string section(const char* title, const Rows& rows) {
   return fmt::format("\n{}\n{}", title, text_table(rows));
 }
 
-// What the campaign was made for, one line each.
+// The purpose of the campaign: one line per life.
 std::string answers_text(const ClutchResult& r) {
   if (r.lives.empty()) return "";
   std::string out = "\nAnswers\n";
@@ -221,7 +221,7 @@ std::string answers_text(const ClutchResult& r) {
 std::string lives_text(const ClutchResult& r) {
   if (r.lives.empty()) return "";
   Rows rows = {
-      {"operating point", "worn", "cycles", "95 % scatter", "95 % full", "without run-in"}};
+      {"operating point", "worn", "cycles", "95 % scatter", "95 % total", "without run-in"}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
@@ -257,7 +257,9 @@ std::string maps_text(const ClutchResult& r) {
   const std::vector<std::string> selected = term_names(r.maps.front());
   out += fmt::format("selected terms: {}", fmt::join(selected, " "));
   if (std::find(selected.begin(), selected.end(), "1") == selected.end())
-    out += "\n(without the constant 1: the choice depends on where the inputs have their zero)";
+    out +=
+        "\n"
+        "(without the constant 1: the selection depends on the origin of the inputs)";
   out += fmt::format("\nR2 of points left out of the whole search: {:.3f} +- {:.3f} ({} parts)",
                      r.nested.r2, r.nested.r2_error, r.nested.folds);
   return out + fmt::format(
@@ -290,8 +292,8 @@ std::string validation_text(const ClutchResult& r) {
 
 std::string sequences_text(const ClutchResult& r) {
   if (r.sequences.empty()) return "";
-  Rows rows = {
-      {"sequence", "cycles", "measured [mm^3]", "predicted", "error", "95 % scatter", "95 % full"}};
+  Rows rows = {{"sequence", "cycles", "measured [mm^3]", "predicted", "error", "95 % scatter",
+                "95 % total"}};
   for (const SequenceResult& s : r.sequences) {
     const auto& last = s.weighings.back();
     rows.push_back({s.name, plain_given(static_cast<double>(last.cycle)),
@@ -304,7 +306,7 @@ std::string sequences_text(const ClutchResult& r) {
 }
 
 std::string checks_text(const ClutchResult& r) {
-  Rows rows = {{"check", "verdict", "what was found"}};
+  Rows rows = {{"check", "verdict", "results"}};
   for (const Check& check : r.checks)
     rows.push_back({check.name, verdict_kind(check.verdict), check.detail});
   return "\nChecks\n" + text_table(rows, true);
@@ -315,11 +317,11 @@ std::string checks_text(const ClutchResult& r) {
 std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
   const std::string trust = wrapped(printable(trust_line(r.checks)), 0, 2);
   std::string out = wrapped(printable(study.title), 0, 2) +
-                    fmt::format("{} cycles, {} weighings; {} points to model with, {} held out\n",
+                    fmt::format("{} cycles, {} weighings; {} points to fit, {} held out\n",
                                 plain_given(static_cast<double>(study.campaign.cycles.size())),
                                 plain_given(static_cast<double>(study.campaign.weighings.size())),
                                 r.points.size(), r.held_out.size());
-  if (study.simulated) out += "Simulated from a known truth: no measurement stands behind it.\n";
+  if (study.simulated) out += "Simulated from a known truth, not measured.\n";
   out += "\n" + trust + answers_text(r) + lives_text(r) + run_in_text(r) + maps_text(r) +
          scatter_text(r) + validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
   return printable_lines(out);

@@ -7,12 +7,12 @@
 
 namespace wearwell::clutch {
 
-/// What summary.json holds after the header (docs/reference/clutch.md). Wear rates in mm^3/MJ, volumes in mm^3,
-/// energies in MJ.
+/// Content of summary.json after the header (docs/reference/clutch.md). Wear rates in mm^3/MJ,
+/// volumes in mm^3, energies in MJ.
 nlohmann::ordered_json summary_body(const ClutchStudy& study, const ClutchResult& result);
-/// One row a weighing of a sequence.
+/// One row per weighing of a sequence.
 std::string sequences_csv(const ClutchResult& result);
-/// What the terminal shows.
+/// The output on the terminal.
 std::string summary_text(const ClutchStudy& study, const ClutchResult& result);
 
 }  // namespace wearwell::clutch

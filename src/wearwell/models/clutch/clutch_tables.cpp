@@ -39,7 +39,7 @@ std::vector<OperatingPoint> operating_points(const CampaignTable& from) {
   return points;
 }
 
-/// What an int holds, and what a double tells apart.
+/// Limits of int, and of integers in a double.
 constexpr double most_plates = 2e9, most_cycles = 9e15;
 
 std::vector<long long> whole_numbers(const CampaignTable& from, const std::string& name,
@@ -76,11 +76,11 @@ const std::vector<std::string>& texts(const CampaignTable& from, const std::stri
   const Column& found = from.words(name);
   if (found.is_number)
     throw InputError(
-        fmt::format("{}, column '{}' holds numbers, not words", from.table.source, found.name));
+        fmt::format("{}, column '{}' has numbers, but needs text", from.table.source, found.name));
   return found.text;
 }
 
-/// What "point 17" says.
+/// The block named by a text such as "point 17".
 void read_block(const std::string& text, Weighing& weighing) {
   if (text == "start") {
     weighing.block = Block::start;
@@ -93,13 +93,14 @@ void read_block(const std::string& text, Weighing& weighing) {
     const auto [rest, failure] =
         std::from_chars(text.data() + 6, text.data() + text.size(), weighing.point);
     if (failure != std::errc{} || rest != text.data() + text.size() || weighing.point < 1)
-      throw InputError(fmt::format("'{}' is no block", text));
+      throw InputError(fmt::format("'{}' is not a block", text));
   } else if (text.starts_with("sequence ") && text.size() > 9) {
     weighing.block = Block::sequence;
     weighing.sequence = text.substr(9);
   } else {
     throw InputError(fmt::format(
-        "'{}' is no block: 'start', 'run-in', 'point 17', 'run-out', 'sequence NAME'", text));
+        "'{}' is not a block: use 'start', 'run-in', 'point 17', 'run-out', 'sequence NAME'",
+        text));
   }
 }
 
@@ -170,7 +171,7 @@ std::vector<DesignPoint> read_design(const CampaignTable& from) {
   std::set<long long> seen;
   for (std::size_t i = 0; i < from.table.rows; ++i) {
     if (!seen.insert(numbers[i]).second)
-      throw InputError(fmt::format("{}: point {} is planned twice",
+      throw InputError(fmt::format("{}: point {} occurs twice",
                                    place(from.table, from.numbers("point", "1").column, i),
                                    numbers[i]));
     try {

@@ -11,29 +11,29 @@
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/tribometer.h"
 
-/// Files of a campaign. Headings carry units, "torque [N m]" (docs/reference/tables.md); any unit of the
-/// right dimension will do. All readers throw InputError naming file, row, column and value.
+/// Files of a campaign. Headings carry units, "torque [N m]" (docs/reference/tables.md), in any
+/// unit of the right dimension. All readers throw InputError naming file, row, column and value.
 namespace wearwell::clutch {
 
-/// A table of a campaign. Its columns have the names below unless the study names others.
+/// A table of a campaign. Its columns have the names below unless the study gives others.
 struct CampaignTable {
   Table table;
   std::optional<TomlReader> columns = {};  ///< of the study
 
-  /// The column of numbers for `name`. Throws InputError.
+  /// The numeric column for `name`. Throws InputError.
   ColumnChoice numbers(const std::string& name, const std::string& si) const;
-  /// The column of words or of plates.
+  /// The text column, or the column of plates.
   const Column& words(const std::string& name) const;
 };
 
-/// The names of the plates in all tables, in the order in which they come; empty where every plate is a
-/// number. Throws InputError where a plate has no name.
+/// The names of the plates in all tables, in the order of their first occurrence; empty if every
+/// plate is a number. Throws InputError if a plate has no name.
 std::vector<std::string> plate_names(const std::vector<const CampaignTable*>& tables);
 
 /// point, role, slip_speed, torque, temperature, closing_time.
 std::vector<DesignPoint> read_design(const CampaignTable& table);
-/// plate, cycle, slip_speed, torque, temperature, closing_time, energy. A plate is its place among `names`,
-/// from 1.
+/// plate, cycle, slip_speed, torque, temperature, closing_time, energy. A plate is its place among
+/// `names`, from 1.
 std::vector<Cycle> read_cycles(const CampaignTable& table, const std::vector<std::string>& names);
 /// plate, cycle, mass, block ("start", "run-in", "point 17", "run-out", "sequence NAME").
 std::vector<Weighing> read_weighings(const CampaignTable& table,
@@ -41,7 +41,7 @@ std::vector<Weighing> read_weighings(const CampaignTable& table,
 /// plate, time, slip_speed, torque, temperature.
 std::vector<Sample> read_traces(const CampaignTable& table, const std::vector<std::string>& names);
 
-/// Of files that stand alone.
+/// For single files.
 std::vector<DesignPoint> read_design(const std::filesystem::path& file);
 std::vector<Cycle> read_cycles(const std::filesystem::path& file);
 std::vector<Weighing> read_weighings(const std::filesystem::path& file);

@@ -36,7 +36,7 @@ Truth::Term read_term(const TomlReader& terms, const std::string& name) {
     } else if (factor == "Mz") {
       ++term.torque;
     } else {
-      terms.fail(name, "is no product of ds, Td and Mz");
+      terms.fail(name, "is not a product of ds, Td and Mz");
     }
     from = end + 1;
   }
@@ -56,7 +56,7 @@ ScatterLaw read_scatter(const TomlReader& table) {
   for (int i = 0; i < size_of(law.kind); ++i) {
     const std::string key = fmt::format("p{}", i + 1);
     const Quantity p = table.required_quantity(key, units[static_cast<int>(law.kind)][i]);
-    law.p.push_back(p.value * p.unit.scale);  // never a temperature, only a slope by one
+    law.p.push_back(p.value * p.unit.scale);  // not a temperature, but a slope by temperature
   }
   return law;
 }
@@ -100,7 +100,7 @@ Truth read_truth(const std::filesystem::path& file) {
     const bool ascends = truth.run_in_weighings.empty() ||
                          cycles > static_cast<double>(truth.run_in_weighings.back());
     if (!(cycles >= 1 && cycles <= 1e6) || cycles != std::round(cycles) || !ascends)
-      run_in.fail("weighings", "must be whole numbers of cycles that ascend");
+      run_in.fail("weighings", "must be integers in ascending order");
     truth.run_in_weighings.push_back(static_cast<long long>(cycles));
   }
   constexpr long long most = 1'000'000;

@@ -12,11 +12,11 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-/// exp(-x) beyond this is nothing beside 1.
+/// exp(-x) beyond this is negligible beside 1.
 constexpr double negligible = 40;
 
-/// Logarithm, one beyond the end until the length is a multiple of the machine's vectors: the last
-/// numbers of an array are otherwise computed by another routine, with other last bits.
+/// Logarithm, padded until the length is a multiple of the machine's vectors: otherwise another
+/// routine computes the last numbers of an array, with other last bits.
 ArrayXd padded_log(const ArrayXd& x) {
   constexpr Index vector = 8;
   ArrayXd padded = ArrayXd::Ones((x.size() + vector - 1) / vector * vector);
@@ -34,7 +34,7 @@ void evaluate(const WearPolynomial& polynomial, const ArrayXd& log_speed, const 
   out.setZero(distance.size());
   for (Index i = 0; i < temperature.size(); ++i) {
     const double s = distance[i], t = temperature[i], m = torque[i];
-    // All twenty terms of a cubic cost less than choosing among them.
+    // Computing all twenty terms of a cubic is cheaper than selecting among them.
     const double c0 = c[0][0][0] + m * (c[0][0][1] + m * (c[0][0][2] + m * c[0][0][3])) +
                       t * (c[0][1][0] + m * (c[0][1][1] + m * c[0][1][2]) +
                            t * (c[0][2][0] + m * c[0][2][1] + t * c[0][3][0]));
@@ -88,7 +88,7 @@ void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
     rates.sigma = law.p[0] + law.p[1] * rates.w.head(n);
     if (law.kind == ScatterKind::quadratic) rates.sigma += law.p[2] * rates.w.head(n).square();
   }
-  // Not max(), which makes a number of NaN.
+  // Not max(), which would hide NaN.
   const double floor = model_.scatter_floor;
   rates.sigma = (rates.sigma < floor).select(floor, rates.sigma);
   rates.w.conservativeResize(n);
@@ -141,7 +141,7 @@ PlateWear& CycleSum::plate(int number) {
   return plates_.back();
 }
 
-// False, and nothing done, when a number would not be finite.
+// False, with nothing changed, if a number would not be finite.
 bool CycleSum::step(PlateWear& p, const CycleColumns& cycles, const Rates& rates, Index i) {
   const RunIn& run_in = model_.run_in;
   const double energy = cycles.energy[i];
@@ -186,7 +186,7 @@ void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t f
     const bool done = step(p, cycles, rates, i);
     if (!done && not_finite_ == NotFinite::refuse)
       throw InputError(fmt::format(
-          "row {}: plate {}, cycle {}: the model gives no finite wear at slip speed {:.6g} rad/s, "
+          "row {}: plate {}, cycle {}: the model has no finite wear at slip speed {:.6g} rad/s, "
           "torque {:.6g} N m, temperature {:.6g} degC, closing time {:.6g} s, energy {:.6g} J",
           first_row + at + 1, p.description(), number, cycles.slip_speed[i], cycles.torque[i],
           cycles.temperature[i], cycles.closing_time[i], cycles.energy[i]));

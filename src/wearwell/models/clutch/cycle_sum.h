@@ -18,31 +18,31 @@ struct CycleColumns {
   Eigen::Index size() const { return energy.size(); }
 };
 
-/// What is known of a plate after its cycles so far.
+/// The state of a plate after its cycles so far.
 struct PlateWear {
   int plate = 0;
-  std::string name = {};  ///< where plates have names; else empty
+  std::string name = {};  ///< if plates have names; else empty
   long long cycles = 0, last_number = 0;
   double energy = 0;                   ///< Ec, J
   double closings = 0;                 ///< J, 1/2 Mz omega0 t2 of the same cycles (EnergyBalance)
   double volume = 0;                   ///< V, m^3
-  double variance = 0;                 ///< of V by the scatter of cycles, m^6
-  EnergyOutliers outliers = {};        ///< cycles with an energy that no closing has
-  std::array<long long, 4> outside{};  ///< cycles outside the range of validity, by input
+  double variance = 0;                 ///< variance of V by the scatter of cycles, m^6
+  EnergyOutliers outliers = {};        ///< cycles with an energy that no closing can have
+  std::array<long long, 4> outside{};  ///< cycles outside the calibrated range, by input
   long long outside_any = 0;
-  long long clamped = 0;      ///< cycles where the map is negative: taken as no wear
-  long long skipped = 0;      ///< cycles without a finite number: left out (NotFinite::skip)
-  Eigen::ArrayXd replicates;  ///< V of each replicate; empty when not asked for
+  long long clamped = 0;      ///< cycles where the map is negative: counted as no wear
+  long long skipped = 0;      ///< cycles without a finite value: skipped (NotFinite::skip)
+  Eigen::ArrayXd replicates;  ///< V of each replicate; empty if not requested
 
   std::string description() const { return name.empty() ? std::to_string(plate) : name; }
   EnergyBalance balance() const { return {energy, closings}; }
   double sd() const { return std::sqrt(variance); }
-  /// With the uncertainty of coefficients, exponents, terms, run-in (mean square of the replicates
-  /// about V) and of the plate's factor.
+  /// Includes the uncertainty of coefficients, exponents, terms, run-in (mean square of the
+  /// replicates about V) and of the plate's factor.
   double full_sd(double plate_sd) const;
 };
 
-/// What to do with a cycle at which the model, or the sum, gives no finite number.
+/// The treatment of a cycle at which the model, or the sum, is not finite.
 enum class NotFinite { refuse, skip };
 
 /// The cycle-wise sum (Haramina et al. 2025, section 3.5):
@@ -50,13 +50,13 @@ enum class NotFinite { refuse, skip };
 ///   V_k = V_{k-1} + g(Ec) w_mu E_k,   var_k = var_{k-1} + (w_sigma E_k)^2,
 ///
 /// for any number of plates. First `rates` of some cycles (any thread), then `add` in the order of
-/// the cycles. How the cycles are cut into pieces changes no bit of the result.
+/// the cycles. The division of the cycles into pieces does not change a bit of the result.
 class CycleSum {
  public:
   /// Without replicates it is about ten times as fast, and full_sd lacks their part.
   CycleSum(const WearModel& model, bool with_replicates, NotFinite not_finite = NotFinite::refuse);
 
-  /// The names of plate 1, 2, ... as far as they are known, where plates have names.
+  /// The known names of plate 1, 2, ..., if plates have names.
   void name_plates(std::vector<std::string> names) { names_ = std::move(names); }
 
   struct Rates {
@@ -67,9 +67,9 @@ class CycleSum {
   static constexpr unsigned negative = 1u << inputs.size(), no_number = negative << 1;
   void rates(const CycleColumns& cycles, Rates& rates) const;
 
-  /// Volume and variance after each cycle, where wanted. Throws InputError, naming row (counted
-  /// from `first_row`), plate and cycle, for a number that does not follow that of the cycle before
-  /// on its plate; and for a cycle without a finite number, where that is not to be skipped.
+  /// Volume and variance after each cycle, if requested. Throws InputError, naming row (counted
+  /// from `first_row`), plate and cycle, for a cycle number that does not follow the plate's
+  /// previous one; and for a cycle without a finite value, unless such cycles are skipped.
   struct Trace {
     std::vector<double> volume, sd;
     std::vector<double> full_sd;  ///< empty without replicates
@@ -80,9 +80,9 @@ class CycleSum {
 
   bool with_replicates() const { return with_replicates_; }
 
-  /// By first appearance.
+  /// By first occurrence.
   const std::vector<PlateWear>& plates() const { return plates_; }
-  /// Goes on from here: plates as plates() gave them.
+  /// Continues from here: plates in the form of plates().
   void restore(std::vector<PlateWear> plates);
 
  private:

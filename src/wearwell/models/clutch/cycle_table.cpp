@@ -72,7 +72,7 @@ std::vector<std::string> energy_problems(const CycleSum& sum) {
     if (const EnergyOutliers& far = p.outliers; far.count > 0)
       problems.push_back(fmt::format(
           "plate {}: {} with more than {:g} times the energy of a closing, 1/2 x torque x slip "
-          "speed x closing time; farthest off is cycle {}, {:.4g} J, {:.3g} times that. {}",
+          "speed x closing time; the largest is cycle {}, {:.4g} J, {:.3g} times that. {}",
           printable(p.description()),
           far.count == 1 ? "1 cycle" : fmt::format("{} cycles", far.count), EnergyOutliers::most,
           far.worst_cycle, far.worst_energy, far.worst_ratio, energy_advice));

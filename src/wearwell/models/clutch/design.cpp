@@ -24,10 +24,10 @@ void check(const DesignRequest& request) {
         throw InputError(fmt::format("levels of {} must ascend", name));
     }
     if (!(request.lowest[i] <= levels.front() && request.highest[i] >= levels.back()))
-      throw InputError(fmt::format("the feasible range of {} must hold all its levels", name));
+      throw InputError(fmt::format("the feasible range of {} must contain all its levels", name));
   }
   if (request.inside < 0 || request.outside < 0)
-    throw InputError("a number of points cannot be negative");
+    throw InputError("a number of points must not be negative");
 }
 
 bool is_inside(const DesignRequest& request, const OperatingPoint& at) {
@@ -77,8 +77,8 @@ std::vector<OperatingPoint> draw_candidates(const DesignRequest& request, bool i
   return candidates;
 }
 
-/// Distance to the nearest of `points`, leaving out the one numbered `without`; or any that is no
-/// more than `useless`, if one is.
+/// Distance to the nearest of `points`, except the one numbered `without`; or any distance up to
+/// `useless`, if there is one.
 double nearest(const DesignRequest& request, const OperatingPoint& at,
                const std::vector<OperatingPoint>& points, std::size_t without,
                double useless = -1) {
@@ -131,7 +131,7 @@ Role read_role(const std::string& name) {
     if (name == name_of(role)) return role;
   }
   throw InputError(
-      fmt::format("role '{}' is none of 'model', 'extrapolation', 'validation'", name));
+      fmt::format("role '{}' is unknown; use 'model', 'extrapolation' or 'validation'", name));
 }
 
 double design_distance(const DesignRequest& request, const OperatingPoint& a,

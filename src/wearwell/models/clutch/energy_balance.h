@@ -7,15 +7,16 @@
 
 namespace wearwell::clutch {
 
-/// The energy of many closings held against what their torque, slip speed and closing time give (closing_energy). A real closing
-/// differs by the shapes of torque and slip, and a mixed duty by the product of means: a factor of 2 or 3. A unit of energy that is wrong
-/// differs by a thousand, a cycle that cannot be by more.
+/// The energy of many closings compared with that from their torque, slip speed and closing time
+/// (closing_energy). A real closing differs by the shapes of torque and slip, and a mixed duty by
+/// the product of means: a factor of 2 or 3. A wrong unit of energy differs by a thousand, an
+/// impossible cycle by more.
 struct EnergyBalance {
   double measured = 0;  ///< J
   double closings = 0;  ///< J, 1/2 Mz omega0 t2 of the same closings
 
   double ratio() const { return measured / closings; }
-  /// Always true where torque, slip speed or closing time are zero.
+  /// Always true if torque, slip speed or closing time are zero.
   bool is_plausible() const {
     constexpr double most = 5;
     return !(closings > 0) || (ratio() < most && ratio() > 1 / most);
@@ -26,14 +27,14 @@ struct EnergyBalance {
   }
 };
 
-/// Cycles of which each has more than `most` times the energy of its closing: one such among millions changes their sum, and no balance
-/// of all shows it.
+/// Cycles with more than `most` times the energy of their closing: one of them among millions
+/// changes the sum without changing the overall balance.
 struct EnergyOutliers {
   static constexpr double most = 10;
   long long count = 0;
-  long long worst_cycle = 0;  ///< the number of the farthest off
+  long long worst_cycle = 0;  ///< number of the largest
   double worst_energy = 0;    ///< J
-  double worst_ratio = 0;     ///< to 1/2 Mz omega0 t2
+  double worst_ratio = 0;     ///< relative to 1/2 Mz omega0 t2
 
   void look_at(long long cycle, double energy, double closing) {
     const double ratio = energy / closing;
@@ -46,10 +47,10 @@ struct EnergyOutliers {
   }
 };
 
-/// The same of units that have names.
+/// The same for units with names.
 struct FleetOutliers {
   EnergyOutliers all;
-  std::string unit;  ///< of the farthest off
+  std::string unit;  ///< of the largest
 
   void look_at(const std::string& name, long long cycle, double energy, double closing) {
     const double before = all.worst_ratio;
@@ -63,10 +64,9 @@ struct FleetOutliers {
   }
 };
 
-/// What to do where it does not fit.
+/// Advice if it does not fit.
 inline constexpr const char* energy_advice =
     "Check the unit of the column energy, and look for single cycles with an energy that no "
-    "closing "
-    "has.";
+    "closing can have.";
 
 }  // namespace wearwell::clutch

@@ -21,7 +21,7 @@ constexpr std::size_t short_run = 4;
 constexpr double inverse_of_whole[degree + 1] = {0,       1,       1.0 / 2, 1.0 / 3, 1.0 / 4,
                                                  1.0 / 5, 1.0 / 6, 1.0 / 7, 1.0 / 8};
 
-/// A block's columns, filled up with ones.
+/// A block's columns, padded with ones.
 struct Columns {
   alignas(64) double slip_speed[block], torque[block], temperature[block],
       closing_time[block], energy[block], speed[block], time[block];  ///< the last two: logarithms
@@ -57,7 +57,7 @@ WEARWELL_LANES void find_terms(const Columns& x, std::size_t rows, double* to) {
   }
 }
 
-/// So many vectors stay in registers.
+/// This number of vectors fits into registers.
 constexpr std::size_t at_once = 8;
 
 /// Rates of one model; then w + |w|, which is 2 w or 0, times energy.
@@ -67,7 +67,8 @@ WEARWELL_LANES bool find_rate(const Plan& plan, std::size_t model, const Columns
   const lanes::Line* const speed = &work.speed[rate.speed * block_vectors];
   const lanes::Line* const time = &work.time[rate.time * block_vectors];
   lanes::Line* const settled = &work.settled[model * (block_vectors + 1)];
-  // Volumes are not negative, and as whole numbers in the same order as they are; NaN is above all, or negative.
+  // Volumes are non-negative, and their bits as integers have the same order; NaN is above all, or
+  // negative.
   const auto most = __builtin_bit_cast(long long, rate.most);
   Wholes beyond{};
   for (std::size_t v = 0; v < vectors; v += at_once) {
@@ -101,7 +102,7 @@ WEARWELL_LANES void find_variance(const Plan& plan, const Columns& x, std::size_
     const double floor = plan.scatter_floor, scale = plan.variance_scale;
     for (std::size_t i = 0; i < rows; ++i) {
       const double given = law(i);
-      // Not max(), which makes a number of NaN.
+      // Not max(), which would hide NaN.
       const double step = (given < floor ? floor : given) * x.energy[i];
       work.variance[i] = step * step * scale;
     }
@@ -233,7 +234,7 @@ bool find_rates(const Plan& plan, const FixedCycles& cycles, std::size_t first, 
     const double values[] = {x.slip_speed[i], x.torque[i], x.temperature[i], x.closing_time[i]};
     for (std::size_t c = 0; c < 4; ++c)
       fits &= std::abs(values[c]) * plan.input_scale[c] < lanes::largest_whole / 2;
-    // Of a denormal the lanes know no logarithm.
+    // The vector logarithm is not defined for denormals.
     x.speed[i] = std::max(x.slip_speed[i], std::numeric_limits<double>::min());
     x.time[i] = std::max(x.closing_time[i], std::numeric_limits<double>::min());
   }

@@ -16,9 +16,9 @@ struct FixedCycles;
 /// The loops of FixedSum.
 namespace wearwell::clutch::fixed_kernels {
 
-/// Rows whose rates are found at once: they stay in the processor's nearest memory.
+/// Rows whose rates are computed at once: they stay in the first-level cache.
 inline constexpr std::size_t block = 128, block_vectors = block / lanes::count;
-/// Of run-in within a cell: the cell being at most a quarter of the shortest decay, what is left out is
+/// Of run-in within a cell: a cell is at most a quarter of the shortest decay, so the error is
 /// below (1/8)^9/9! = 2e-14.
 inline constexpr std::size_t degree = 8;
 
@@ -39,11 +39,11 @@ struct Rate {
   std::size_t speed = 0, time = 0;  ///< of the exponents
   std::vector<Level> levels;        ///< highest power of the distance first
   double scale = 0;                 ///< half, over the unit of volume
-  double most = 0;                  ///< settled volume, in units, that add_run takes
+  double most = 0;                  ///< settled volume, in units, of the rows of add_run
 };
 
 struct Plan {
-  std::size_t models = 0, stride = 0;  ///< the model and its replicates; filled up to whole vectors
+  std::size_t models = 0, stride = 0;  ///< the model and its replicates; padded to whole vectors
   std::vector<double> speed_powers, time_powers;
   std::vector<Rate> rates;
   std::vector<double> slow, fast, slow_step, fast_step;  ///< run-in; decay over half a cell
@@ -67,15 +67,15 @@ struct Workspace {
   const Cell& cell(const Plan& plan, std::int64_t number);
 
   std::vector<lanes::Line> speed, time;  ///< powers, block_vectors each
-  std::vector<lanes::Line> term;         ///< likewise
-  std::vector<lanes::Line> settled;      ///< by model, each with a vector to spare
+  std::vector<lanes::Line> term;         ///< as above
+  std::vector<lanes::Line> settled;      ///< by model, each with a spare vector
   /// Of the block's rows: rate and variance of the model, its run-in, the place in the cell.
   alignas(64) std::array<double, block + lanes::count> w{}, variance{}, g{}, at{};
-  /// Sums by model: of rows that were added one by one, and in parts of those that were added in runs.
+  /// Sums by model: of rows added one by one, and in parts of rows added in runs.
   std::vector<long long> row_volumes, row_settleds;
   std::vector<lanes::WholeLine> volumes, settleds;
   bool has_runs = false;  ///< the parts are not all zero
-  /// Of all: adds them to `with_run_in` and `without`, from the first replicate on, and leaves zeros.
+  /// Adds them to `with_run_in` and `without`, from the first replicate on, and resets to zero.
   template <class Sum>
   void take_sums(std::size_t replicates, Sum* with_run_in, Sum* without) {
     for (std::size_t b = 1; b <= replicates; ++b) {
@@ -97,8 +97,8 @@ struct Workspace {
   std::vector<double> one_row;
 };
 
-/// Rates and settled volumes of rows [first, first + rows) of all models, and the scatter of the model. False where one
-/// is so large, or no number, that every summand must be looked at.
+/// Rates and settled volumes of rows [first, first + rows) of all models, and the scatter of the
+/// model. False if one is too large or not a number, so that every summand must be checked.
 bool find_rates(const Plan& plan, const FixedCycles& cycles, std::size_t first, std::size_t rows,
                 Workspace& workspace);
 /// Adds rows [from, to) of the block, all of one cell, to the sums of the replicates; g of the model.

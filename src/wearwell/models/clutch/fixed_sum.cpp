@@ -59,7 +59,7 @@ void add_run_in(k::Plan& plan, std::size_t b, const RunIn& run_in, double half_c
   plan.fast_step[b] = -half_cell / run_in.fast_energy;
 }
 
-/// A summand's nearest whole number.
+/// A summand rounded to an integer.
 std::int64_t whole(double x) {
   if (!(std::abs(x) < 9.2e18)) throw InputError("the wear of a cycle is out of range of the sums");
   return std::llrint(x);
@@ -68,7 +68,7 @@ std::int64_t whole(double x) {
 Wide wide(double x) {
   if (std::abs(x) < 9.2e18) return std::llrint(x);
   if (!(std::abs(x) < 1e38)) throw InputError("the wear of a cycle is out of range of the sums");
-  return static_cast<Wide>(x);  // a whole number by itself
+  return static_cast<Wide>(x);  // an integer of its own
 }
 
 void add_to(Wide& sum, Wide x) {
@@ -106,7 +106,8 @@ FixedSum::FixedSum(const WearModel& model, bool replicates)
         rate_of(other ? other->w : model.polynomial(), plan.speed_powers, plan.time_powers));
     add_run_in(plan, b, run_in, half_cell);
     plan.rates.back().scale = 0.5 / (b > 0 ? units_.volume : units_.fine);
-    // With run-in still well below what rounding by addition takes, with a run of rows in 64 bits.
+    // With run-in still well below the limit of rounding by addition, with a run of rows in 64
+    // bits.
     plan.rates.back().most =
         b > 0 ? 0x1p50 / (2 + std::abs(run_in.slow) + std::abs(run_in.fast)) : INFINITY;
   }
@@ -138,7 +139,7 @@ std::shared_ptr<FixedSum::Workspace> FixedSum::workspace() const {
   return made;
 }
 
-/// What is summed in 128 bits: the model itself, and its scatter.
+/// The 128-bit sums: the model itself, and its scatter.
 void FixedSum::middle(const FixedCycles& cycles, std::size_t first, std::size_t from,
                       std::size_t to, Workspace& workspace) const {
   FixedTotals& totals = workspace.totals;
@@ -170,7 +171,7 @@ void FixedSum::quick(const FixedCycles& cycles, std::size_t first, std::size_t f
   for (std::size_t i = 0; i < 4; ++i) workspace.totals.sums[input_sums + i] += sums[i];
 }
 
-/// The same with every summand looked at: some do not fit into what `quick` takes.
+/// The same with a check of every summand: some do not fit the range of `quick`.
 void FixedSum::careful(const FixedCycles& cycles, std::size_t first, std::size_t from,
                        std::size_t to, Workspace& workspace) const {
   auto& sums = workspace.totals.sums;

@@ -36,18 +36,18 @@ enum FixedPlace {
   replicate_sums = 8
 };
 
-/// What ClutchSql's query sums of one unit, in the same units.
+/// The sums of ClutchSql's query for one unit, in the same units.
 struct FixedTotals {
   std::array<std::int64_t, fixed_counts> counts{};
   std::vector<Wide> sums;
 };
 
-/// Cycles by column, SI and degrees Celsius, all of them such as the statements take for valid. A unit's
-/// cycles that stand together are one segment.
+/// Cycles by column, SI and degrees Celsius, all valid by the statements' conditions. Consecutive
+/// cycles of one unit are one segment.
 struct FixedCycles {
   std::vector<double> slip_speed, torque, temperature, closing_time;
   std::vector<std::int64_t> energy;  ///< in FixedUnits::energy
-  /// Where the unit's energy before the cycle lies: cell and place in it from -1 to 1 (FixedSum::place).
+  /// The unit's energy before the cycle: cell and place in it from -1 to 1 (FixedSum::place).
   std::vector<std::int64_t> cell;
   std::vector<double> at;
   std::vector<std::size_t> ends;  ///< of segments; the last is the number of rows
@@ -56,13 +56,16 @@ struct FixedCycles {
   void clear();
 };
 
-/// The sums of ClutchSql's query by a loop of our own, a measured 30 times as fast as an engine's expressions: rates of all
-/// replicates over vectors of rows, and run-in from a polynomial of degree 8 for each cell of energy, within 1e-13 of it. The
-/// summand of a cycle depends on nothing but the cycle and its unit's energy before it, and is rounded to a whole number: no
-/// order, cut or number of threads changes a bit, and the sums are within 1e-12 of those of the statements.
+/// The sums of ClutchSql's query in a built-in loop, measured as 30 times as fast as an engine's
+/// expressions: rates of all replicates over vectors of rows, and run-in from a polynomial of
+/// degree 8 for each cell of energy, within 1e-13 of it. The summand of a cycle depends only on the
+/// cycle and its unit's energy before it, and is rounded to an integer: the order, the division and
+/// the number of threads do not change a bit, and the sums are within 1e-12 of those of the
+/// statements.
 class FixedSum {
  public:
-  /// Throws InputError where run-in decays within so little energy that whole units do not resolve it.
+  /// Throws InputError if run-in decays within so little energy that the fixed point does not
+  /// resolve it.
   FixedSum(const WearModel& model, bool replicates);
   ~FixedSum();
 
@@ -73,7 +76,8 @@ class FixedSum {
   /// Storage of one thread.
   struct Workspace;
   std::shared_ptr<Workspace> workspace() const;
-  /// Gives the totals of each segment, in order. Throws InputError ("out of range") where a summand does not fit.
+  /// Returns the totals of each segment, in order. Throws InputError ("out of range") if a summand
+  /// does not fit.
   void add(const FixedCycles& cycles, Workspace& workspace,
            const std::function<void(std::size_t segment, const FixedTotals&)>& take) const;
 
@@ -89,7 +93,7 @@ class FixedSum {
   FixedUnits units_;
   std::size_t replicates_;
   int shift_ = 0;         ///< a cell is 2^shift units of energy
-  double two_cells_ = 0;  ///< 2 of them, one over
+  double two_cells_ = 0;  ///< 2 of them, one spare
   std::unique_ptr<Plan> plan_;
 };
 

@@ -20,19 +20,20 @@ const std::vector<std::string> names = {"unit",   "cycle",       "slip_speed",
                                         "torque", "temperature", "closing_time",
                                         "energy", "time",        "cycles_per_day"};
 
-/// By name, as they were given.
+/// By name, as given.
 std::map<std::string, std::string> split(const std::vector<std::string>& options) {
   std::map<std::string, std::string> given;
   for (const std::string& option : options) {
     const std::size_t equals = option.find('=');
     const std::string name = option.substr(0, equals);
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("--columns: '{}' is none of {} (nearest: '{}')", printable(name),
-                                   fmt::join(names, ", "), nearest_name(name, names)));
+      throw InputError(fmt::format("--columns: '{}' is unknown; use one of {} (nearest: '{}')",
+                                   printable(name), fmt::join(names, ", "),
+                                   nearest_name(name, names)));
     if (equals == std::string::npos || equals + 1 == option.size())
-      throw InputError(fmt::format("--columns: '{0}' names no column: write '{0}=COLUMN'", name));
+      throw InputError(fmt::format("--columns: '{0}' has no column: write '{0}=COLUMN'", name));
     if (!given.emplace(name, option.substr(equals + 1)).second)
-      throw InputError(fmt::format("--columns: '{}' is named twice", name));
+      throw InputError(fmt::format("--columns: '{}' occurs twice", name));
   }
   return given;
 }
@@ -56,7 +57,7 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
   const std::size_t colon = text.rfind(':');
   const std::string column = text.substr(0, colon);
   std::string unit = colon == std::string::npos ? "" : text.substr(colon + 1);
-  if (column.empty()) throw InputError(fmt::format("--columns: '{}' names no column", name));
+  if (column.empty()) throw InputError(fmt::format("--columns: '{}' has no column", name));
   const Heading heading = read_heading(column, si);
   if (unit.empty() && !heading.certain)
     throw InputError(fmt::format("--columns: '{0}={1}' has no unit: write '{0}={2}:{3}'", name,
@@ -66,8 +67,7 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
     const Unit other = read_unit(heading.unit, si);
     if (other.scale != read.scale || other.offset != read.offset)
       throw InputError(
-          fmt::format("--columns: '{}' is in '{}' by its name and in '{}' by what stands "
-                      "behind the colon",
+          fmt::format("--columns: '{}' has the unit '{}' in its name and '{}' after the colon",
                       printable(column), heading.unit, printable(unit)));
   }
   return {column, read.scale, read.offset, false, read.text};
@@ -101,7 +101,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
       column = with_unit(name, at->second, si);
     } else if (known.empty()) {
       throw InputError(fmt::format(
-          "--columns must say which column is '{0}', and its unit: '{0}=COLUMN:{1}'", name, si));
+          "--columns needs the column of '{0}', and its unit: '{0}=COLUMN:{1}'", name, si));
     } else {
       const ColumnChoice found = find_labelled(headings, name, si, table);
       column = {found.column, found.unit.scale, found.unit.offset, false, found.unit.text};
@@ -121,7 +121,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
     if (at == given.end()) continue;
     if (known.empty())
       throw InputError(
-          fmt::format("--columns: '{}' is of wearwell fleet alone: the statements tell wear and "
+          fmt::format("--columns: '{}' is for wearwell fleet only: the statements report wear and "
                       "life in cycles",
                       name));
     const bool rate = std::string_view(name) == "cycles_per_day";
@@ -130,14 +130,14 @@ void read_fleet_columns(const std::vector<std::string>& options,
   }
   if (!source.time.empty() && !source.per_day.empty())
     throw InputError(
-        "--columns: 'time' and 'cycles_per_day' both tell how many cycles a day a unit makes: name "
-        "one of them");
+        "--columns: 'time' and 'cycles_per_day' both give the cycles per day of a unit: keep one "
+        "of them");
   for (const auto& each : known) {
     if (each.name != source.time) continue;
     source.is_date = each.is_date;
-    // Texts, as CSV has them, are read by the engine, or refused.
+    // Texts, as in CSV, are parsed by the engine, or refused.
     if (each.is_number)
-      throw InputError(fmt::format("{}: column '{}' holds neither dates nor times", table,
+      throw InputError(fmt::format("{}: column '{}' has neither dates nor times", table,
                                    printable(source.time)));
   }
 }

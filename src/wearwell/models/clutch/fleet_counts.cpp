@@ -48,7 +48,7 @@ std::vector<UnitRow> FleetCounts::add(std::span<const UnitSums> units,
   return rows;
 }
 
-/// What needs no forecast.
+/// The cases that need no forecast.
 void FleetCounts::describe(const UnitSums& sums) {
   ++units_;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -120,7 +120,7 @@ UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
   };
   UnitCount count{mean(0)};
   const std::size_t first = models_ > 1 ? 1 : 0;
-  // The share of the mixture that is at or below x.
+  // The cdf of the mixture at x.
   const auto below = [&](double x) {
     double share = 0;
     for (std::size_t b = first; b < models_; ++b) {
@@ -136,7 +136,8 @@ UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
       const double half = 0.5 * (low + high);
       (below(half) < p ? low : high) = half;
     }
-    // A bracket that holds the estimate is as close to it as numbers tell: where all replicates agree it is the interval's end.
+    // A bracket that contains the estimate may be as narrow as rounding: where all replicates agree
+    // it is the interval's end.
     return low <= count.expected && count.expected <= high ? count.expected : 0.5 * (low + high);
   };
   constexpr double tail = 0.025;

@@ -17,7 +17,7 @@ struct UnitCount {
   double expected = 0, low = 0, high = 0;
 };
 
-/// A unit as the report has it. Volumes m^3, cycles from now on.
+/// A unit in the report. Volumes m^3, cycles from now on.
 struct UnitRow {
   std::string unit;
   double cycles = 0, energy = 0, volume = 0, sd = 0, full_sd = 0;
@@ -25,22 +25,22 @@ struct UnitRow {
   LifeInterval scatter = {}, full = {};
   double reached = 0;  ///< probability that it is worn out already
   double outside_any = 0, negative = 0;
-  double per_day = std::numeric_limits<double>::quiet_NaN();  ///< cycles; NaN where nothing tells
+  double per_day = std::numeric_limits<double>::quiet_NaN();  ///< cycles; NaN if unknown
 };
 
-/// All units together, added one after the other. What is not known of the model is the same for all of
-/// them: if replicate b is true, so many units are expected beyond a level, and their number scatters about
-/// that only by what units have of their own. So an interval of the fleet is that of a mixture of normal laws, one a
-/// replicate; it does not shrink with the number of units.
+/// All units together, added one after the other. The uncertainty of the model is common to all of
+/// them: given replicate b, a certain number of units is expected beyond a level, with scatter only
+/// from the units' own variation. So an interval of the fleet is that of a mixture of normal
+/// distributions, one per replicate; it does not shrink with the number of units.
 class FleetCounts {
  public:
-  /// `levels`: shares of the worn-out volume; `horizons`: cycles from now on, 0 among them; `days`: further horizons, in days, which
-  /// take what a unit makes in them.
+  /// `levels`: shares of the worn-out volume; `horizons`: cycles from now on, including 0; `days`:
+  /// further horizons in days, with each unit's own cycles per day.
   FleetCounts(const WearModel& model, bool replicates, std::vector<double> levels,
               std::vector<double> horizons, std::vector<double> days = {});
 
-  /// `per_day`: cycles a day of each unit; empty where there are no days. The same whatever the number of threads. Throws
-  /// InputError for sums that are not finite.
+  /// `per_day`: cycles per day of each unit; empty if there are no days. The same for any number of
+  /// threads. Throws InputError for sums that are not finite.
   std::vector<UnitRow> add(std::span<const UnitSums> units, std::span<const double> per_day,
                            int threads);
   UnitRow add(const UnitSums& sums) { return add({&sums, 1}, {}, 1).front(); }
@@ -49,7 +49,7 @@ class FleetCounts {
   const std::vector<double>& horizons() const { return horizons_; }
   const std::vector<double>& days() const { return days_; }
   std::size_t units() const { return units_; }
-  /// Units that have reached the level after that horizon; those in days stand behind those in cycles.
+  /// Units that have reached the level after that horizon; horizons in days follow those in cycles.
   UnitCount reached(std::size_t level, std::size_t horizon) const;
 
   /// Means over the cycles of each unit, for quantiles over units: slip speed, torque, temperature, closing
@@ -67,15 +67,15 @@ class FleetCounts {
   /// Units whose energy does not fit their torque, slip speed and closing time (EnergyBalance).
   struct Implausible {
     std::size_t units = 0;
-    double volume = 0;  ///< what they have worn, m^3
-    std::string worst;  ///< the unit farthest off, by name where two are
+    double volume = 0;  ///< their wear, m^3
+    std::string worst;  ///< the unit with the largest deviation, by name if there are ties
     double ratio = 1;   ///< its energy over that of its closings
   };
   const Implausible& implausible() const { return implausible_; }
   double volume() const { return volume_; }  ///< of all units, m^3
 
  private:
-  /// In fixed point, so that the order of the units changes nothing.
+  /// In fixed point, so that the order of the units does not matter.
   struct Sum {
     std::int64_t mean = 0, variance = 0;
   };

@@ -14,14 +14,14 @@ using present::Table;
 
 namespace {
 
-/// "-" where the data have no calendar, or it ends.
+/// "-" if the data have no calendar, or it ends.
 std::string day_after(const FleetDays& days, double count) {
   const std::string day = day_text(days.now + count * FleetDays::day);
   return day.empty() ? "-" : day;
 }
 
 Table when(const std::string& text) {
-  Table table{"when", "By when", {{"In"}}};
+  Table table{"when", "Dates", {{"In"}}};
   table.words = true;
   table.rows.push_back({text});
   return table;
@@ -35,13 +35,13 @@ double days_of(const UnitRow& unit, double cycles) {
 
 Table day_table(const FleetCounts& counts, const FleetDays& days) {
   Table table{"days",
-              "Units that have reached a level after so many days, at their own cycles a day",
+              "Units that have reached a level after a number of days, at their own cycles per day",
               {{"Days on", "1", given},
                {"Date"},
                {"Worn", "%", given},
                {"Units", "1", fixed(1)},
                {"95 %", "1", fixed(1), true},
-               {"Of the fleet", "%", digits(3)}}};
+               {"Share of fleet", "%", digits(3)}}};
   for (std::size_t d = 0; d < counts.days().size(); ++d) {
     for (std::size_t l = 0; l < counts.levels().size(); ++l) {
       const UnitCount n = counts.reached(l, counts.horizons().size() + d);
@@ -55,11 +55,11 @@ Table day_table(const FleetCounts& counts, const FleetDays& days) {
 
 Table worst_day_table(const FleetFindings& found, std::size_t shown) {
   Table table{"worst-days",
-              "When they are worn out, at their own cycles a day",
+              "Worn-out dates, at the units' own cycles per day",
               {{"Unit"},
-               {"Cycles a day", "1", digits(4)},
+               {"Cycles per day", "1", digits(4)},
                {"Days left", "1", present::life(4)},
-               {"95 % by all", "1", present::life(4), true},
+               {"95 % total", "1", present::life(4), true},
                {"Worn out"},
                {"not before"},
                {"not after"}}};
@@ -77,18 +77,16 @@ Table when_table(const FleetFindings& found) {
   const FleetDays& days = found.days;
   if (!days.known)
     return when(
-        "cycles: nothing here tells how many a day a unit makes (--columns time=COLUMN or "
-        "cycles_per_day=COLUMN)");
+        "cycles: the data have no cycles per day (--columns time=COLUMN or cycles_per_day=COLUMN)");
   std::string text =
       std::isnan(days.now)
-          ? fmt::format("days from now on, at {:.4g} cycles a day in the mean", days.mean)
+          ? fmt::format("days from now on, at {:.4g} cycles per day on average", days.mean)
           : fmt::format(
-                "days from {} on (UTC), the last of the data, at {:.4g} cycles a day in "
-                "the mean; each unit as between its first and its last row here, taken as "
-                "known",
+                "days from {} on (UTC), the last of the data, at {:.4g} cycles per day on average; "
+                "each unit at its rate between its first and its last row, without uncertainty",
                 day_text(days.now), days.mean);
   if (days.borrowed > 0)
-    text += fmt::format("; {} units do not tell, and have the mean", days.borrowed);
+    text += fmt::format("; {} units without a rate use the mean", days.borrowed);
   return when(text);
 }
 

@@ -16,7 +16,7 @@ void FleetDays::read(fleet::Engine& engine, const ClutchSql& sql, const SqlSourc
   if (sql.times.empty()) return;
   known = true;
   std::vector<fleet::Row> rows;
-  bool dates = true;  // no row is at another moment than the begin of a day
+  bool dates = true;  // no row has a time of day
   engine.rows(sql.times, 1, [&](const fleet::Row& row) {
     dates = dates && (row.numbers[3] == 0 || row.numbers[2] == 0);
     rows.push_back(row);
@@ -29,13 +29,14 @@ void FleetDays::read(fleet::Engine& engine, const ClutchSql& sql, const SqlSourc
       if (!(count > 0)) continue;
       now = std::isnan(now) ? last : std::max(now, last);
       const double days = (last - first) / day;
-      // Where there are dates alone, or hours of one day: by the days from the first to the last, both counted.
+      // If there are only dates, or hours of one day: by the days from the first to the last,
+      // inclusive.
       const double calendar = std::floor(last / day) - std::floor(first / day) + 1;
       rate = count < 2 ? NAN : dates || days < 1 ? count / calendar : (count - 1) / days;
     }
     if (std::isnan(rate)) continue;
     if (!(rate >= 0) || !std::isfinite(rate))
-      throw InputError(fmt::format("{}: unit {} makes {:g} cycles a day", engine.source(),
+      throw InputError(fmt::format("{}: unit {} makes {:g} cycles per day", engine.source(),
                                    printable(row.texts.front()), rate));
     per_day[row.texts.front()] = rate;
   }
@@ -45,10 +46,10 @@ void FleetDays::finish() {
   if (!known) return;
   if (per_day.empty())
     throw InputError(
-        "no unit has two cycles with a moment, or a number of cycles a day: leave 'time' and "
-        "'cycles_per_day' out of --columns, and all is given in cycles");
+        "no unit has two cycles with a time, or a number of cycles per day: leave 'time' and "
+        "'cycles_per_day' out of --columns for results in cycles");
   double sum = 0;
-  std::vector<double> all;  // in an order of their own, whatever that of the table
+  std::vector<double> all;  // sorted, independent of the order of the table
   for (const auto& [unit, rate] : per_day) all.push_back(rate);
   std::sort(all.begin(), all.end());
   for (const double rate : all) sum += rate;

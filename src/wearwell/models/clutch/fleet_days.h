@@ -10,23 +10,23 @@
 
 namespace wearwell::clutch {
 
-/// How many cycles a day units make, by the rows of the table: from the first of a unit to its last, or as a column has it. It is taken as
-/// known, and as going on.
+/// Cycles per day of units, from the rows of the table: from the first of a unit to its last, or
+/// from a column. Assumed exact and constant.
 struct FleetDays {
   static constexpr double second = 1, day = 86400 * second;
 
-  bool known = false;  ///< whether the table has any of it
-  /// The latest moment of all rows, s since 1970; NaN where only rates are known.
+  bool known = false;  ///< whether the table has any of them
+  /// The latest time of all rows, s since 1970; NaN if only rates are known.
   double now = std::numeric_limits<double>::quiet_NaN();
-  double mean = 0;           ///< cycles a day, over the units that have a rate
-  std::size_t borrowed = 0;  ///< units that were given `mean`, having none of their own
+  double mean = 0;           ///< cycles per day, over the units with a rate
+  std::size_t borrowed = 0;  ///< units with the default `mean`, without a rate of their own
   std::unordered_map<std::string, double> per_day;
 
-  /// Adds what an engine's table has. Throws InputError for a rate that cannot be.
+  /// Adds the content of an engine's table. Throws InputError for an impossible rate.
   void read(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source);
-  /// When all was read. Throws InputError where no unit has a rate.
+  /// After reading. Throws InputError if no unit has a rate.
   void finish();
-  /// Of a unit; `mean` where nothing tells, which is counted.
+  /// Of a unit; `mean` if unknown, which is counted.
   double of(const std::string& unit);
 };
 

@@ -17,13 +17,13 @@
 namespace wearwell::clutch {
 namespace {
 
-/// Rows on their way at once; at most 4096, so that runs of them fit into 64 bits.
+/// Rows in progress at once; at most 4096, so that runs of them fit into 64 bits.
 constexpr std::size_t batch_rows = 4096;
 constexpr std::size_t batches_in_flight = 6;
 constexpr std::size_t stripes = 64;
 constexpr double largest_cycle = 9e15;
 
-/// A unit's place on the way through its cycles, and what is summed of it.
+/// The state of a unit within its cycles, and its sums.
 struct UnitPlace {
   std::string name;
   std::int64_t after = 0, last = 0;  ///< cycles counted before; the last one
@@ -34,7 +34,7 @@ struct UnitPlace {
   std::size_t stripe = 0;
 };
 
-/// What an earlier run left.
+/// The results of an earlier run.
 struct KnownUnit {
   std::int64_t last = 0;
   Wide energy = 0;
@@ -62,7 +62,7 @@ class Loop {
         std::max(1000.0, bytes / static_cast<double>(sum_.sums() * sizeof(Wide))));
   }
 
-  /// False where the cycles of a unit do not ascend, which `sorted` rows must.
+  /// False if the cycles of a unit do not ascend, which `sorted` rows must.
   bool run(const std::string& query, bool sorted, fleet::ColumnEngine::Appender& appender);
   LoopFindings found;
 
@@ -92,7 +92,7 @@ class Loop {
   std::int64_t current_number_ = 0;
   std::deque<UnitPlace> units_;
   std::unordered_map<std::int64_t, UnitPlace*> by_number_;
-  std::unordered_map<std::string_view, UnitPlace*> by_name_;  ///< names lie in units_
+  std::unordered_map<std::string_view, UnitPlace*> by_name_;  ///< names are stored in units_
   std::array<std::mutex, stripes> mutexes_;
   std::atomic<std::size_t> held_ = 0;  ///< units with sums in memory
 };
@@ -110,7 +110,7 @@ UnitPlace& Loop::add_unit(std::string name) {
   return made;
 }
 
-/// The unit of a row, which most often is that of the row before.
+/// The unit of a row, usually that of the previous row.
 UnitPlace* Loop::place(std::size_t row) {
   if (chunk_.has_words) {
     const std::string_view word = chunk_.words[row];
@@ -140,7 +140,7 @@ bool Loop::valid(std::size_t row, double cycle) const {
          positive(2) & positive(4) & positive(5) & (temperature >= -273.15) & (temperature < 1e300);
 }
 
-/// False where the order of rows will not do.
+/// False if the rows need sorting.
 bool Loop::take_chunk(Batch& batch) {
   FixedCycles& to = batch.cycles;
   const double scale = 1 / sum_.units().energy;
@@ -193,7 +193,7 @@ void Loop::tell() {
                      std::chrono::duration<double>(now - start_).count()});
 }
 
-/// Nothing behind the last row, where the order will not do, or where sums must be given away first.
+/// Empty after the last row, if the rows need sorting, or if sums must be flushed first.
 std::unique_ptr<Batch> Loop::next() {
   if (!ordered_ || !more_ || held_ > most_units_) return nullptr;
   auto batch = std::make_unique<Batch>();
@@ -310,7 +310,7 @@ LoopFindings sum_by_loop(fleet::Engine& engine, fleet::ColumnEngine& columns, co
     if (loop.found.refused + loop.found.nameless == 0) engine.run(sql.gather, monitor, "units", 0);
     return loop.found;
   }
-  throw InputError("the cycles cannot be put in order");
+  throw InputError("the cycles cannot be sorted");
 }
 
 }  // namespace wearwell::clutch

@@ -7,18 +7,20 @@
 
 namespace wearwell::clutch {
 
-/// What one scan of the rows found.
+/// The outcome of one scan of the rows.
 struct LoopFindings {
   double rows = 0;
   double refused = 0, nameless = 0;  ///< nothing is summed then
   FleetOutliers outliers;
 };
 
-/// Does what ClutchSql::query does by FixedSum, for an engine within the program: the sums of all cycles that are new,
-/// in whole numbers, added to those kept. Rows are taken as they come while the cycles of each unit ascend; where they do
-/// not, the engine sorts them. Sums are held in memory of `units_in_memory` units and then given to the engine (0: up to a quarter
-/// of what that may take); and of each unit its name and place, some 200 bytes. `engine` and `columns` are the same. Throws InputError ("out
-/// of range") where wear is beyond what the sums hold; Cancelled.
+/// Does the work of ClutchSql::query by FixedSum, for an engine within the program: the sums of all
+/// new cycles, as integers, added to the stored ones. Rows are taken in their order while the
+/// cycles of each unit ascend; otherwise the engine sorts them. Memory holds the sums of
+/// `units_in_memory` units, which are then passed to the engine (0: up to a quarter of its memory
+/// limit); and for each unit its name and place, some 200 bytes. `engine` and `columns` are the
+/// same object. Throws InputError ("out of range") if wear exceeds the range of the sums;
+/// Cancelled.
 LoopFindings sum_by_loop(fleet::Engine& engine, fleet::ColumnEngine& columns, const ClutchSql& sql,
                          const WearModel& model, bool replicates, bool first,
                          std::size_t units_in_memory, const Monitor& monitor);

@@ -53,7 +53,7 @@ Table level_table(const FleetCounts& counts) {
                {"Worn", "%", given},
                {"Units", "1", fixed(1)},
                {"95 %", "1", fixed(1), true},
-               {"Of the fleet", "%", digits(3)}}};
+               {"Share of fleet", "%", digits(3)}}};
   for (std::size_t h = 0; h < counts.horizons().size(); ++h) {
     for (std::size_t l = 0; l < counts.levels().size(); ++l) {
       const UnitCount n = counts.reached(l, h);
@@ -74,11 +74,11 @@ Table worst_table(const FleetFindings& found) {
                {"Cycles", "1", fixed(0)},
                {"Volume", "mm^3", digits(5)},
                {"by scatter, ±", "mm^3", digits(3)},
-               {"by all, ±", "mm^3", digits(3)},
+               {"total, ±", "mm^3", digits(3)},
                {"Worn out already", "%", digits(3)},
                {"Cycles left", "1", present::life(5)},
                {"95 % by scatter", "1", present::life(5), true},
-               {"95 % by all", "1", present::life(5), true},
+               {"95 % total", "1", present::life(5), true},
                {"Cycles outside the range", "1", fixed(0)}}};
   for (std::size_t i = 0; i < std::min(worst_shown, found.units.size()); ++i) {
     const UnitRow& u = found.units[i];
@@ -90,7 +90,7 @@ Table worst_table(const FleetFindings& found) {
 }
 
 Table spread_table(const FleetCounts& counts) {
-  Table table{"spread", "How units differ: quantiles over the fleet", {{"Of each unit"}}};
+  Table table{"spread", "Unit-to-unit variation: quantiles over the fleet", {{"Of each unit"}}};
   for (const double p : quantiles)
     table.columns.push_back({fmt::format("{:g} %", 100 * p), "1", digits(4)});
   const auto add = [&](const std::string& name, const std::vector<float>& values, double scale) {
@@ -107,12 +107,12 @@ Table spread_table(const FleetCounts& counts) {
 
 Table outside_table(const WearModel& model, const FleetCounts& counts) {
   Table table{"outside",
-              "Cycles outside the range of the points that the model was made of",
+              "Cycles outside the calibrated range of the model",
               {{"Input"},
                {"From", "1", digits(4)},
                {"To", "1", digits(4)},
                {"Cycles outside", "1", fixed(0)},
-               {"Of all", "%", digits(3)}}};
+               {"Share", "%", digits(3)}}};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const double scale = duties[i].scale;
     table.rows.push_back({fmt::format("{} [{}]", duties[i].name, duties[i].unit),
@@ -125,7 +125,7 @@ Table outside_table(const WearModel& model, const FleetCounts& counts) {
   return table;
 }
 
-/// Shares of the fleet beyond each level, with their interval, one curve a horizon.
+/// Shares of the fleet beyond each level, with their interval, one curve per horizon.
 html::Figure level_figure(const FleetCounts& counts) {
   std::vector<plot::Json> marks;
   for (std::size_t h = 0; h < counts.horizons().size(); ++h) {
@@ -148,8 +148,8 @@ html::Figure level_figure(const FleetCounts& counts) {
     marks.push_back(plot::line({{"x", x}, {"y", y}}, look));
   }
   return {"levels", "Share of the fleet that has reached a level",
-          "Bands hold 95 %: what is not known of the model is the same for all units, so that no "
-          "number of units makes them narrow.",
+          "Bands are 95 % intervals: the uncertainty of the model is common to all units, so that "
+          "more units do not narrow them.",
           plot::plot("Share of the fleet beyond each wear level", {.title = "worn (%)"},
                      {.title = "units (%)", .low = 0}, std::move(marks))};
 }
@@ -246,12 +246,11 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
   std::vector<Check> checks;
   const double share = counts.outside_any() / counts.cycles();
   constexpr double much = 0.05;
-  checks.push_back(
-      {"extrapolation", share > much ? Verdict::warn : Verdict::pass,
-       fmt::format("{:.3g} % of the cycles, in {} of {} units, lie outside the range of "
-                   "the points that the model was made of",
-                   100 * share, counts.units_outside(), counts.units()),
-       ""});
+  checks.push_back({"extrapolation", share > much ? Verdict::warn : Verdict::pass,
+                    fmt::format("{:.3g} % of the cycles, in {} of {} units, lie outside the "
+                                "calibrated range of the model",
+                                100 * share, counts.units_outside(), counts.units()),
+                    ""});
   checks.push_back(
       {"negative", counts.negative() > much * counts.cycles() ? Verdict::warn : Verdict::pass,
        fmt::format("the model's wear rate is below 0 in {:.0f} cycles, which count as no wear",
@@ -260,12 +259,12 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
   if (const EnergyOutliers& far = found.outliers.all; far.count > 0)
     checks.push_back(
         {"energy-of-cycles", Verdict::fail,
-         fmt::format(
-             "{} of {:.0f} cycles read now {} more than {:g} times the energy of a closing, "
-             "1/2 x torque x slip speed x closing time; farthest off is cycle {} of unit "
-             "{}, {:.4g} J, {:.3g} times that",
-             far.count, found.rows, far.count == 1 ? "has" : "have", EnergyOutliers::most,
-             far.worst_cycle, printable(found.outliers.unit), far.worst_energy, far.worst_ratio),
+         fmt::format("{} of {:.0f} cycles read now {} more than {:g} times the energy of a "
+                     "closing, 1/2 x torque x slip speed x closing time; the largest is cycle {} "
+                     "of unit {}, {:.4g} J, {:.3g} times that",
+                     far.count, found.rows, far.count == 1 ? "has" : "have", EnergyOutliers::most,
+                     far.worst_cycle, printable(found.outliers.unit), far.worst_energy,
+                     far.worst_ratio),
          energy_advice});
   const FleetCounts::Implausible& energy = counts.implausible();
   checks.push_back(
@@ -280,9 +279,8 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
        energy.units == 0 ? "" : energy_advice});
   checks.push_back({"interval", found.replicates ? Verdict::pass : Verdict::warn,
                     found.replicates
-                        ? "the full interval knows of the map, run-in, plates and scatter"
-                        : "without replicates the full interval knows of plates and "
-                          "scatter only",
+                        ? "the full interval includes map, run-in, plates and scatter"
+                        : "without replicates the full interval includes plates and scatter only",
                     ""});
   return checks;
 }

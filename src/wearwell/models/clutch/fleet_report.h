@@ -11,11 +11,11 @@
 
 namespace wearwell::clutch {
 
-/// What a fleet's report is made of.
+/// The parts of a fleet's report.
 struct FleetFindings {
   std::string version, model_id, engine, source;
   std::vector<std::string> files;
-  double rows = 0;         ///< looked at in this run
+  double rows = 0;         ///< read in this run
   FleetOutliers outliers;  ///< among them
   bool replicates = true;
   std::vector<UnitRow> units;  ///< worst first
@@ -23,7 +23,7 @@ struct FleetFindings {
   std::string statements;  ///< that were run
 };
 
-/// The units whose full interval comes to its end first stand first; ties by what is left, then by name.
+/// Sorted by the end of the full interval, earliest first; ties by remaining cycles, then by name.
 void worst_first(std::vector<UnitRow>& units);
 
 Result fleet_result(const WearModel& model, const FleetCounts& counts, const FleetFindings& found);

@@ -17,14 +17,14 @@
 namespace wearwell::clutch {
 namespace {
 
-/// What a look at all rows tells before they are summed.
+/// Results of a scan of all rows before they are summed.
 struct FleetCheck {
   double rows = 0;
-  std::string ranges;  ///< least and most of each input, in words
+  std::string ranges;  ///< minimum and maximum of each input, as text
   FleetOutliers outliers;
 };
 
-/// "unit 7, cycle 4: torque is -1", of one row that no sum can take.
+/// "unit 7, cycle 4: torque is -1", of one row that cannot be summed.
 std::string invalid_row(fleet::Engine& engine, const ClutchSql& sql) {
   std::string found;
   engine.rows(sql.invalid_row, 1, [&](const fleet::Row& row) {
@@ -38,14 +38,14 @@ std::string invalid_row(fleet::Engine& engine, const ClutchSql& sql) {
                                : (temperature ? x >= -273.15 : x > 0) && x < 1e300;
       if (good) continue;
       found += fmt::format(" {} is {},", names[i],
-                           std::isnan(x) ? "no number" : fmt::format("{:.6g}", x));
+                           std::isnan(x) ? "not a number" : fmt::format("{:.6g}", x));
     }
     found.pop_back();
   });
   return found;
 }
 
-/// "torque 20 .. 31 N m" in the table's own unit; databases take NaN for the largest number.
+/// "torque 20 .. 31 N m" in the table's own unit; databases sort NaN as the largest number.
 std::string range_text(const char* name, const SqlColumn& column, double low, double high) {
   const auto end = [&](double x) {
     return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
@@ -54,7 +54,7 @@ std::string range_text(const char* name, const SqlColumn& column, double low, do
   return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
 }
 
-/// The cycles whose energy no closing has, by the one that is farthest off.
+/// The cycles with impossible energy, by the largest one.
 FleetOutliers outliers_of(fleet::Engine& engine, const ClutchSql& sql, double count) {
   FleetOutliers found;
   if (!(count > 0)) return found;
@@ -66,7 +66,7 @@ FleetOutliers outliers_of(fleet::Engine& engine, const ClutchSql& sql, double co
   return found;
 }
 
-/// Throws InputError for rows that no sum can take.
+/// Throws InputError for rows that cannot be summed.
 FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
   FleetCheck check;
   double refused = 0, outliers = 0;
@@ -88,26 +88,25 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
                           (energy - source.energy.offset) / source.energy.scale, source.energy.unit)
             : "energy not a number";
     if (nameless > 0)
-      throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
+      throw InputError(fmt::format("{}: {:.0f} rows have no unit", engine.source(), nameless));
   });
   if (refused > 0)
-    throw InputError(fmt::format(
-        "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be ({}, in SI and degC): "
-        "cycles are whole numbers of at least 1, temperatures above absolute zero, all else "
-        "positive "
-        "(these are: {})",
-        engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges));
+    throw InputError(
+        fmt::format("{}: {:.0f} rows of {:.0f} have a missing or impossible value ({}, in SI and "
+                    "degC): cycles are integers of at least 1, temperatures above absolute zero, "
+                    "all else positive (these are: {})",
+                    engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges));
   check.outliers = outliers_of(engine, sql, outliers);
   return check;
 }
 
 void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
   if (sums.repeated > 0)
-    throw InputError(fmt::format("{}: unit {} has {:.0f} cycles whose number stands there twice",
+    throw InputError(fmt::format("{}: unit {} has {:.0f} cycles with a repeated number",
                                  engine.source(), printable(sums.unit), sums.repeated));
 }
 
-/// Now, and after parts of the mean number of cycles so far, in round numbers.
+/// Now, and after fractions of the mean number of cycles so far, in round numbers.
 std::vector<double> horizons_of(double mean_cycles) {
   std::vector<double> horizons = {0};
   for (const double share : {0.25, 0.5, 1.0}) {
@@ -118,7 +117,7 @@ std::vector<double> horizons_of(double mean_cycles) {
   return horizons;
 }
 
-/// Where one engine stands.
+/// The progress of one engine.
 struct Shard {
   fleet::Engine& engine;
   ClutchSql sql = {};
@@ -128,23 +127,24 @@ struct Shard {
   FleetOutliers outliers = {};
 };
 
-/// Where a summand does not fit its column.
+/// A summand that does not fit its column.
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
-  if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
+  // rethrown unchanged: it may be a Lost
+  if (said.find("out of range") == std::string_view::npos) throw;
   if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
-  throw InputError(fmt::format(
-      "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
-      "They are: {} ({})",
-      shard.engine.source(), shard.ranges, said));
+  throw InputError(
+      fmt::format("{}: the wear of a cycle exceeds the range of the sums, or is not a number; "
+                  "check the readings. They are: {} ({})",
+                  shard.engine.source(), shard.ranges, said));
 }
 
-/// The engine as one whose rows a loop of our own sums; nullptr where statements do.
+/// The engine as one whose rows the built-in loop sums; nullptr if statements do.
 fleet::ColumnEngine* columns_of(fleet::Engine& engine, const FleetRequest& request) {
   return request.statements ? nullptr : dynamic_cast<fleet::ColumnEngine*>(&engine);
 }
 
-/// By a loop of our own: it looks at all rows while it sums.
+/// With the built-in loop: it checks all rows while it sums.
 void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
                        const FleetRequest& request, bool full, const Monitor& monitor) {
   const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model, full,
@@ -157,7 +157,7 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
   }
 }
 
-/// In portions, where an engine has to hold in memory what it sorts.
+/// In portions, if an engine must hold in memory what it sorts.
 void sum_by_statements(Shard& shard, const IdentifiedModel& model, const FleetRequest& request,
                        SqlSource source, bool full, const Monitor& monitor) {
   if (source.staged)
@@ -171,7 +171,7 @@ void sum_by_statements(Shard& shard, const IdentifiedModel& model, const FleetRe
   }
 }
 
-/// Everything up to the sums of its units, once.
+/// All steps up to the sums of its units, once.
 void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
   fleet::Engine& engine = shard.engine;
@@ -193,7 +193,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     shard.outliers = check.outliers;
   }
   try {
-    // ClickHouse has no transaction that would take the tables away again.
+    // ClickHouse has no transaction that would remove the tables again.
     const bool before = engine.dialect() == fleet::Dialect::clickhouse;
     if (before) refuse_other_layout(engine, shard.sql, request.prefix);
     engine.run(shard.sql.setup, {}, "", 0);
@@ -212,7 +212,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   }
 }
 
-/// The same, by a replica where a server is lost.
+/// The same, on a replica if a server is lost.
 void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
   constexpr int tries = 3;
@@ -225,7 +225,7 @@ void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   }
 }
 
-/// Horizons as asked for, now among them; else from the mean number of cycles.
+/// Requested horizons, with now added; else from the mean number of cycles.
 std::vector<double> horizons_for(const FleetRequest& request, const std::vector<Shard>& shards) {
   std::vector<double> horizons = request.horizons;
   if (horizons.empty()) {
@@ -273,10 +273,10 @@ void refuse_split(const std::vector<UnitRow>& units) {
   const auto twice =
       std::adjacent_find(names.begin(), names.end(), [](auto a, auto b) { return *a == *b; });
   if (twice != names.end())
-    throw InputError(fmt::format(
-        "unit {} has cycles in more than one of the databases: all rows of a unit must lie in one "
-        "(distribute them by unit)",
-        printable(**twice)));
+    throw InputError(
+        fmt::format("unit {} has cycles in more than one of the databases: all rows of a unit must "
+                    "be in one (distribute them by unit)",
+                    printable(**twice)));
 }
 
 }  // namespace
@@ -287,7 +287,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   std::vector<Shard> shards;
   for (fleet::Engine* engine : engines) shards.push_back({*engine});
   run_workers(static_cast<int>(shards.size()), [&](int i) {
-    // One engine's progress stands for that of all.
+    // The progress of one engine stands for all.
     sum_shard(shards[static_cast<std::size_t>(i)], model, request, full,
               i == 0 ? monitor : Monitor{.progress = {}, .stop = monitor.stop});
   });
@@ -299,7 +299,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   found.statements = shards.front().sql.setup + shards.front().sql.query;
   if (columns_of(*engines.front(), request))
     found.statements =
-        fleet::comment("Summed by a loop of the program's own. The statements give the same.") +
+        fleet::comment("Summed by the program's built-in loop. The statements give the same.") +
         found.statements;
   for (const Shard& shard : shards) {
     found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.description();
@@ -313,8 +313,8 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   found.days.finish();
   if (!request.days.empty() && !found.days.known)
     throw InputError(
-        "--days: nothing tells how many cycles a day units make: say with --columns time=COLUMN "
-        "when a cycle was, or cycles_per_day=COLUMN");
+        "--days: the cycles per day of units are unknown: add --columns time=COLUMN with the time "
+        "of a cycle, or cycles_per_day=COLUMN");
   FleetCounts counts(
       model.model, full, levels, horizons_for(request, shards),
       found.days.known && request.days.empty() ? std::vector<double>{30, 90, 365} : request.days);

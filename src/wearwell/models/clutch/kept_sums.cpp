@@ -11,7 +11,7 @@
 namespace wearwell::clutch {
 namespace {
 
-/// How many replicates columns v1, v2, ... hold.
+/// The number of replicates in columns v1, v2, ...
 std::size_t replicates_of(const std::vector<std::string>& columns) {
   return static_cast<std::size_t>(
       std::count_if(columns.begin(), columns.end(), [](const std::string& name) {
@@ -20,7 +20,7 @@ std::size_t replicates_of(const std::vector<std::string>& columns) {
       }));
 }
 
-/// The table that is there: its columns, and how many of them are its key.
+/// The existing table: its columns, and the number of those in its key.
 struct Layout {
   std::vector<std::string> columns;
   std::size_t key = 0;
@@ -50,10 +50,11 @@ void refuse_other_layout(fleet::Engine& engine, const ClutchSql& sql, const std:
   const char* elsewhere = duckdb ? "into another file (--state)" : "under another --prefix";
   const std::size_t here = replicates_of(sql.columns), there = replicates_of(found.columns);
   if ((here > 0) != (there > 0))
-    throw InputError(fmt::format(
-        "{} were made {} --scatter-only{}: go on with the same option, or sum all cycles anew, {}",
-        where, there > 0 ? "without" : "with",
-        here > 0 ? "" : ", or for a model that has replicates", elsewhere));
+    throw InputError(
+        fmt::format("{} were made {} --scatter-only{}: continue with the same option, or sum all "
+                    "cycles again, {}",
+                    where, there > 0 ? "without" : "with",
+                    here > 0 ? "" : ", or for a model that has replicates", elsewhere));
   if (here != there)
     throw InputError(
         fmt::format("{} are of a model of {} replicates, and this one has {}: sum all cycles {}",
@@ -64,8 +65,8 @@ void refuse_other_layout(fleet::Engine& engine, const ClutchSql& sql, const std:
   const bool keyed = engine.dialect() != fleet::Dialect::clickhouse;
   if (wanted != found.columns || (keyed && found.key != key))
     throw InputError(
-        fmt::format("{} are laid out as another version of wearwell has them, and cannot go on: "
-                    "sum all cycles anew, {}",
+        fmt::format("{} have the layout of another version of wearwell and cannot be continued: "
+                    "sum all cycles again, {}",
                     where, elsewhere));
 }
 
@@ -73,13 +74,13 @@ void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::strin
                    const std::string& prefix) {
   engine.rows(sql.others, 1, [&](const fleet::Row& row) {
     if (engine.dialect() != fleet::Dialect::duckdb)
-      throw InputError(fmt::format(
-          "{}: {}_sums holds sums of this table by other columns or units (--columns): go on with "
-          "those, or sum all cycles anew, under another --prefix",
-          engine.source(), prefix));
+      throw InputError(
+          fmt::format("{}: {}_sums has sums of this table by other columns or units (--columns): "
+                      "continue with those, or sum all cycles again, under another --prefix",
+                      engine.source(), prefix));
     throw InputError(
-        fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
-                    "on: sum all cycles anew, into another file",
+        fmt::format("{}: --state has the sums of another model ({}; this is {}) and cannot be "
+                    "continued: sum all cycles again, into another file",
                     engine.source(), printable(row.texts.front()), model));
   });
 }
@@ -87,9 +88,8 @@ void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::strin
 void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
   engine.rows(sql.late, 1, [&](const fleet::Row& row) {
     throw InputError(fmt::format(
-        "{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
-        "{:.0f} were counted: "
-        "rows came late or went; sum them all anew, {}",
+        "{}: unit {} has {:.0f} cycles up to the last counted one, but {:.0f} were counted: rows "
+        "came late or were removed; sum all cycles again, {}",
         engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1],
         engine.dialect() == fleet::Dialect::duckdb ? "without --state" : "under another --prefix"));
   });

@@ -7,18 +7,20 @@
 
 namespace wearwell::clutch {
 
-/// What earlier runs left in an engine, and a run is about to add to. Each throws InputError, with what to do instead.
+/// Checks of the sums that earlier runs left in an engine, before a run adds to them. Each throws
+/// InputError, with the remedy.
 
-/// Sums with other columns: with replicates where this run has none or the other way round, of other numbers of replicates,
-/// or of a version that kept a row for each run. With ClickHouse before the set-up, elsewhere after it.
+/// Sums with other columns: with replicates if this run has none or vice versa, of another number
+/// of replicates, or of a version that kept a row for each run. With ClickHouse before the set-up,
+/// elsewhere after it.
 void refuse_other_layout(fleet::Engine& engine, const ClutchSql& sql, const std::string& prefix);
 
-/// Sums of another model alone, in a file; in a server, sums of the same table by other columns or units. The table may hold only what is
-/// new: to begin anew beside those sums would lose what they have counted.
+/// In a file, sums of another model only; in a server, sums of the same table by other columns or
+/// units. The table may hold only new rows: starting again would lose what those sums have counted.
 void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model,
                    const std::string& prefix);
 
-/// A unit of which more or fewer rows lie before the last cycle counted than were counted.
+/// A unit with more or fewer rows before the last counted cycle than were counted.
 void refuse_late(fleet::Engine& engine, const ClutchSql& sql);
 
 }  // namespace wearwell::clutch

@@ -1,10 +1,10 @@
 #pragma once
 
-// What sums over billions of cycles spend their time in: eight numbers at once, and exp and ln that a compiler turns into
-// vectors where they stand in a plain loop. Every number is computed by the same operations wherever it stands, without
-// fused multiply-add: the same bits on every machine, however rows are cut. `WEARWELL_LANES` before a function has it compiled
-// for several processors, of which the program takes the best that it finds. (No comparisons of vectors: compiled so,
-// they fall apart into single numbers.)
+// The inner loops of sums over billions of cycles: eight numbers at once, and exp and ln in a form
+// that compilers vectorize in plain loops. Every number is computed by the same operations at any
+// position, without fused multiply-add: the same bits on every machine, for any division of rows.
+// `WEARWELL_LANES` before a function compiles it for several processors, of which the program uses
+// the best available. (No comparisons of vectors: compilers split them into scalars.)
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
@@ -25,7 +25,7 @@ inline constexpr int count = 8;
 
 typedef double Reals __attribute__((vector_size(64)));
 typedef long long Wholes __attribute__((vector_size(64)));
-/// In memory. (Of a vector alone the alignment depends on the processor that a function is compiled for.)
+/// In memory. (The alignment of a bare vector depends on the target processor of a function.)
 struct Line {
   alignas(64) double x[count];
 };
@@ -37,7 +37,7 @@ typedef double LooseReals __attribute__((vector_size(64), aligned(8), may_alias)
 typedef long long LooseWholes __attribute__((vector_size(64), aligned(8), may_alias));
 
 #pragma GCC diagnostic push
-// Everything here is inlined: there is no convention of calls to be kept.
+// Everything here is inlined, so the calling convention does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define WEARWELL_INLINE [[gnu::always_inline]] inline
 
@@ -63,20 +63,21 @@ WEARWELL_INLINE void add(long long* to, const Wholes& x) {
   *reinterpret_cast<LooseWholes*>(to) += x;
 }
 
-/// Added to a number of less than 2^51 it leaves the nearest whole number (the even one of two) in the
-/// lowest bits: bits(x + to_whole) - to_whole_bits.
+/// Added to a number of less than 2^51 it leaves the nearest integer (ties to even) in the lowest
+/// bits: bits(x + to_whole) - to_whole_bits.
 inline constexpr double to_whole = 0x1.8p52;
 inline constexpr long long to_whole_bits = 0x4338'0000'0000'0000LL;
 inline constexpr double largest_whole = 0x1p51;
 
-/// The first of eight are all ones, the others zero; from none to all.
+/// The first n of eight are all ones, the others zero.
 WEARWELL_INLINE Wholes first(long long how_many) {
   alignas(64) static constexpr long long table[2 * count] = {-1, -1, -1, -1, -1, -1, -1, -1};
   return *reinterpret_cast<const LooseWholes*>(table + count -
                                                (how_many < count ? how_many : count));
 }
 
-/// e^x within 1e-14 of it. Below -700 that of -700 (1e-304), beyond 709 that of 709 (8e307). NaN stays.
+/// e^x within 1e-14 of it. Below -700 that of -700 (1e-304), beyond 709 that of 709 (8e307). NaN
+/// stays.
 WEARWELL_INLINE double exp(double given) {
   constexpr double log2e = 1.4426950408889634;
   constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;

@@ -42,7 +42,7 @@ class Repeated {
   }
 
  private:
-  /// 1 + p + p^2 + ... of so many summands, p = exp(-energy_/scale).
+  /// 1 + p + p^2 + ... with this number of terms, p = exp(-energy_/scale).
   double series(double summands, double scale) const {
     return std::expm1(-summands * energy_ / scale) / std::expm1(-energy_ / scale);
   }
@@ -52,7 +52,7 @@ class Repeated {
   double slow_ = 0, fast_ = 0;  ///< volume by cycle, times exp(-energy before it/eps)
 };
 
-/// What is known of the volume after any number of repetitions.
+/// The distribution of the volume after any number of repetitions.
 struct Knowledge {
   const Repeated& repeated;
   const std::vector<Repeated>& replicates;
@@ -72,7 +72,8 @@ struct Knowledge {
     return std::sqrt(scatter * scatter + squares + plate * plate);
   }
 
-  /// Where volume + 2 sd first reaches the target, and volume - 2 sd last comes up to it.
+  /// First repetition where volume + 2 sd reaches the target, and last where volume - 2 sd is at
+  /// most the target.
   LifeInterval interval(double target, double middle,
                         double (Knowledge::*sd_at)(double) const) const {
     const auto end = [&](double sign) {
@@ -80,7 +81,7 @@ struct Knowledge {
         return repeated.volume(n) + sign * 2 * (this->*sd_at)(n) < target;
       };
       double low = sign > 0 ? 0 : middle, high = middle;
-      constexpr double farthest = 1e6;  // times the middle
+      constexpr double farthest = 1e6;  // times the estimate
       while (below(high)) {
         low = high;
         high *= 2;
@@ -122,7 +123,8 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
   life.sd = std::sqrt(variance);
   if (!std::isfinite(life.volume) || !std::isfinite(life.energy) || !std::isfinite(variance))
     throw InputError(
-        "the wear of this duty is no finite number; is the model far outside its range?");
+        "the wear of this duty is not a finite number; check whether the duty is far outside the "
+        "model's range");
   if (!(life.volume > 0)) throw InputError("the model predicts no wear under this duty");
 
   const Repeated repeated(w, model.run_in, duty);
@@ -142,7 +144,7 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     at.full_sd = known.full_sd(at.repetitions);
     if (!std::isfinite(at.repetitions) || !std::isfinite(at.full_sd))
       throw InputError(
-          fmt::format("wear level {} is too far away: no finite number of repetitions", level));
+          fmt::format("wear level {} needs more repetitions than a finite number", level));
     at.scatter = known.interval(target, at.repetitions, &Knowledge::scatter_sd);
     at.full = known.interval(target, at.repetitions, &Knowledge::full_sd);
     at.relative = 2 * at.sd / target;

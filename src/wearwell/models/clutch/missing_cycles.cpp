@@ -29,7 +29,7 @@ std::map<int, Span> by_plate(const Cycles& cycles) {
   return spans;
 }
 
-/// What ran between two weighings, with what was not logged.
+/// The cycles between two weighings, including those that were not logged.
 void add_block(Span logged, long long after, long long until, Cycles& out) {
   Cycle last = *logged.first;
   for (long long number = after + 1; number <= until; ++number) {
@@ -45,7 +45,7 @@ void fill_missing_cycles(Campaign& campaign) {
   require_ordered_cycles(campaign);
   const auto spans = by_plate(campaign.cycles);
   std::map<int, Cycles> filled;                            // up to the last weighing
-  std::map<int, std::pair<long long, long long>> missing;  // of how many, by plate
+  std::map<int, std::pair<long long, long long>> missing;  // number, by plate
   for (std::size_t i = 1; i < campaign.weighings.size(); ++i) {
     const Weighing &before = campaign.weighings[i - 1], &after = campaign.weighings[i];
     const auto span = spans.find(after.plate);
@@ -83,8 +83,8 @@ void fill_missing_cycles(Campaign& campaign) {
     const auto& [lost, ran] = counts;
     if (lost > 0)
       campaign.filled.push_back(
-          fmt::format("plate {}: {} of {} cycles ({:.2g} %) were not logged; each counts as the "
-                      "cycle before it",
+          fmt::format("plate {}: {} of {} cycles ({:.2g} %) were not logged; each counts as a copy "
+                      "of the previous cycle",
                       campaign.plate_name(plate), lost, ran,
                       100 * static_cast<double>(lost) / static_cast<double>(ran)));
   }

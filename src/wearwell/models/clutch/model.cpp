@@ -18,7 +18,8 @@ std::string_view clutch_truth();
 namespace clutch {
 namespace {
 
-/// The study and its data: what `wearwell update` joins rows to. There is no posterior to go on from.
+/// The study and its data, to which `wearwell update` joins rows. There is no posterior to carry
+/// on.
 std::string state_of(const ClutchStudy& study, bool trusted) {
   return prognosis::state_bytes(
       {"clutch-wear", trusted, {{study.file.filename(), study.file_text}, study.tables}, {}, {}});

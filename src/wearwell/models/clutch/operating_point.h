@@ -11,8 +11,8 @@ namespace wearwell::clutch {
 inline constexpr double rpm = std::numbers::pi / 30;
 
 /// Conditions of one closing of the clutch, or their mean over many (Haramina et al. 2025, section
-/// 2). SI but for the temperature: submodels of a polynomial depend on where an input has its zero,
-/// and the paper's is that of the Celsius scale.
+/// 2). SI except for the temperature: submodels of a polynomial depend on the origin of an input,
+/// and the paper uses the Celsius scale.
 struct OperatingPoint {
   double slip_speed = 0;    ///< omega0, at the start of closing, rad/s
   double torque = 0;        ///< M_z, mean over the closing, N m
@@ -20,13 +20,13 @@ struct OperatingPoint {
   double closing_time = 0;  ///< t2, until the slip ends, s
 };
 
-/// Friction energy of one closing, J, of a slip speed that falls evenly under a constant torque.
+/// Friction energy of one closing, J, for a slip speed that falls linearly under a constant torque.
 inline double closing_energy(const OperatingPoint& at) {
   return 0.5 * at.torque * at.slip_speed * at.closing_time;
 }
 
 /// The four numbers of an operating point, in the order of the files: name, unit in SI (Celsius for
-/// the temperature), and where it stands.
+/// the temperature), and position.
 struct Input {
   const char* name;
   const char* symbol;
@@ -39,10 +39,10 @@ inline constexpr std::array<Input, 4> inputs = {
     Input{"temperature", "Td", "K", &OperatingPoint::temperature},
     Input{"closing_time", "t2", "s", &OperatingPoint::closing_time}};
 
-/// What an operating point of a campaign is for.
+/// The purpose of an operating point of a campaign.
 enum class Role {
   model,          ///< of the full factorial
-  extrapolation,  ///< outside the factorial's ranges, to model with
+  extrapolation,  ///< outside the factorial's ranges, to fit
   validation      ///< inside, held out
 };
 

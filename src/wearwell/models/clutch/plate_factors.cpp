@@ -7,9 +7,9 @@
 namespace wearwell::clutch {
 namespace {
 
-/// Root of the expected square of a further plate's factor: the scatter of factors, with what is not
-/// known of it, and what the mean of the plates errs. The factors' sum is 0, which takes one of them
-/// off what is known of their scatter (as restricted maximum likelihood does).
+/// Root of the expected square of a further plate's factor: the scatter of factors, with its
+/// uncertainty, and the error of the mean of the plates. The factors' sum is 0, which costs one
+/// degree of freedom (as in restricted maximum likelihood).
 double new_plate_sd(const RunInFit& fit, const std::function<double(int)>& sd_at, int steps) {
   const auto plates = static_cast<double>(fit.plates.size());
   const double kept = 1 - 1 / plates;

@@ -4,9 +4,9 @@
 
 namespace wearwell::clutch {
 
-/// What the factors say of their own scatter: RunInFit::plate_sd, and each plate's expectation. The
+/// The scatter of plate factors: RunInFit::plate_sd, and each plate's posterior expectation. The
 /// prior of the scatter is flat (Gelman 2006), and it is integrated out on a grid: with a dozen
-/// plates the most likely scatter is often 0 where a few per cent are as credible.
+/// plates the maximum-likelihood scatter is often 0 while a few percent are equally credible.
 void shrink_factors(RunInFit& fit);
 
 }  // namespace wearwell::clutch

@@ -35,8 +35,8 @@ Decay decay(const Observation& o, double scale) {
   return {value, value + (o.from * a - o.to * b) / (o.to - o.from)};
 }
 
-/// Unknowns that do not enter linearly: log eps2, log(eps1/eps2 - 1), so that eps1 > eps2, and the
-/// log factors of all plates but the last, whose is minus their sum.
+/// Nonlinear unknowns: log eps2, log(eps1/eps2 - 1), so that eps1 > eps2, and the log factors of
+/// all plates except the last, which is minus their sum.
 class Problem {
  public:
   Problem(std::vector<Observation> observations, Index plates)
@@ -47,7 +47,7 @@ class Problem {
   Index unknowns() const { return 2 + plates_ - 1; }
   Index rows() const { return static_cast<Index>(observations_.size()); }
 
-  /// Weights for a scatter of one cycle; 0: as if the balance were perfect, up to a factor.
+  /// Weights for a scatter of one cycle; 0: for a perfect balance, up to a factor.
   void set_cycle_sd(double sd) {
     root_weight_.resize(rows());
     for (Index i = 0; i < rows(); ++i) {
@@ -86,7 +86,7 @@ class Problem {
       response[i] = root_weight_[i] * o.w;
     }
     if (!basis.allFinite()) return state;
-    // The best with w1, w2 >= 0: of four choices of those that are not 0.
+    // The best with w1, w2 >= 0: of four choices of the nonzero ones.
     std::vector<int> best;
     for (const std::vector<int>& active : {std::vector<int>{0, 1, 2}, std::vector<int>{0, 1},
                                            std::vector<int>{0, 2}, std::vector<int>{0}}) {
@@ -142,7 +142,7 @@ struct Search {
   bool converged = false;
 };
 
-/// Levenberg-Marquardt on what is left when the linear unknowns are eliminated.
+/// Levenberg-Marquardt on the problem with the linear unknowns eliminated.
 Search descend(const Problem& problem, const VectorXd& start) {
   constexpr int most_steps = 300;
   Search search{problem.evaluate(start), false};
@@ -167,7 +167,7 @@ Search descend(const Problem& problem, const VectorXd& start) {
     } else {
       damping *= 4;
       if (damping > 1e12) {
-        search.converged = true;  // no step helps
+        search.converged = true;  // no step improves it
         return search;
       }
     }
@@ -175,7 +175,7 @@ Search descend(const Problem& problem, const VectorXd& start) {
   return search;
 }
 
-/// Blocks of run-in and run-out; plates are numbered by first appearance.
+/// Blocks of run-in and run-out; plates are numbered by first occurrence.
 std::vector<Observation> observe(const std::vector<WornBlock>& blocks,
                                  std::map<int, Index>& number) {
   std::vector<Observation> observations;
@@ -211,14 +211,14 @@ Search search_from_starts(Problem& problem, double most_energy, double freedom, 
     best = descend(problem, best->state.x);
   }
   if (!std::isfinite(best->state.sum))
-    throw InputError("run-in: no start leads to wear rates that are not negative");
+    throw InputError("run-in: no start leads to non-negative wear rates");
   fit.converged = best->converged;
   fit.cycle_sd = std::sqrt(best->state.sum / freedom);
   fit.residual_sum = best->state.sum / freedom;
   return *std::move(best);
 }
 
-// Of w0, w1, w2 and the unknowns that are searched for.
+// Of w0, w1, w2 and the nonlinear unknowns.
 MatrixXd covariance_of(const MatrixXd& jacobian, double cycle_sd) {
   // Columns are of very different size: invert after scaling.
   const VectorXd length = jacobian.colwise().norm().cwiseMax(1e-300).transpose();
@@ -241,8 +241,8 @@ RunInFit fit_run_in(const std::vector<WornBlock>& blocks) {
   const Index plates = std::ssize(number);
   if (plates == 0 || std::ssize(observations) <= 5 + plates - 1 || !(most_energy > 0))
     throw InputError(
-        fmt::format("run-in: {} blocks of run-in and run-out on {} plates cannot give 5 constants "
-                    "and the plates' factors",
+        fmt::format("run-in: {} blocks of run-in and run-out on {} plates are too few for 5 "
+                    "constants and the plates' factors",
                     observations.size(), plates));
   Problem problem(std::move(observations), plates);
   RunInFit fit;
@@ -308,7 +308,7 @@ std::vector<RunIn> repeat_run_in(const std::vector<WornBlock>& blocks, const Run
       o.w = w * std::exp(problem.log_factor(x, o.plate)) + sd * rng.normal();
     }
     const Problem::State state = descend(problem, x).state;
-    // A settled rate of next to nothing beside the modes is no scale to divide by.
+    // A settled rate that is negligible beside the modes cannot serve as a scale.
     const double w0 = std::max(state.linear[0], 1e-6 * state.linear.sum());
     run_ins.push_back(w0 > 0 && std::isfinite(state.sum)
                           ? RunIn{state.linear[1] / w0, state.linear[2] / w0,

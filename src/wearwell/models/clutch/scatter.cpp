@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// sigma_w at a modelling point is at least this share of what the residuals show on the whole.
+/// Lower bound of sigma_w at a fitted point, as a share of the overall residual scatter.
 constexpr double least_share = 0.02;
 constexpr int random_starts = 10;
 
@@ -22,7 +22,7 @@ VectorXd corrected_residuals(const WearMap& map) {
 }
 
 /// A candidate in coordinates of order one: sigma_w = unit * exp(a0 + a1 x1) or unit * sum a_i x_i,
-/// the x being centred and scaled features with x0 = 1.
+/// where x are centered and scaled features with x0 = 1.
 class Candidate {
  public:
   Candidate(ScatterKind kind, const WearPoints& points, const WearMap& map)

@@ -15,7 +15,7 @@ struct ScatterFit {
   double negative_log_likelihood = 0;  ///< wear rates in mm^3/MJ
   double aic = 0;                      ///< 2 (parameters + negative log likelihood)
   bool converged = false;
-  int starts = 0, agreeing = 0;  ///< tried; that reached the best
+  int starts = 0, agreeing = 0;  ///< number tried; number that reached the best
   KolmogorovTest kolmogorov, lilliefors;
   AndersonDarlingTest anderson_darling;
 };
@@ -23,12 +23,13 @@ struct ScatterFit {
 struct ScatterSearch {
   std::vector<ScatterFit> candidates;  ///< in the order of scatter_kinds
   std::size_t best = 0;                ///< smallest AIC
-  /// No sigma_w is credited below this: half the least at the modelling points, by each candidate.
+  /// Floor of sigma_w: half the smallest at the fitted points, for each candidate.
   std::vector<double> floors;
 };
 
-/// Standard deviations of the wear rates of points: sqrt(sigma_w^2/(n_j factor_j^2) + balance_sd^2).
-/// The scatter of a cycle does not grow with run-in and plate, so that compensation divides it too.
+/// Standard deviations of the wear rates of points: sqrt(sigma_w^2/(n_j factor_j^2) +
+/// balance_sd^2). The scatter of a cycle does not grow with run-in and plate, so compensation
+/// divides it too.
 Eigen::VectorXd point_sd(const ScatterLaw& law, const WearPoints& points,
                          const Eigen::VectorXd& mean);
 
@@ -37,11 +38,11 @@ Eigen::VectorXd point_sd(const ScatterLaw& law, const WearPoints& points,
 ///
 ///   e_j / sqrt(1 - h_j) ~ N(0, sigma_w^2/(n_j factor_j^2) + balance_sd_j^2).
 ///
-/// The leverages h_j give back what fitting the map took off the residuals; the paper's formula has
-/// e_j alone.
+/// The leverages h_j correct for the residuals that the fit of the map absorbs; the paper's formula
+/// has e_j alone.
 ScatterSearch fit_scatter(const WearPoints& points, const WearMap& map);
 
-/// Those residuals divided by their standard deviation: N(0, 1) when all is right.
+/// Those residuals divided by their standard deviation: N(0, 1) if the model is right.
 Eigen::VectorXd scaled_residuals(const WearPoints& points, const WearMap& map,
                                  const ScatterLaw& law);
 

@@ -44,7 +44,7 @@ class Builder {
     add(replicate, "fast", run_in.fast);
     add(replicate, "slow_energy", run_in.slow_energy);
     add(replicate, "fast_energy", run_in.fast_energy);
-    // Multiplied by once a row, where a division takes longer.
+    // A factor applied once per row, where a division takes longer.
     add(replicate, "slow_rate", -1 / run_in.slow_energy);
     add(replicate, "fast_rate", -1 / run_in.fast_energy);
   }
@@ -55,7 +55,7 @@ class Builder {
   int count_ = 0;
 };
 
-/// c[0] + x (c[1] + x (c[2] + x c[3])), what is empty left out.
+/// c[0] + x (c[1] + x (c[2] + x c[3])), without empty terms.
 std::string nested(const std::array<std::string, 4>& c, const std::string& x) {
   std::string text;
   for (int p = 3; p >= 0; --p) {

@@ -8,7 +8,7 @@
 
 namespace wearwell::clutch {
 
-/// Expressions of a SELECT with their names, a line each.
+/// Expressions of a SELECT with their names, one line each.
 class SqlColumns {
  public:
   void add(const std::string& expression, const std::string& name) {
@@ -24,7 +24,7 @@ class SqlColumns {
 inline constexpr const char* input_columns[] = {"slip_speed", "torque", "temperature",
                                                 "closing_time"};
 
-/// What is counted for each unit.
+/// The counts of each unit.
 inline constexpr const char* count_names[] = {"cycles",
                                               "refused",
                                               "repeated",
@@ -35,8 +35,8 @@ inline constexpr const char* count_names[] = {"cycles",
                                               "outside_any",
                                               "negative"};
 
-/// Writes the statements of one model. A query is SELECTs in each other, from the rows outwards: every level
-/// adds columns to those of the level within.
+/// Writes the statements of one model. A query is nested SELECTs, from the rows outward: every
+/// level adds columns to those of the level within.
 class SqlWriter {
  public:
   SqlWriter(const WearModel& model, const std::string& id, fleet::Dialect dialect,
@@ -68,11 +68,11 @@ class SqlWriter {
   }
   bool clickhouse() const { return dialect_ == fleet::Dialect::clickhouse; }
   std::string count_if(const std::string& condition) const;
-  /// Of rows that are not refused; elsewhere these are nothing, which meets no condition.
+  /// Of accepted rows; for others these are null, which meets no condition.
   std::string counted(const std::string& condition) const {
     return clickhouse() ? "valid = 1 and (" + condition + ")" : condition;
   }
-  /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
+  /// PostgreSQL would inline expressions, and compute them as often as they are used.
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
   std::string kept_names() const;
@@ -88,7 +88,7 @@ class SqlWriter {
   std::string ordered() const;
   std::string ordered_by_arrays() const;
   std::string setup_of_clickhouse(const std::string& rows) const;
-  /// All sums of the model: what was kept and what is new.
+  /// All sums of the model: stored and new.
   std::string known_sums() const;
   std::string fresh_of_clickhouse(const std::string& rows) const;
   std::string powers() const;
@@ -103,7 +103,7 @@ class SqlWriter {
   const WearModel& model_;
   fleet::Dialect dialect_;
   const SqlSource& source_;
-  std::string table_key_;  ///< what keys of sums of this table begin with; empty for DuckDB
+  std::string table_key_;  ///< prefix of the keys of sums of this table; empty for DuckDB
   std::string id_;         ///< the key of this run's sums, as a literal
   SqlParameters parameters_;
   FixedUnits units_;

@@ -6,9 +6,10 @@
 
 namespace wearwell::clutch {
 
-/// What the keys of sums of one table in a server begin with: several tables may share one prefix. `model`: SHA-1 of model.json.
+/// Prefix of the keys of sums of one table in a server: several tables may share one table prefix.
+/// `model`: SHA-1 of model.json.
 std::string table_key(const std::string& model, const SqlSource& source);
-/// How the table was read: names and units of its columns, as twelve hexadecimal digits.
+/// How the table is read: names and units of its columns, as twelve hexadecimal digits.
 std::string columns_key(const SqlSource& source);
 
 }  // namespace wearwell::clutch

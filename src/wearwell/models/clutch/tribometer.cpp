@@ -11,12 +11,13 @@
 namespace wearwell::clutch {
 namespace {
 
-// Standard deviations of one cycle's conditions about the set values, relative but for temperature.
+// Standard deviations of one cycle's conditions about the set values, relative except for
+// temperature.
 constexpr double speed_jitter = 0.005, torque_jitter = 0.01, temperature_jitter = 1.5,
                  time_jitter = 0.01;
 constexpr long long longest_life = 10'000'000;  // of one plate
 
-/// What the rig logs has so many steps to a unit: decimals are those that a file would hold.
+/// Resolution of the rig's log, in steps per unit: the decimals of its files.
 double rounded(double x, double per_unit) {
   return std::round(x * per_unit) / per_unit;
 }
@@ -41,8 +42,8 @@ class Plate {
   void close(const OperatingPoint& set) {
     if (cycle_ == longest_life)
       throw InputError(
-          fmt::format("plate {} would need more than {} cycles: the truth hardly wears", number_,
-                      longest_life));
+          fmt::format("plate {} would need more than {} cycles: the true wear is too small",
+                      number_, longest_life));
     OperatingPoint at;
     at.slip_speed = rpm * std::round(set.slip_speed * (1 + speed_jitter * rng_.normal()) / rpm);
     at.torque = rounded(set.torque * (1 + torque_jitter * rng_.normal()), 10);
@@ -104,7 +105,7 @@ struct Ranges {
   OperatingPoint low, high;
 };
 
-/// What the factorial spans.
+/// The ranges of the factorial.
 Ranges ranges_of(const std::vector<DesignPoint>& design) {
   Ranges ranges;
   bool first = true;
@@ -122,8 +123,8 @@ Ranges ranges_of(const std::vector<DesignPoint>& design) {
 }
 
 /// Changing conditions until the plate is worn out: slip speed, torque and closing time of each
-/// cycle are drawn anew; the temperature wanders in the floating sequence and holds its middle in
-/// the other.
+/// cycle are drawn independently; the temperature wanders in the floating sequence and stays at its
+/// middle in the other.
 void run_sequence(Plate& plate, const std::string& name, const Ranges& ranges, const Truth& truth) {
   Rng& rng = plate.rng();
   const auto drawn = [&](double OperatingPoint::*value) {
@@ -172,7 +173,7 @@ Simulation simulate(const std::vector<DesignPoint>& design, const Truth& truth,
   simulation.campaign.density = truth.density;
   simulation.campaign.balance_sd = truth.balance_sd;
 
-  // A shuffled deck, dealt to the plates.
+  // Shuffled points, dealt to the plates.
   std::vector<const DesignPoint*> deck;
   for (const DesignPoint& point : design) deck.push_back(&point);
   Rng shuffler(seed, 0);

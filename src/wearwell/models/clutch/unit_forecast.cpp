@@ -9,10 +9,10 @@ namespace wearwell::clutch {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Beyond so many times the cycles until the middle, or run until now, no end is looked for.
+/// Limit of the search for an end, in multiples of the estimated life or of the cycles so far.
 constexpr double farthest = 1e6;
 
-/// Where `f` turns from below 0 to above.
+/// The point where `f` changes from negative to non-negative.
 template <class F>
 double turn(double low, double high, const F& f) {
   const double at_low = f(low), at_high = f(high);
@@ -24,7 +24,7 @@ double turn(double low, double high, const F& f) {
   return 0.5 * (a + b);
 }
 
-/// The first n >= `from` at which `f` is not below 0; infinite beyond `most`.
+/// The first n >= `from` at which `f` is non-negative; infinite beyond `most`.
 template <class F>
 double first_not(double from, double step, double most, const F& f) {
   if (!(f(from) < 0)) return from;
@@ -69,7 +69,7 @@ UnitForecast::UnitForecast(const WearModel& model, const UnitSums& sums)
         b == 0 ? model.run_in : model.replicates[static_cast<std::size_t>(b - 1)].run_in;
     volume_[b] = b == 0 ? sums.volume : sums.volumes[b - 1];
     rate_[b] = (b == 0 ? sums.settled : sums.settleds[b - 1]) / sums.cycles;
-    // A geometric series: what both modes still give, were the unit to run for ever.
+    // A geometric series: the remaining contribution of both modes, if the unit ran for ever.
     const auto left = [&](double share, double scale) {
       return rate_[b] * share * std::exp(-sums.energy / scale) / -std::expm1(-duty / scale);
     };

@@ -15,8 +15,8 @@ namespace wearwell::clutch {
 struct UnitSums {
   std::string unit;
   double last_cycle = 0, cycles = 0;
-  double refused = 0;   ///< rows without values that can be; not among `cycles`
-  double repeated = 0;  ///< rows whose number another row has too
+  double refused = 0;   ///< rows with invalid values; not among `cycles`
+  double repeated = 0;  ///< rows with a repeated number
   std::array<double, 4> outside{};
   double outside_any = 0, negative = 0;
   double energy = 0, volume = 0, variance = 0;
@@ -26,9 +26,9 @@ struct UnitSums {
 };
 UnitSums unit_sums(const fleet::Row& row, std::size_t replicates);
 
-/// What a unit's wear is, and will be after more cycles of its own mean duty: n cycles, each of the
-/// mean energy and of the mean volume of one that is run in. Run-in goes on from the energy that it
-/// has taken up, at the start of each cycle as in CycleSum.
+/// The wear of a unit now, and after more cycles of its own mean duty: n cycles, each with the mean
+/// energy and the mean run-in volume. Run-in continues from the absorbed energy, at the start of
+/// each cycle as in CycleSum.
 class UnitForecast {
  public:
   UnitForecast(const WearModel& model, const UnitSums& sums);
@@ -41,15 +41,15 @@ class UnitForecast {
   double scatter_sd(double more) const;
   double full_sd(double more) const;  ///< as PlateWear::full_sd
 
-  /// Cycles from now until the volume is that; 0 where it is already, infinite where it never will be.
+  /// Cycles from now until this volume; 0 if it is reached already, infinite if it never is.
   double until(double target) const;
-  /// From the first cycle after which volume + 2 sd holds the target to the last before volume - 2 sd
-  /// does.
+  /// From the first cycle after which volume + 2 sd reaches the target to the last at which volume
+  /// - 2 sd is below it.
   LifeInterval scatter_interval(double target) const;
   LifeInterval full_interval(double target) const;
 
-  /// A unit of its kind, with the scatter of its cycles and a factor of its own, after `more` cycles if
-  /// replicate b is true.
+  /// A unit with the scatter of its cycles and its own factor, after `more` cycles, given replicate
+  /// b.
   struct Ahead {
     double mean = 0, sd = 0;
     double reached(double target) const;  ///< probability that it has
@@ -64,7 +64,8 @@ class UnitForecast {
 
   const WearModel& model_;
   double cycles_, variance_;
-  /// By replicate: volume, mean volume of a cycle, what is left of the two modes of run-in, and their rates a cycle.
+  /// By replicate: volume, mean volume of a cycle, remaining contribution of the two modes of
+  /// run-in, and their rates per cycle.
   Eigen::ArrayXd volume_, rate_, slow_, fast_, slow_rate_, fast_rate_;
 };
 

@@ -26,8 +26,8 @@ ScatterKind read_scatter_kind(const std::string& name) {
   for (const ScatterKind kind : scatter_kinds) {
     if (name == name_of(kind)) return kind;
   }
-  throw InputError(
-      fmt::format("'{}' is none of 'exponential', 'linear', 'quadratic', 'conditions'", name));
+  throw InputError(fmt::format(
+      "'{}' is unknown; use 'exponential', 'linear', 'quadratic' or 'conditions'", name));
 }
 
 }  // namespace wearwell::clutch

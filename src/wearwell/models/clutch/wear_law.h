@@ -17,7 +17,7 @@ inline double power(double x, int n) {
 }
 
 /// Run-in (Haramina et al. 2025, section 3.2): w(Ec) = w0 + w1 exp(-Ec/eps1) + w2 exp(-Ec/eps2)
-/// over the energy Ec that a plate has taken up. g = w/w0 is at least 1.
+/// over the energy Ec that a plate has absorbed. g = w/w0 is at least 1.
 struct RunIn {
   double slow = 0;         ///< w1/w0
   double fast = 0;         ///< w2/w0
@@ -38,7 +38,7 @@ struct RunIn {
   }
 };
 
-/// How the scatter of one cycle's wear rate depends on where it runs (Table 6).
+/// The dependence of the scatter of one cycle's wear rate on its conditions (Table 6).
 enum class ScatterKind {
   exponential,  ///< p1 exp(p2 w)
   linear,       ///< p1 + p2 w
@@ -53,7 +53,7 @@ struct ScatterLaw {
   ScatterKind kind = ScatterKind::linear;
   std::vector<double> p;
 
-  /// As the formula says, which may be negative far from the data.
+  /// The value of the formula, which may be negative far from the data.
   double formula(double w, const OperatingPoint& at) const {
     switch (kind) {
       case ScatterKind::exponential:
@@ -78,7 +78,7 @@ const char* formula_of(ScatterKind kind);
 /// Throws InputError for another name.
 ScatterKind read_scatter_kind(const std::string& name);
 
-/// The units in which energies and wear rates are told, in J and m^3/J.
+/// The units of reported energies and wear rates, in J and m^3/J.
 inline constexpr double MJ = 1e6;
 inline constexpr double mm3_per_MJ = 1e-15;
 

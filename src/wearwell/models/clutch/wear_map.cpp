@@ -54,7 +54,7 @@ WearMap fit_terms(WearMap map, const WearPoints& points, const Eigen::MatrixXd& 
 
 const char* const temperature_map = "temperature";
 
-/// By r, then by q; nothing is known of them yet.
+/// By r, then by q; not yet computed.
 std::vector<PairBest> pairs_of(const std::vector<double>& exponents) {
   std::vector<PairBest> pairs;
   for (const double r : exponents) {
@@ -75,7 +75,7 @@ class PairSearch {
 
   double submodels() const { return std::ldexp(1.0, static_cast<int>(terms_.size())) - 1; }
 
-  /// Fills in the best submodel; none where its PRESS would exceed `at_most`.
+  /// Fills in the best submodel; empty if its PRESS would exceed `at_most`.
   void solve(PairBest& pair, const std::vector<int>& start, double at_most = INFINITY) const {
     SearchSettings settings;
     settings.keep = 1;
@@ -91,7 +91,7 @@ class PairSearch {
     pair.terms = best.terms;
   }
 
-  /// PRESS of one model; infinite where it cannot be fitted.
+  /// PRESS of one model; infinite if it cannot be fitted.
   double press(const PairBest& pair, const std::vector<int>& terms) const {
     const Eigen::MatrixXd chosen = columns(pair)(Eigen::all, terms);
     const SearchProblem problem(chosen, points_.w, {}, Criterion::loo);
@@ -159,7 +159,7 @@ ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
   const auto start = std::chrono::steady_clock::now();
   const PairSearch one(points, surrogate, drop_temperature);
   ExponentSearch search{surrogate, exponents, pairs_of(exponents), 0, one.submodels(), 0};
-  // Along a row of the exponents the best model changes little: the one before is a good start.
+  // Along a row of the exponents the best model changes little: the previous one is a good start.
   const auto solve_row = [&](int row) {
     const std::size_t size = exponents.size(), first = static_cast<std::size_t>(row) * size;
     std::vector<int> before;
@@ -188,7 +188,7 @@ PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
     one.solve(middle, {});
     terms = middle.terms;
   }
-  // The promising pairs first, so that the others are left early.
+  // The promising pairs first, so that the others end early.
   std::vector<double> promise(pairs.size());
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -204,7 +204,7 @@ PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
       const std::lock_guard lock(mutex);
       most = least;
     }
-    // A little more than the best, so that rounding leaves no equal behind.
+    // A little more than the best, so that rounding does not drop a tie.
     one.solve(pair, terms, most * (1 + 1e-9));
     if (progress) progress->advance(1);
     const std::lock_guard lock(mutex);

@@ -18,21 +18,21 @@ struct WearPoints {
   Eigen::VectorXd w;           ///< m^3/J
   Eigen::VectorXd cycles;      ///< n_j
   Eigen::VectorXd balance_sd;  ///< of w, m^3/J
-  /// Of points that were compensated, or empty: what w was divided by, for run-in and plate; the
-  /// plate, and the energy that it had taken up before and after, J.
+  /// Of compensated points, or empty: the divisor of w, for run-in and plate; the plate, and its
+  /// absorbed energy before and after, J.
   Eigen::VectorXd factor;
   std::vector<int> plate;
   std::vector<double> from, to;
 
   Eigen::Index size() const { return w.size(); }
-  /// The cycles that would scatter as much without compensation: cycles factor^2.
+  /// The number of cycles with the same scatter without compensation: cycles factor^2.
   Eigen::VectorXd effective_cycles() const {
     return factor.size() == 0 ? cycles : cycles.cwiseProduct(factor.cwiseAbs2());
   }
 };
 
-/// What stands for two or three of the inputs (Haramina et al. 2025, section 3.3 and Table A1).
-/// Only the distance is the paper's to the letter; it does not print the other two, which are ours.
+/// Substitutes for two or three of the inputs (Haramina et al. 2025, section 3.3 and Table A1).
+/// Only the distance is printed in the paper; the other two are our own.
 enum class Surrogate {
   distance,  ///< ds = omega0^r t2^q, beside Td and Mz
   power,     ///< ps = omega0^r Mz^q, beside Td and t2
@@ -44,7 +44,7 @@ const char* name_of(Surrogate surrogate);
 
 /// Names of the inputs of the polynomial, the surrogate first.
 std::vector<std::string> input_names(Surrogate surrogate);
-/// Their values, one row a point.
+/// Their values, one row per point.
 Eigen::MatrixXd input_values(Surrogate surrogate, double r, double q,
                              const std::vector<OperatingPoint>& at);
 
@@ -69,16 +69,16 @@ std::vector<double> paper_exponents();
 
 /// At every pair of exponents the best of all submodels of the cubic polynomial by leave-one-out,
 /// exactly (regress/subset_search.h): 2^20 - 1 submodels for three inputs. `drop_temperature`
-/// leaves Td out, for points of one temperature. Ties go to the smaller r, then q. Does not depend
-/// on the number of threads. `progress`, where there is one, advances by one a pair. Throws
-/// InputError for points that no polynomial can be fitted to.
+/// leaves out Td, for points of one temperature. Ties go to the smaller r, then q. Does not depend
+/// on the number of threads. `progress`, if given, advances by one per pair. Throws InputError for
+/// points that no polynomial can fit.
 ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads = 0,
                                 bool drop_temperature = false, Progress* progress = nullptr);
 
-/// The best of those pairs alone, the same as search_exponents finds: a pair is left as soon as it
-/// is certain that it holds nothing better than another. `start`: terms of a model that may be
-/// good, or none; they change the time only.
+/// Only the best of those pairs, the same as from search_exponents: the search of a pair ends as
+/// soon as it certainly cannot beat another. `start`: terms of a promising model, or empty; they
+/// change only the time.
 PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
                         const std::vector<double>& exponents, const std::vector<int>& start,
                         int threads = 0, bool drop_temperature = false,
@@ -94,7 +94,7 @@ struct WearMap {
   LinearFit fit;           ///< on the scaled terms
 
   Eigen::VectorXd predict(const std::vector<OperatingPoint>& at) const;
-  /// Scaled terms, one row a point.
+  /// Scaled terms, one row per point.
   Eigen::MatrixXd rows(const std::vector<OperatingPoint>& at) const;
 };
 

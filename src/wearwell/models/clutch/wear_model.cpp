@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr double outlier_level = 0.05;
 constexpr std::size_t bootstrap_exponents = 6;
 
-/// How often each input stands in a term.
+/// The power of each input in a term.
 std::array<int, 3> powers_of(const Term& term) {
   std::array<int, 3> powers{};
   for (const int factor : term.factors) ++powers[static_cast<std::size_t>(factor)];
@@ -40,7 +40,7 @@ std::vector<double> spread_out(const std::vector<double>& exponents, double own)
   return chosen;
 }
 
-/// The exponents of a repeated search: the map's own, and some.
+/// The exponents of a repeated search: the map's own, and some others.
 std::vector<double> tried_exponents(const std::vector<double>& exponents, const WearMap& map) {
   std::vector<double> tried = spread_out(exponents, map.r);
   const std::vector<double> others = spread_out(exponents, map.q);
@@ -57,7 +57,7 @@ WearMap search_again(const WearPoints& points, const WearMap& map, const std::ve
   return fit_map("replicate", points, map.surrogate, best.r, best.q, 3, best.terms);
 }
 
-/// The plates' factors by which the measurements are off, relative, by plate.
+/// The errors of the plates' factors in the measurements, relative, by plate.
 std::map<int, double> factor_errors(const RunInFit& run_in, Rng& rng) {
   std::map<int, double> errors;
   for (const PlateFactor& plate : run_in.plates)

@@ -33,14 +33,14 @@ struct ModelTerm {
   double coefficient = 0;  ///< of x', m^3/J
 };
 
-/// One of the models that chance might have led to instead: fitted to simulated measurements, with
-/// its own exponents and terms, and a run-in drawn from its uncertainty.
+/// A bootstrap replicate of the model: fitted to simulated measurements, with its own exponents and
+/// terms, and a run-in drawn from its uncertainty.
 struct Replicate {
   WearPolynomial w;
   RunIn run_in;
 };
 
-/// All that prediction needs.
+/// Everything that prediction needs.
 struct WearModel {
   std::string title;
   double r = 1, q = 1;
@@ -49,9 +49,9 @@ struct WearModel {
   RunIn run_in;
   Eigen::Matrix4d run_in_covariance = Eigen::Matrix4d::Zero();
   ScatterLaw scatter;
-  double scatter_floor = 0;        ///< sigma_w is not credited below this, m^3/J
+  double scatter_floor = 0;        ///< floor of sigma_w, m^3/J
   double plate_sd = 0;             ///< of the log of a new plate's factor
-  OperatingPoint lowest, highest;  ///< range of validity: of the points modelled with
+  OperatingPoint lowest, highest;  ///< calibrated range: of the fitted points
   double worn_out = 0;             ///< volume, m^3
   std::vector<Replicate> replicates;
 
@@ -61,33 +61,33 @@ struct WearModel {
   }
 };
 
-/// The range of validity is widened by this share at either end: conditions jitter about their set
+/// The calibrated range is widened by this share at either end: conditions vary about their set
 /// values.
 inline constexpr double validity_slack = 0.01;
 
-/// Inputs outside the range of validity: bit i is `inputs[i]`.
+/// Inputs outside the calibrated range: bit i is `inputs[i]`.
 unsigned outside(const WearModel& model, const OperatingPoint& at);
 /// "slip_speed temperature"
 std::string names_of_inputs(unsigned bits);
 
-/// Covariance of the map's coefficients with the scatter of each point, not one for all (White
-/// 1980): (X'X)^-1 X' diag(sd_j^2) X (X'X)^-1.
+/// Covariance of the map's coefficients with the scatter of each point, instead of a common one
+/// (White 1980): (X'X)^-1 X' diag(sd_j^2) X (X'X)^-1.
 Eigen::MatrixXd robust_covariance(const WearMap& map, const Eigen::VectorXd& sd);
 
-/// The monomials of a fitted map, its scaling undone.
+/// The monomials of a fitted map, without its scaling.
 WearPolynomial unscaled(const WearMap& map);
 
-/// Puts a model together. `replicates` are added by draw_replicates.
+/// Assembles a model. `replicates` are added by draw_replicates.
 WearModel make_model(const std::string& title, const WearPoints& points, const WearMap& map,
                      const RunInFit& run_in, const ScatterSearch& scatter, double worn_out);
 
 /// Parametric bootstrap of the whole fit, one for each of `run_ins` (repeat_run_in): measurements
-/// are simulated from the map, the scatter of its points and what is not known of the plates'
-/// factors, and compensated with that run-in, as those on the rig were with the fitted one; its
-/// errors are then in the map as well, where they undo much of themselves. To each set the best
-/// submodel is searched exactly anew at every pair of a subset of `exponents` (six of each, and the
-/// map's own), so that the choice of exponents and terms varies as it does with new data. Replicate
-/// b owns random stream b. Does not depend on the number of threads.
+/// are simulated from the map, the scatter of its points and the uncertainty of the plates'
+/// factors, and compensated with that run-in, as the real ones were with the fitted one; its errors
+/// are then in the map as well, where they largely cancel. For each set the best submodel is
+/// searched exactly at every pair of a subset of `exponents` (six of each, and the map's own), so
+/// that the choice of exponents and terms varies as with new data. Replicate b owns random stream
+/// b. Does not depend on the number of threads.
 std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& map,
                                        const Eigen::VectorXd& sd, const RunInFit& run_in,
                                        const std::vector<RunIn>& run_ins,
@@ -99,7 +99,7 @@ struct ValidationPoint {
   int number = 0;
   double measured = 0, predicted = 0;  ///< m^3/J
   double sd = 0;                       ///< of their difference
-  double t = 0;  ///< studentized deletion residual: difference/sd, the point not having been fitted
+  double t = 0;  ///< studentized deletion residual: difference/sd, for a point outside the fit
   bool outlier = false;
 };
 
@@ -115,12 +115,12 @@ struct Validation {
   Metrics all, without_outliers;
 };
 
-/// Compares a map with points that it was not fitted to.
+/// Compares a map with points outside its fit.
 Validation validate(const WearMap& map, const Eigen::MatrixXd& covariance, const ScatterLaw& law,
                     const WearPoints& held_out);
 
-/// What averaging the inputs over a point changes (Table A3): volume predicted from the mean inputs
-/// against the sum over its cycles, relative.
+/// The effect of averaging the inputs over a point (Table A3): volume predicted from the mean
+/// inputs against the sum over its cycles, relative.
 struct AveragingEffect {
   std::vector<int> point;
   std::vector<double> change;

@@ -33,7 +33,7 @@ std::map<int, long long> checked_cycles(const Campaign& campaign) {
       throw InputError(fmt::format("{}, cycle {} follows cycle {}; cycles must ascend", here(),
                                    cycle.number, campaign.cycles[i - 1].number));
     if (++count[cycle.plate] > 1 && !same)
-      throw InputError(fmt::format("{}: its cycles are not together", here()));
+      throw InputError(fmt::format("{}: its cycles are not consecutive", here()));
   }
   return count;
 }
@@ -56,7 +56,7 @@ WornBlocks worn_blocks(const Campaign& campaign) {
     const std::string here = place(campaign, campaign.weighings_source, i, after.plate);
     if (i == 0 || campaign.weighings[i - 1].plate != after.plate) {
       if (!seen.insert(after.plate).second)
-        throw InputError(fmt::format("{}: its weighings are not together", here));
+        throw InputError(fmt::format("{}: its weighings are not consecutive", here));
       if (after.block != Block::start)
         throw InputError(fmt::format("{}: its first weighing must be that of block 'start'", here));
       if (after.cycle != 0)
@@ -69,7 +69,7 @@ WornBlocks worn_blocks(const Campaign& campaign) {
     }
     const Weighing& before = campaign.weighings[i - 1];
     if (after.cycle == before.cycle)
-      throw InputError(fmt::format("{} was weighed twice at cycle {}", here, after.cycle));
+      throw InputError(fmt::format("{} is weighed twice at cycle {}", here, after.cycle));
     if (after.cycle < before.cycle)
       throw InputError(fmt::format("{}: the weighing at cycle {} follows that at cycle {}", here,
                                    after.cycle, before.cycle));
@@ -86,10 +86,10 @@ WornBlocks worn_blocks(const Campaign& campaign) {
     block.last = next;
     if (block.cycles() != static_cast<double>(after.cycle - before.cycle))
       throw InputError(
-          fmt::format("{}: {} cycles are logged between the weighings at {} and {}, where {} ran{}",
+          fmt::format("{}: {} cycles are logged between the weighings at {} and {}, but {} ran{}",
                       here, block.cycles(), before.cycle, after.cycle, after.cycle - before.cycle,
                       block.cycles() < static_cast<double>(after.cycle - before.cycle)
-                          ? "; where a log loses a few, write missing_cycles = \"fill\" into [data]"
+                          ? "; if a log loses some cycles, add missing_cycles = \"fill\" to [data]"
                           : ""));
     for (const Input& input : inputs) block.mean.*input.value /= block.cycles();
     const double loss = before.mass - after.mass;

@@ -7,33 +7,34 @@
 
 namespace wearwell::clutch {
 
-/// What ran on a plate between two weighings, and what it wore.
+/// The cycles of a plate between two weighings, and their wear.
 struct WornBlock {
   int plate = 0;
   Block block = Block::run_in;
   int point = 0;
   std::string sequence;
-  std::size_t first = 0, last = 0;  ///< its cycles, indices into Campaign::cycles, `last` behind
-  OperatingPoint mean;              ///< of its cycles
-  double energy_before = 0;         ///< that the plate took up earlier, J
-  double energy = 0;                ///< of its cycles, J
-  double volume = 0;                ///< (m_before - m_after)/density, m^3
-  double w = 0;                     ///< volume/energy, m^3/J
-  double balance_sd = 0;  ///< of w, from two weighings: sqrt(2) balance_sd/(density energy)
+  /// its cycles, indices into Campaign::cycles, `last` is one past the end
+  std::size_t first = 0, last = 0;
+  OperatingPoint mean;       ///< of its cycles
+  double energy_before = 0;  ///< absorbed by the plate earlier, J
+  double energy = 0;         ///< of its cycles, J
+  double volume = 0;         ///< (m_before - m_after)/density, m^3
+  double w = 0;              ///< volume/energy, m^3/J
+  double balance_sd = 0;     ///< of w, from two weighings: sqrt(2) balance_sd/(density energy)
 
   double cycles() const { return static_cast<double>(last - first); }
 };
 
 struct WornBlocks {
   std::vector<WornBlock> blocks;   ///< in the order of the weighings
-  std::vector<std::string> flags;  ///< what is odd but possible, a sentence each
+  std::vector<std::string> flags;  ///< unusual but possible facts, one sentence each
 };
 
-/// Wear of every block (Haramina et al. 2025, section 2.3). Throws InputError, naming row, plate and
-/// cycle, for a plate without a first weighing, two weighings at one cycle, cycles or weighings out
-/// of order, cycles missing from a block or an energy that is not positive, and for a plate that
-/// gained more mass than the balance could err (4 standard deviations of a difference). A smaller
-/// gain is flagged and kept; cycles that no weighing follows are flagged.
+/// Wear of every block (Haramina et al. 2025, section 2.3). Throws InputError, naming row, plate
+/// and cycle, for a plate without a first weighing, two weighings at one cycle, cycles or weighings
+/// out of order, cycles missing from a block or an energy that is not positive, and for a plate
+/// that gained more mass than the error of the balance explains (4 standard deviations of a
+/// difference). A smaller gain is flagged and kept; cycles that no weighing follows are flagged.
 WornBlocks worn_blocks(const Campaign& campaign);
 
 /// Throws InputError as worn_blocks does for the cycles alone.

@@ -15,7 +15,7 @@
 namespace wearwell::fatigue {
 namespace {
 
-// A random limit makes an integral of each point of a posterior.
+// A random limit needs an integral at each point of a posterior.
 constexpr Eigen::Index most_points_with_limit = 1000;
 constexpr double slack = 1e-6;
 
@@ -51,11 +51,11 @@ std::string span_text(const SnResult& result, double low, double high) {
                      from_si(result.stress_unit, high), result.stress_unit.text);
 }
 
-// The comparison knows what was seen, not under which stresses.
+// The comparison knows the outcomes, not the stresses.
 void require_same_stresses(const WeightedModel& a, const WeightedModel& b) {
   const TestedSpan &x = a.result.tested, &y = b.result.tested;
   if (a.result.stress_si != b.result.stress_si)
-    throw InputError(fmt::format("{} and {} are driven by different things: {} and {}", a.name,
+    throw InputError(fmt::format("{} and {} have different stress quantities: {} and {}", a.name,
                                  b.name, a.result.stress_unit.text, b.result.stress_unit.text));
   if (!alike(x.alternating_low, y.alternating_low) ||
       !alike(x.alternating_high, y.alternating_high))
@@ -88,7 +88,7 @@ std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& model
     std::vector<LivesUnder> under;
     for (std::size_t m = 0; m < models.size(); ++m)
       under.emplace_back(models[m].result.law, posteriors[m], point.stress);
-    // The life at one level: of the mixture, and `each` gets every model's own.
+    // The life at one level: of the mixture, and `each` gets that of every model.
     const auto at_level = [&](double reliability, double confidence, const auto& each) {
       Lives mixture;
       for (std::size_t m = 0; m < models.size(); ++m) {
@@ -125,7 +125,7 @@ ModelsToAverage models_to_average(const std::vector<std::filesystem::path>& fold
   }
   const Comparison comparison = compare(std::move(saved));
   if (!comparison.comparable)
-    throw InputError("no design number is averaged over these: " + comparison.obstacle);
+    throw InputError("no design curve is averaged over these: " + comparison.obstacle);
   ModelsToAverage all;
   for (const Comparison::Entry& entry : comparison.studies) {
     const auto found = std::find_if(results.begin(), results.end(),
@@ -133,7 +133,7 @@ ModelsToAverage models_to_average(const std::vector<std::filesystem::path>& fold
     all.models.push_back({entry.name, entry.weight, std::move(found->second)});
     require_same_stresses(all.models.front(), all.models.back());
   }
-  // AIC and BIC have no part in this.
+  // AIC and BIC are not used.
   for (const std::string& caution : comparison.cautions)
     if (!caution.starts_with("AIC")) all.cautions.push_back(caution);
   return all;
@@ -164,9 +164,8 @@ StressLine design_line(const std::vector<WeightedModel>& models) {
                  high = tested.mean_high / tested.alternating_high;
     if (alike(low, high)) return {0, (low - 1) / (low + 1)};
     throw InputError(
-        fmt::format("the tests of {} had mean stresses of {} and no one stress ratio: say which "
-                    "the design is for, --mean-stress "
-                    "or --stress-ratio",
+        fmt::format("the tests of {} had mean stresses of {} and no single stress ratio: give that "
+                    "of the design, --mean-stress or --stress-ratio",
                     name, span_text(result, tested.mean_low, tested.mean_high)));
   }
   return {};

@@ -21,7 +21,7 @@ const SnResult& first_of(const AveragedDesignReport& report) {
   return report.from.models.front().result;
 }
 
-// Of all models, by the first: they are of the same tests.
+// Of all models, from the first: they have the same tests.
 double in_stress(const AveragedDesignReport& report, double si) {
   return from_si(first_of(report).stress_unit, si);
 }
@@ -39,9 +39,7 @@ std::string weights_text(const AveragedDesignReport& report) {
     shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
   return fmt::format(
       "Weights of the mixture that predicts best (stacking): {}. Every point of a model's "
-      "posterior "
-      "counts with the "
-      "model's weight.",
+      "posterior counts with the model's weight.",
       fmt::join(shares, ", "));
 }
 
@@ -59,7 +57,7 @@ std::string line_text(const AveragedDesignReport& report) {
 Table curves_table(const AveragedDesignReport& report) {
   const std::string life = first_of(report).life_unit.text;
   Table table{"averaged-design",
-              "Design curves averaged over models, beside each model's own",
+              "Design curves averaged over models, and those of each model",
               {{"curve"},
                {"alternating stress", first_of(report).stress_unit.text},
                {"averaged", life},
@@ -117,9 +115,8 @@ html::Figure curves_figure(const AveragedDesignReport& report) {
   const SnResult& first = first_of(report);
   return {
       "averaged-design", "Design curves: life against stress",
-      fmt::format("{}{}. The thick line is averaged over the models, the others are each model's "
-                  "own, paler where "
-                  "it has next to no weight.",
+      fmt::format("{}{}. The thick line is averaged over the models, the others are those of each "
+                  "model, paler if its weight is negligible.",
                   report.question.levels.front().name, line_text(report)),
       plot::plot("Design curves of each model and their average",
                  {fmt::format("Life [{}]", html::unit(first.life_unit.text)), true},
@@ -142,10 +139,9 @@ std::vector<Check> averaged_design_checks(const AveragedDesignReport& report) {
                     in_stress(report, at), first_of(report).stress_unit.text,
                     in_stress(report, tested.alternating_low),
                     in_stress(report, tested.alternating_high), first_of(report).stress_unit.text),
-        "There models of the same tests part ways, and no weight tells which is right. Test "
-        "there.");
+        "Models of the same tests diverge there, and the weights do not apply. Test there.");
   }
-  std::vector<Check> checks = {extrapolation.result("every stress lies among those tested")};
+  std::vector<Check> checks = {extrapolation.result("every stress lies in the tested range")};
   Findings mean("mean-stress");
   for (const WeightedModel& each : report.from.models) {
     if (each.result.law.correction == MeanStress::none) continue;
@@ -160,7 +156,7 @@ std::vector<Check> averaged_design_checks(const AveragedDesignReport& report) {
                       in_stress(report, point.stress.mean), first_of(report).stress_unit.text,
                       in_stress(report, span.mean_low), in_stress(report, span.mean_high),
                       first_of(report).stress_unit.text),
-          "Nothing was seen there.");
+          "There are no tests.");
       break;
     }
     break;
@@ -171,7 +167,7 @@ std::vector<Check> averaged_design_checks(const AveragedDesignReport& report) {
     if (each.result.trusted) continue;
     studies.add(each.weight >= least_weight ? Verdict::fail : Verdict::warn,
                 fmt::format("{} is not trusted, weight {:.3f}", each.name, each.weight),
-                "See its own checks first: wearwell report.");
+                "Look at its checks first: wearwell report.");
   }
   checks.push_back(studies.result("every study is trusted"));
   return checks;
@@ -210,7 +206,10 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
                     2, 8);
     if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
   }
-  if (!report.from.cautions.empty()) text += "\nBear in mind\n";
+  if (!report.from.cautions.empty())
+    text +=
+        "\n"
+        "Bear in mind\n";
   for (const std::string& caution : report.from.cautions) text += wrapped(printable(caution), 2, 4);
   return text;
 }
@@ -218,9 +217,8 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
 std::vector<present::Section> averaged_design_sections(const AveragedDesignReport& report) {
   present::Section design{"design", "Design curves"};
   design.add(
-      present::Prose{"The life that such a share of the items outlasts with such confidence, where "
-                     "it is not known which of the "
-                     "models is right. " +
+      present::Prose{"The life that this share of the items outlasts with this confidence, "
+                     "averaged over the uncertainty of the model. " +
                          weights_text(report),
                      true});
   for (const Check& check : averaged_design_checks(report)) {

@@ -10,7 +10,7 @@
 
 namespace wearwell::fatigue {
 
-/// A design curve that is averaged over models, with what is needed to speak of it.
+/// A design curve averaged over models, with what is needed to describe it.
 struct AveragedDesignReport {
   ModelsToAverage from;
   DesignQuestion question;
@@ -19,7 +19,7 @@ struct AveragedDesignReport {
       false;  ///< on a terminal: each stress, rather than the first, the middle and the last
 };
 
-/// What is not as it should be: stresses beyond those tested, studies that are not trusted, weight that is spread.
+/// Cautions: stresses beyond the tested range, studies that are not trusted, weight that is spread.
 std::vector<Check> averaged_design_checks(const AveragedDesignReport& report);
 
 std::string averaged_design_text(const AveragedDesignReport& report);

@@ -7,7 +7,7 @@ namespace wearwell::fatigue {
 namespace {
 
 constexpr std::size_t first_slots = 1 << 10;
-// So much finer than the first range are the first classes.
+// Factor by which the first classes are finer than the first range.
 constexpr int first_exponent = -24;
 constexpr double most_index = 1 << 30;
 
@@ -33,7 +33,7 @@ bool CycleClasses::within(double range, double mean) const {
 void CycleClasses::begin(double range) {
   width_ = wanted_ > 0 ? wanted_ : 1;
   width_ = std::ldexp(width_, std::ilogb(range / width_) + first_exponent);
-  // What is wanted is a whole of the width.
+  // The requested width must be a multiple of the class width.
   if (wanted_ > 0) width_ = std::min(width_, wanted_);
   inverse_ = 1 / width_;
   lay_out(first_slots);
@@ -80,7 +80,7 @@ std::size_t& CycleClasses::slot(std::int32_t range, std::int32_t mean) {
   return slots_[at];
 }
 
-// `slots` at least, a power of two.
+// `slots` at least, rounded up to a power of two.
 void CycleClasses::lay_out(std::size_t slots) {
   std::size_t size = first_slots;
   while (size < slots) size *= 2;

@@ -9,7 +9,7 @@
 namespace wearwell::fatigue {
 namespace {
 
-// Of crack growth, in the mean over steels (Liu and Zenner).
+// For crack growth, mean over steels (Liu and Zenner).
 constexpr double crack_slope = 3.6;
 
 double power(double log10) {
@@ -40,7 +40,7 @@ BlockDamage::BlockDamage(const SnLaw& law, const double* x, const DamageRule& ru
     return;
   }
   top_ = log10_reversed_.front();
-  // Sums of count (S/largest)^slope: by the slope above the knee, and by that below it.
+  // Sums of count (S/largest)^slope: by the slope above the knee, and by the slope below it.
   below_slope_ = rule.miner == MinerRule::haibach ? 2 * slope_ - 1 : slope_;
   if (rule.miner == MinerRule::liu_zenner) slope_ = 0.5 * (slope_ + crack_slope);
   const auto running = [&](double slope) {
@@ -53,7 +53,7 @@ BlockDamage::BlockDamage(const SnLaw& law, const double* x, const DamageRule& ru
   if (rule.miner == MinerRule::haibach) below_ = running(below_slope_);
 }
 
-// Of a curve that is no straight line: each stress's own life, and sums of damage from the largest down.
+// For a curved S-N line: each stress's own life, and sums of damage from the largest down.
 void BlockDamage::add_lives() {
   above_ = {0};
   for (std::size_t i = 0; i < count_.size(); ++i) {
@@ -62,7 +62,7 @@ void BlockDamage::add_lives() {
   }
 }
 
-// To an item at place z of the scatter, by the cycles above a limit.
+// To an item at quantile score z of the scatter, by the cycles above a limit.
 double BlockDamage::log10_damage_of_lives(double z, double limit) const {
   std::size_t n = life_.size();
   if (law_.limit) {
@@ -83,7 +83,7 @@ double BlockDamage::log10_damage_of_lives(double z, double limit) const {
   return std::log10(sum) - first;
 }
 
-// log10 of the knee's stress for an item at place z; -infinity without one.
+// log10 of the knee's stress for an item at quantile score z; -infinity without one.
 double BlockDamage::knee(double z) const {
   if (!rule_.knee.any() || rule_.miner == MinerRule::elementary) return -infinity;
   const double at =

@@ -14,18 +14,20 @@ struct LoadCycle {
 };
 using LoadCycles = std::vector<LoadCycle>;
 
-/// How damage is summed: each cycle takes 1/N of the life, N of the S-N curve, and below its knee
+/// Damage accumulation: each cycle takes 1/N of the life, with N from the S-N curve, and below its
+/// knee
 ///
-///   original    nothing (Palmgren 1924, Miner 1945)
-///   elementary  as if there were no knee
-///   haibach     by a slope of 2k - 1 (Haibach 1970)
-///   liu_zenner  by a line of slope (k + 3.6)/2 through the curve at the largest stress of the
-///               history, down to half of the knee's stress, and nothing below (Liu and Zenner 1992)
+///   original    no damage (Palmgren 1924, Miner 1945)
+///   elementary  as without a knee
+///   haibach     with a slope of 2k - 1 (Haibach 1970)
+///   liu_zenner  with a line of slope (k + 3.6)/2 through the curve at the largest stress of the
+///               history, down to half of the knee's stress, and no damage below (Liu and Zenner
+///               1992)
 ///
 /// where k = -1/b is the curve's slope.
 enum class MinerRule { original, elementary, haibach, liu_zenner };
 
-/// Where the curve has its knee: at so many cycles, or at a fully reversed amplitude [Pa].
+/// The knee of the curve: at a number of cycles, or at a fully reversed amplitude [Pa].
 struct Knee {
   std::optional<double> life, stress;
   bool any() const { return life || stress; }
@@ -36,19 +38,20 @@ struct DamageRule {
   Knee knee = {};
 };
 
-/// The damage of one block of cycles, for one point x of the posterior. Items differ: one at place z
-/// of the standard law of lives has the life of the curve times 10^(sigma z), at every stress.
-/// Laws on a logarithmic scale only (SnLaw::logarithmic), of which it keeps a copy; `x` must outlive it.
+/// The damage of one block of cycles, for one point x of the posterior. Items vary: one at score z
+/// of the standard distribution of lives has the life of the curve times 10^(sigma z), at every
+/// stress. Only for distributions on a logarithmic scale (SnLaw::logarithmic), of which it keeps a
+/// copy; `x` must outlive it.
 class BlockDamage {
  public:
   BlockDamage(const SnLaw& law, const double* x, const DamageRule& rule, const LoadCycles& cycles);
 
-  /// log10 of the damage to an item at place z; with a random fatigue limit at place `limit` of its
-  /// law. -infinity where no cycle does harm, infinity where one reaches the strength.
+  /// log10 of the damage to an item at score z; with a random fatigue limit at score `limit` of its
+  /// distribution. -infinity if no cycle does damage, infinity if one reaches the strength.
   double log10_damage(double z, double limit = 0) const;
 
-  /// The share of the damage to the item at place 0 that each of the cycles does, in the order that
-  /// they have; all 0 where nothing does harm.
+  /// Each cycle's share of the damage to the item at score 0, in the order of the cycles; all 0 if
+  /// there is no damage.
   std::vector<double> shares(const LoadCycles& cycles) const;
 
  private:
@@ -61,10 +64,10 @@ class BlockDamage {
   const double* x_;
   DamageRule rule_;
   double slope_, below_slope_ = 0;  // above and below the knee
-  std::vector<double> given_;       // log10 of the reversed stress, as the cycles are given
+  std::vector<double> given_;       // log10 of the reversed stress, in the order of the cycles
   std::vector<double> log10_reversed_, count_;  // from the largest stress down
   std::vector<double> above_, below_;           // running sums by the two slopes
-  std::vector<double> life_;                    // log10, of a curve that is no straight line
+  std::vector<double> life_;                    // log10, for a curved S-N line
   double top_ = 0;
   bool fatal_ = false;
 };

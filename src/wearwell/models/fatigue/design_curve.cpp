@@ -36,7 +36,7 @@ std::string with_unit(const SnData& data, double si) {
   return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
 }
 
-// Which mean stress the curves have: where there are several among the tests, none of theirs need be it.
+// The mean stress of the curves: if the tests have several, it may differ from all of them.
 std::string line_text(const SnLaw& law, const SnData& data) {
   if (law.correction == MeanStress::none) return "";
   const StressLine line = line_of_tests(law, data);
@@ -50,7 +50,7 @@ Table curves_table(const SnData& data, const std::vector<CurvePoint>& points,
   const std::string unit = data.life_unit.text;
   Table table{
       "design-curves",
-      fmt::format("Design curves{}: lives that such a share outlasts, with such confidence", where),
+      fmt::format("Design curves{}: lives that this share outlasts, with this confidence", where),
       {{"curve"},
        {"alternating stress", data.stress_unit.text},
        {"mean stress", data.stress_unit.text},
@@ -113,7 +113,7 @@ html::Figure curves_figure(const SnLaw& law, const SnData& data,
   std::erase_if(all, [](double life) { return !std::isfinite(life) || !(life > 0); });
   plot::Axis lives{fmt::format("Life [{}]", html::unit(data.life_unit.text)), true};
   if (!all.empty()) {
-    // A fatigue limit sends curves to lives without end.
+    // A fatigue limit gives curves with infinite lives.
     double tested = 0;
     for (const fatigue::LifeTest& test : data.tests)
       tested = std::max({tested, test.life, test.until});
@@ -121,17 +121,15 @@ html::Figure curves_figure(const SnLaw& law, const SnData& data,
     lives.high = std::min(1.5 * *std::max_element(all.begin(), all.end()),
                           100 * from_si(data.life_unit, tested));
   }
-  html::Figure figure{
-      "design-curves", "Design curves",
-      "The life that such a share outlasts, with such confidence, under each alternating stress. "
-      "The "
-      "table has the numbers.",
-      plot::plot("Design curves: alternating stress against life", lives,
-                 {fmt::format("Alternating {} [{}]", driver_word(law, data),
-                              html::unit(data.stress_unit.text)),
-                  true, *std::min_element(stress.begin(), stress.end()),
-                  *std::max_element(stress.begin(), stress.end())},
-                 marks, 320, true)};
+  html::Figure figure{"design-curves", "Design curves",
+                      "The life that this share outlasts, with this confidence, under each "
+                      "alternating stress. The table has the numbers.",
+                      plot::plot("Design curves: alternating stress against life", lives,
+                                 {fmt::format("Alternating {} [{}]", driver_word(law, data),
+                                              html::unit(data.stress_unit.text)),
+                                  true, *std::min_element(stress.begin(), stress.end()),
+                                  *std::max_element(stress.begin(), stress.end())},
+                                 marks, 320, true)};
   figure.wide = true;
   return figure;
 }
@@ -146,7 +144,7 @@ StandardUnits e739_line(const SnData& data, const fatigue::FittedLine& line) {
           line.sd};
 }
 
-// What E739 tells of the same tests, and the closed form of Owen's and ISO's curves.
+// The E739 fit of the same tests, and the closed form of Owen's and ISO's curves.
 std::string e739_text(const SnData& data, const std::vector<CurvePoint>& points,
                       const StandardFit& standard) {
   if (!standard.line) return "";
@@ -157,8 +155,7 @@ std::string e739_text(const SnData& data, const std::vector<CurvePoint>& points,
   };
   std::string text = fmt::format(
       "ASTM E739: log10 N = {:.4f} {} {:.4f} log10 S, standard deviation {:.4f} (N in {}, S in "
-      "{}); its 95 "
-      "% band of the median begins at {}",
+      "{}); the lower end of its 95 % band of the median is {}",
       e739.a, e739.b < 0 ? "-" : "+", std::abs(e739.b), e739.sd, data.life_unit.text,
       data.stress_unit.text, life(points.front()));
   if (points.size() > 1) text += fmt::format(" and {}", life(points.back()));
@@ -174,16 +171,16 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
   if (!standard.line)
     return fmt::format("ISO 12107, ASTM E739 and Owen's factor do not apply: {}.",
                        standard.why_not);
-  std::string text = fmt::format("ISO 12107 and Owen fit a straight line to the {} failures alone",
+  std::string text = fmt::format("ISO 12107 and Owen fit a straight line to the {} failures only",
                                  standard.failures);
   if (standard.left_out > 0)
-    text += fmt::format(" and leave out {} test{} that did not fail, which are long-lived ones",
+    text += fmt::format(" and leave out {} test{} that did not fail, which tend to be long-lived",
                         standard.left_out, standard.left_out == 1 ? "" : "s");
-  text += "; they know nothing before the tests, where the posterior knows its priors";
+  text += "; they do not use priors";
   if (law.bends())
-    text += ", and no knee and no fatigue limit, toward which the posterior's curve bends";
+    text += ", and they have no knee and no fatigue limit, which the posterior's curve approaches";
   return text +
-         ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
+         ". ISO 12107 treats the uncertainty of the line as scatter; Owen's factor is exact.";
 }
 
 std::string text_of(const SnData& data, const std::vector<CurvePoint>& points,
@@ -279,7 +276,7 @@ StressLine line_of_tests(const SnLaw& law, const SnData& data) {
                                       first.mean / first.alternating) < 1e-6;
   }
   line.mean /= tests;
-  // Tests of one stress ratio are told at it, others at their common mean stress.
+  // Tests of one stress ratio are reported at that ratio, others at their common mean stress.
   if (one_ratio && data.tests.size() > 1 && law.correction != MeanStress::none)
     line = {0, (first.mean - first.alternating) / (first.mean + first.alternating)};
   return line;
@@ -296,8 +293,8 @@ PresetAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit)
   std::string why = difference(law, standard);
   if (draws.values.rows() < all.values.rows() && law.integrated())
     why += fmt::format(
-        " A limit that scatters takes long: the posterior's curves are read off {} draws, to some "
-        "per cent.",
+        " A random limit is slow to compute: the posterior's curves come from {} draws, with an "
+        "error of some percent.",
         draws.values.rows());
   const std::string e739 = e739_text(data, points, standard);
   std::vector<present::Block>& blocks = added.blocks["predictions"];

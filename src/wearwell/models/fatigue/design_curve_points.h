@@ -9,8 +9,8 @@
 
 namespace wearwell {
 
-/// Under one stress: lives [cycles] by the posterior and by the standards, one for each of `design_levels`; those of the
-/// standards are empty where their line cannot be fitted.
+/// Under one stress: lives [cycles] by the posterior and by the standards, one for each of
+/// `design_levels`; those of the standards are empty if their line cannot be fitted.
 struct CurvePoint {
   double stress = 0, mean = 0;  ///< Pa, alternating and mean
   double median = 0;

@@ -43,11 +43,11 @@ double largest_range(const CycleClasses& classes) {
 }
 
 struct ShownClass {
-  double range, mean;  // where it begins
+  double range, mean;  // index of its start
   double count;
 };
 
-// Classes are wholes of the shown ones.
+// Classes divide the displayed ones exactly.
 std::vector<ShownClass> shown_classes(const HistoryReport& report) {
   const CycleClasses& classes = report.counted.classes;
   const double width = width_of(report);
@@ -85,7 +85,7 @@ html::Figure matrix_figure(const HistoryReport& report) {
   };
   return {
       "matrix", "Cycles by range and mean",
-      fmt::format("Classes are {} wide; the darker, the more cycles, on a logarithmic scale.",
+      fmt::format("Classes are {} wide; darker means more cycles, on a logarithmic scale.",
                   with_unit(report, width)),
       plot::plot(
           "Range-mean matrix of the counted cycles",
@@ -102,7 +102,7 @@ html::Figure spectrum_figure(const HistoryReport& report) {
   std::vector<CycleClass> classes = report.counted.classes.classes();
   std::vector<double> x, y;
   double above = 0;
-  // From the largest down; a few hundred points show all that there is to see.
+  // From the largest down; a few hundred points are enough for a plot.
   const double step = classes.back().range / 400;
   double drawn = INFINITY;
   for (auto each = classes.rbegin(); each != classes.rend(); ++each) {
@@ -113,7 +113,7 @@ html::Figure spectrum_figure(const HistoryReport& report) {
     y.push_back(each->range);
   }
   const std::string unit = html::unit(unit_of(report));
-  return {"spectrum", "Spectrum", "How many cycles have at least this range.",
+  return {"spectrum", "Spectrum", "Number of cycles with at least this range.",
           plot::plot("Range against the number of cycles that reach it",
                      {"Cycles", true, 0.5 * x.front(), x.back()},
                      {unit.empty() ? "Range" : fmt::format("Range [{}]", unit), false, 0.0,
@@ -130,8 +130,8 @@ html::Figure levels_figure(const HistoryReport& report) {
     y.push_back(level.value);
   }
   const std::string unit = html::unit(unit_of(report));
-  return {"levels", "Level crossings", "How often the signal crosses each level, up or down.",
-          plot::plot("Levels against how often they are crossed", {"Crossings", true},
+  return {"levels", "Level crossings", "Number of crossings of each level, up or down.",
+          plot::plot("Levels against the number of their crossings", {"Crossings", true},
                      {unit.empty() ? "Level" : fmt::format("Level [{}]", unit)},
                      {plot::line({{"x", x}, {"y", y}}, {colour::chains[2]}),
                       plot::points({{"x", x}, {"y", y}}, {colour::chains[2], "", 1, 0, false, 14})},
@@ -169,9 +169,10 @@ Table spectrum_table(const HistoryReport& report) {
   const double width = width_of(report);
   std::map<double, double> counts;
   for (const ShownClass& each : shown_classes(report)) counts[each.range] += each.count;
-  Table table{"spectrum",
-              "Cycles by range",
-              {{"range from", unit}, {"range to", unit}, {"cycles"}, {"cycles of at least that"}}};
+  Table table{
+      "spectrum",
+      "Cycles by range",
+      {{"range from", unit}, {"range to", unit}, {"cycles"}, {"cycles of at least this range"}}};
   double above = 0;
   for (auto each = counts.rbegin(); each != counts.rend(); ++each) {
     above += each->second;
@@ -192,7 +193,7 @@ std::string counted_text(const HistoryReport& report) {
   const bool half = report.rule.residual == Residual::half;
   return fmt::format("{} rainflow counting (ASTM E1049); {}",
                      report.rule.counting == Counting::three_point ? "Three-point" : "Four-point",
-                     half ? "ranges that close no cycle count as half cycles"
+                     half ? "unclosed ranges count as half cycles"
                           : "the history is repeated, so that every range closes a cycle");
 }
 
@@ -208,11 +209,11 @@ std::string history_text(const HistoryReport& report) {
   text += wrapped(
       fmt::format("{} cycles, {} of them closed; the largest range is {}{}", plain_given(cycles),
                   plain_given(counted.closed), with_unit(report, largest_range(counted.classes)),
-                  report.unit.empty() ? "; the column says no unit." : "."),
+                  report.unit.empty() ? "; the column has no unit." : "."),
       0, 2);
   if (!report.unread_times.empty())
-    text += wrapped(fmt::format("Gaps were not looked for: --time '{}' does.", report.unread_times),
-                    0, 2);
+    text +=
+        wrapped(fmt::format("Gaps were not checked: use --time '{}'.", report.unread_times), 0, 2);
   return text + "\n" + present::text(spectrum_table(report));
 }
 

@@ -9,31 +9,31 @@
 
 namespace wearwell::fatigue {
 
-/// A counted history with what is needed to speak of it.
+/// A counted history with what is needed to describe it.
 struct HistoryReport {
-  std::string source, column, unit;  ///< unit: empty where nobody said
+  std::string source, column, unit;  ///< unit: empty if unknown
   CountingRule rule;
   LoadHistory::Counted counted;
-  std::size_t most_ranges = 32;   ///< classes of range that are shown
-  std::string unread_times = {};  ///< a column of times in which nobody asked for gaps
+  std::size_t most_ranges = 32;   ///< displayed classes of range
+  std::string unread_times = {};  ///< a column of times that was not checked for gaps
 };
 
-/// Counted cycles by range and mean, every class that holds any.
+/// Counted cycles by range and mean, every nonempty class.
 present::Table cycles_table(const HistoryReport& report);
-/// The same in the wider classes that are shown: from-to of range and mean.
+/// The same in the wider displayed classes: from-to of range and mean.
 present::Table matrix_table(const HistoryReport& report);
-/// Cycles by range, and how many have at least that.
+/// Cycles by range, and the number with at least that range.
 present::Table spectrum_table(const HistoryReport& report);
 present::Table levels_table(const HistoryReport& report);
 
-/// How it was counted, in a sentence.
+/// A sentence on the counting.
 std::string counted_text(const HistoryReport& report);
 
 std::string history_text(const HistoryReport& report);
 std::vector<present::Section> history_sections(const HistoryReport& report);
 nlohmann::ordered_json history_json(const HistoryReport& report);
 
-/// The table as a Parquet file; its columns are numbers.
+/// The table as a Parquet file; its columns are numeric.
 std::string parquet(const present::Table& table);
 
 }  // namespace wearwell::fatigue

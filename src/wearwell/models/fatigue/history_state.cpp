@@ -98,9 +98,10 @@ SavedHistory read_history_state(const std::filesystem::path& file) {
   const JsonReader json(text, file);
   const auto name = text.is_object() ? json.find("format") : std::nullopt;
   if (!name || name->json() != Json(format_name))
-    throw InputError(fmt::format("{} is no state of wearwell fatigue rainflow", file.string()));
+    throw InputError(fmt::format("{} is not a state of wearwell fatigue rainflow", file.string()));
   if (json.at("version").integer(0) != version)
-    throw InputError(fmt::format("{} was written by another version of wearwell", file.string()));
+    throw InputError(
+        fmt::format("{} has the format of another version of wearwell", file.string()));
   CountingRule rule;
   rule.counting = json.at("method").one_of({"three-point", "four-point"}) == "three-point"
                       ? Counting::three_point

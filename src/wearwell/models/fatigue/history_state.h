@@ -7,14 +7,14 @@
 
 namespace wearwell::fatigue {
 
-/// A history half way, to go on from, and of which signal. Writing and reading loses no bit.
+/// A partly counted history to continue from, with its signal. Writing and reading is lossless.
 struct SavedHistory {
   std::string column, unit;
   LoadHistory::State state;
 };
 
 std::string state_text(const SavedHistory& saved);
-/// Throws InputError that names the file and what is missing or wrong in it.
+/// Throws InputError that names the file and the missing or invalid part.
 SavedHistory read_history_state(const std::filesystem::path& file);
 
 /// "three-point", "four-point"; "half", "repeat".

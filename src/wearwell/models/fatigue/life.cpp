@@ -22,7 +22,7 @@ double normal_density(double z) {
   return 0.3989422804014327 * std::exp(-0.5 * z * z);
 }
 
-// On the scale on which lives scatter; a life without end stays infinite.
+// On the scale on which lives scatter; an infinite life stays infinite.
 double center(const SnLaw& law, double log10_life) {
   if (std::isnan(log10_life) || log10_life == infinity) return log10_life;
   const double decades = std::clamp(log10_life, -most_decades, most_decades);
@@ -55,11 +55,12 @@ void MixedLife::add(double weight, double center, double sigma) {
 }
 
 void MixedLife::merge() {
-  // Of cells, in sigma. Normal laws keep the variance of what they were: then what is lost goes with the fourth power of how far
-  // apart their middles lie, and in the tails with the square of the width in sigma; of others with the square of both.
+  // Of cells, in sigma. Normal distributions keep the variance of their parts: then the error is of
+  // fourth order in the distance of their centers, and in the tails of second order in the width in
+  // sigma; for other distributions it is of second order in both.
   const bool normal = standard() == StandardDistribution::normal;
   const double width = normal ? 0.01 : 0.005, across = normal ? 10 * width : width;
-  // Sums, weighted: of places from the cell's edge and of second moments about it, or of sigmas.
+  // Weighted sums: of positions from the cell's edge and of second moments about it, or of sigmas.
   struct Cell {
     double weight = 0, center = 0, place = 0, second_moment = 0, sigma = 0;
   };
@@ -133,12 +134,13 @@ double MixedLife::quantile(double p) const {
   constexpr double negligible = 1e-8;
   if (undefined_ > negligible) return std::nan("");
   if (p >= ended_) return infinity;
-  // Newton's method from the quantile of the heaviest law, between bounds that close in: laws
-  // without weight may lie anywhere.
+  // Newton's method from the quantile of the distribution with the largest weight, between bounds
+  // that close in: distributions of negligible weight may lie anywhere.
   const auto heaviest =
       static_cast<std::size_t>(std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
   double step = 1 / inverse_sigma_[heaviest];
-  const double small = 1e-6 * step;  // what such a step of Newton's leaves goes with its square
+  // the remaining error of a Newton step is quadratic in the step
+  const double small = 1e-6 * step;
   const auto life = [&](double at) {
     return family_ == LifeFamily::normal ? at : std::pow(10, at);
   };
@@ -151,7 +153,7 @@ double MixedLife::quantile(double p) const {
     double next = at - (here.cdf - p) / here.density;
     if (std::abs(next - at) <= small) return life(next);
     if (std::isinf(low) || std::isinf(high)) {
-      // Where no law is near, Newton's step is none: outward, ever faster.
+      // Far from all distributions Newton's step fails: it moves outward, ever faster.
       const double outward = here.cdf < p ? step : -step;
       if (!(std::abs(next - at) <= 4 * step)) next = at + outward;
       step *= 2;
@@ -173,7 +175,7 @@ double MixedLife::density(double log10_life) const {
 
 namespace {
 
-// Of a limit that scatters: the share of items that fail under a stress, however late.
+// For a random limit: the share of items that ever fail under a stress.
 double reached(const SnLaw& law, const double* x, double log10_reversed) {
   return wearwell::cdf(*law.limit, law.limit_place(x, log10_reversed));
 }
@@ -200,7 +202,7 @@ void each_life(const SnLaw& law, const double* x, double log10_reversed, LimitSt
   const double width = (last - first) / static_cast<double>(strata.count);
   double below = 0;
   for (std::size_t i = 0; i <= strata.count; ++i) {
-    // The first and the last slice hold what is beyond.
+    // The first and the last slice include the tails.
     const double until = first + (static_cast<double>(i) + shift) * width;
     const double through = i == strata.count ? 1 : wearwell::cdf(*law.limit, until);
     take(through - below,
@@ -218,8 +220,8 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
 
 namespace {
 
-// By Newton's method in the logarithm of the share that has failed, which is concave: from the life
-// of items without a limit, before which no such share fails, no step goes too far.
+// Newton's method in the logarithm of the failed share, which is concave: starting from the life of
+// items without a limit, which is a lower bound, no step overshoots.
 double limited_quantile(const LimitedLife<double>& item, double p) {
   double low =
       (item.log10_reversed - item.log10_a) / item.b + item.sigma * wearwell::quantile(item.life, p);
@@ -227,7 +229,7 @@ double limited_quantile(const LimitedLife<double>& item, double p) {
   for (int i = 0; i < 200; ++i) {
     const LimitedLifeSlopes y = log_probability_and_slopes(item, Outcome::left, at, 0);
     const double excess = y.value - std::log(p);
-    // By z of life alone does the share depend on the life: z = (life - center)/sigma.
+    // The share depends on the life only through z = (life - center)/sigma.
     const double slope = y.by_log10_a * item.b;
     (excess < 0 ? low : high) = at;
     double next = at - excess / slope;
@@ -237,7 +239,7 @@ double limited_quantile(const LimitedLife<double>& item, double p) {
     if (next >= high) next = 0.5 * (low + high);
     const double moved = std::abs(next - at);
     at = next;
-    // The error that is left is of the order of the square of the step, in parts of sigma.
+    // The remaining error is of the order of the square of the step, in parts of sigma.
     if (moved <= 1e-6 * item.sigma || moved <= 1e-11 * (1 + std::abs(at))) return at;
     if (at > most_decades) return infinity;
   }
@@ -284,7 +286,7 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
     return std::abs(root) == most_decades ? std::copysign(infinity, root) : root;
   }
   const double scatter = x[law.sigma_index()] * wearwell::quantile(law.standard(), 1 - reliability);
-  // Normal lives may scatter so far that this share outlasts it even about a mean of 0.
+  // Normal lives may scatter so much that this share outlasts it even about a mean of 0.
   if (!law.logarithmic() && scatter >= life) return infinity;
   const double log10_life =
       law.logarithmic() ? std::log10(life) - scatter : std::log10(life - scatter);
@@ -293,8 +295,8 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   // Logarithms of stresses: beyond some hundred decades there is none.
   if (std::isnan(unlimited)) return unlimited;
   if (std::abs(unlimited) > most_decades) return std::copysign(infinity, unlimited);
-  // The limit adds to what is borne: no less than without one, no more than with the limit of
-  // nearly the toughest item on top.
+  // The limit increases the allowable stress: at least that without a limit, at most that plus the
+  // limit of nearly the strongest item.
   const double at = std::log10(life);
   const auto excess = [&](double log10_reversed) {
     const auto y =

@@ -7,25 +7,25 @@
 
 namespace wearwell::fatigue {
 
-/// Lives whose laws are mixed: of an item of which the parameters are known as far as a posterior
-/// knows them, or whose fatigue limit is one of a population.
+/// Lives as mixtures of distributions: of an item with uncertain parameters, by the posterior, or
+/// with a fatigue limit from a population.
 class MixedLife {
  public:
   explicit MixedLife(LifeFamily family) : family_(family) {}
 
-  /// A law about `center`: log10 of cycles, of the normal family cycles; infinite where life has no
-  /// end. Weights sum to 1 over all laws.
+  /// A distribution about `center`: log10 of cycles, for the normal family cycles; infinite if life
+  /// has no end. Weights sum to 1 over all distributions.
   void add(double weight, double center, double sigma);
 
-  /// Makes laws that no digit of interest tells apart one law of their common mean: a quadrature has
-  /// hundreds of thousands. From B0.1 to B99.9 no life moves by more than one ten-thousandth.
+  /// Merges distributions that are nearly equal into one with their common mean: a quadrature has
+  /// hundreds of thousands. From B0.1 to B99.9 no life changes by more than one ten-thousandth.
   void merge();
 
   /// The probability that life [cycles] has ended by then.
   double cdf(double life) const;
 
-  /// The life by which a share p has failed, 0 < p < 1; infinite where fewer ever do. NaN where a
-  /// law with weight is none.
+  /// The life by which a share p has failed, 0 < p < 1; infinite if fewer ever do. NaN if a
+  /// distribution with weight is not a number.
   double quantile(double p) const;
 
   /// The density of log10 life.
@@ -40,32 +40,33 @@ class MixedLife {
 
   LifeFamily family_;
   std::vector<double> weight_, center_, inverse_sigma_;
-  double ended_ = 0;      // weight of the laws with an end
-  double undefined_ = 0;  // weight of laws that are none
+  double ended_ = 0;      // weight of the distributions with an end
+  double undefined_ = 0;  // weight of distributions that are not a number
 };
 
-/// The centre of lives of items without fatigue limit, on the scale on which lives scatter: log10 of
-/// cycles, of the normal family cycles.
+/// The center of lives of items without fatigue limit, on the scale on which lives scatter: log10
+/// of cycles, for the normal family cycles.
 double life_center(const SnLaw& law, const double* x, double log10_reversed);
 
-/// How finely the population of fatigue limits is seen: in so many slices. `index` moves them from
-/// one draw of parameters to the next.
+/// The number of slices of the population of fatigue limits. `index` moves them from one draw of
+/// parameters to the next.
 struct LimitStrata {
   std::size_t count = 200, index = 0;
 };
 
-/// The laws whose mixture is the life under a fully reversed stress whose logarithm [Pa] is given, at parameters x: their shares, and
-/// where they lie as `MixedLife::add` takes it. What is missing to 1 has no end.
+/// The distributions whose mixture is the life under a fully reversed stress with the given
+/// logarithm [Pa], at parameters x: their weights, and their location in the form of
+/// `MixedLife::add`. The weight missing to 1 has no end.
 void each_life(const SnLaw& law, const double* x, double log10_reversed, LimitStrata strata,
                const std::function<void(double share, double center, double sigma)>& take);
 
-/// Adds the life under a fully reversed stress whose logarithm [Pa] is given, for parameters x of
+/// Adds the life under a fully reversed stress with the given logarithm [Pa], for parameters x of
 /// this weight.
 void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x,
               double log10_reversed, LimitStrata strata = {});
 
 /// The life by which a share p of items has failed under one stress, on the scale on which lives
-/// scatter. Infinite where fewer ever do.
+/// scatter. Infinite if fewer ever do.
 double life_quantile(const SnLaw& law, const double* x, const Stress& stress, double p);
 
 /// From that scale to cycles.
@@ -75,10 +76,10 @@ double cycles(const SnLaw& law, double at);
 double survival(const SnLaw& law, const double* x, const Stress& stress, double life);
 
 /// log10 of the fully reversed stress [Pa] under which a share `reliability` of items outlasts
-/// `life` [cycles]; infinite where they do under any.
+/// `life` [cycles]; infinite if they do under any stress.
 double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability);
 
-/// The alternating stress [Pa] along a line that is as harmful as a fully reversed one.
+/// The alternating stress [Pa] along a line that is as damaging as a fully reversed one.
 double alternating_allowed(const SnLaw& law, const double* x, const StressLine& line,
                            double log10_reversed);
 

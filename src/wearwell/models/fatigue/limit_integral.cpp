@@ -13,7 +13,7 @@ using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
 using Gauss = boost::math::quadrature::gauss<double, 7>;
 
 constexpr double negligible = 34;  // e^-34 is 2e-15
-/// Of the difference between Kronrod's and Gauss's sums; the error of Kronrod's is far smaller,
+/// For the difference between Kronrod's and Gauss's sums; the error of Kronrod's is far smaller,
 /// about (200 difference)^1.5.
 constexpr double tolerance = 1e-10;
 constexpr std::size_t most_panels = 400;
@@ -71,7 +71,8 @@ struct Edge {
   double u, log_f;
 };
 
-/// Around `marks` (where, how wide) of the features to expect, and out to where nothing is left.
+/// Around `marks` (position and width) of the expected features, and out to where the integrand is
+/// negligible.
 void place_edges(const Integrand& log_f, const std::vector<std::pair<double, double>>& marks,
                  std::vector<Edge>& edges) {
   edges.clear();
@@ -92,17 +93,18 @@ void place_edges(const Integrand& log_f, const std::vector<std::pair<double, dou
   }
 }
 
-/// The trapezoidal rule, whose error on a smooth function that vanishes at both ends is the
-/// function's Fourier transform at the frequency of the nodes, 1/h, and falls exponentially with it
-/// at least (Trefethen and Weideman 2014): the third power of the transform at 1/(3h), which the
-/// same nodes tell. Most integrands have one hump, for which some 40 nodes do.
+/// The trapezoidal rule. Its error for a smooth function that vanishes at both ends is the
+/// function's Fourier transform at the frequency of the nodes, 1/h, and decreases at least
+/// exponentially with it (Trefethen and Weideman 2014): about the third power of the transform at
+/// 1/(3h), which the same nodes give. Most integrands have one peak, for which some 40 nodes are
+/// enough.
 class Trapezoid {
  public:
   explicit Trapezoid(const Integrand& log_f) : log_f_(log_f) {}
 
   double reference = -infinity;
 
-  /// All integrals over the whole line, times exp(-reference); none where it takes many nodes.
+  /// All integrals over the whole line, times exp(-reference); empty if it needs many nodes.
   std::optional<Integrals> operator()(const std::vector<Edge>& edges) {
     const double low = end(edges.begin(), edges.end()), high = end(edges.rbegin(), edges.rend());
     const double step = std::min(0.5, resolution() * std::min(width(low), width(high)));
@@ -110,7 +112,7 @@ class Trapezoid {
     if (!(cells >= 1 && cells <= most_nodes)) return {};
     for (auto n = static_cast<std::size_t>(cells); n <= most_nodes; n *= 2) {
       const Sums sums = at_nodes(low, (high - low) / static_cast<double>(n), n);
-      // A hump that the edges hid may stand on an end.
+      // A peak that the edges missed may lie at an end.
       if (!(nodes_.front().log_f < reference - gone && nodes_.back().log_f < reference - gone))
         break;
       if (sums.third <= 3e-4 && sums.half <= 1e-5) return sums.all;
@@ -127,14 +129,14 @@ class Trapezoid {
     Integrals slopes;
   };
 
-  // Of the narrowest feature that may stand at u, whichever of limit and life makes it.
+  // Of the narrowest feature possible at u, from the limit or the life.
   double width(double u) const {
     const LimitedLife<double>& item = log_f_.item;
     const double rest = 1 / (1 + std::exp(u)), share = 1 / (1 + std::exp(-u));
     return decade / std::hypot(rest / item.scale, share / (item.sigma * item.b));
   }
 
-  // Steps in widths. The extreme value law is steeper on one side.
+  // Steps in widths. The extreme value distribution is steeper on one side.
   double resolution() const {
     const LimitedLife<double>& item = log_f_.item;
     return item.life == StandardDistribution::normal && item.limit == StandardDistribution::normal
@@ -142,7 +144,7 @@ class Trapezoid {
                : 0.4;
   }
 
-  // Beyond which nothing is left, from the first of edges that are not negligible.
+  // The outer bounds, from the first edges that are not negligible.
   template <class Iterator>
   double end(Iterator first, Iterator last) const {
     double highest = -infinity;
@@ -159,7 +161,7 @@ class Trapezoid {
     return out;
   }
 
-  // Of all nodes; and the transform of the mass at 1/(2h) and 1/(3h), in parts of it.
+  // Of all nodes; and the transform of the mass at 1/(2h) and 1/(3h), relative to the mass.
   struct Sums {
     Integrals all{};
     double half = 0, third = 0;
@@ -194,8 +196,8 @@ class Trapezoid {
   inline static thread_local std::vector<Node> nodes_;
 };
 
-/// The same in panels between the edges, which are halved where they must be: for several humps, or
-/// very narrow ones.
+/// The same in panels between the edges, which are halved as needed: for several peaks, or very
+/// narrow ones.
 Integrals integrate(Adaptive& rule, const std::vector<Edge>& edges) {
   thread_local std::vector<Panel> panels;
   for (const Edge& edge : edges) rule.reference = std::max(rule.reference, edge.log_f);
@@ -215,7 +217,7 @@ Integrals integrate(Adaptive& rule, const std::vector<Edge>& edges) {
           std::max_element(panels.begin(), panels.end(),
                            [](const Panel& a, const Panel& b) { return a.error < b.error; });
       const Panel whole = *worst;
-      // At the rounding error of its own sum a panel does not become better.
+      // A panel cannot improve beyond the rounding error of its own sum.
       if (whole.error < 1e-15 * total) break;
       const double middle = 0.5 * (whole.low + whole.high);
       const Panel left = rule.measured(whole.low, middle),

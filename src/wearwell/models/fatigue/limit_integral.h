@@ -12,8 +12,8 @@ namespace wearwell::fatigue {
 inline const double decade = std::log(10.0);
 inline const double log_decade = std::log(decade);
 
-/// What was seen of a life, given its centre: log of a density or probability, with its slopes by
-/// the centre and by sigma.
+/// The likelihood of an observed life given its center: log of a density or probability, with its
+/// slopes by the center and by sigma.
 struct LifeTerm {
   double value = 0;
   double by_center = 0, by_sigma = 0;
@@ -56,8 +56,9 @@ class Observed {
   double at_, until_, log_sigma_;
 };
 
-/// The joint density of u and what was seen, where 10^V/S_f = 1/(1 + exp(-u)): on the whole line of
-/// u it is smooth and falls off at both ends. By it and by it times its slopes is integrated.
+/// The joint density of u and the observation, where 10^V/S_f = 1/(1 + exp(-u)): on the whole line
+/// of u it is smooth and vanishes at both ends. The integrals are of it and of its products with
+/// the slopes.
 constexpr std::size_t integrals = 6;
 using Integrals = std::array<double, integrals>;
 enum Which : std::size_t { mass, of_w, of_w_w, of_center, of_center_center, of_sigma };
@@ -69,7 +70,7 @@ struct Integrand {
 
   /// The logarithm; `slopes` are the factors of each of Integrals.
   double operator()(double u, Integrals* slopes = nullptr) const {
-    // log of the limit's share of the stress and of what remains, without cancellation.
+    // log of the limit's share of the stress and of the remaining share, without cancellation.
     const double log_share = -(u > 0 ? std::log1p(std::exp(-u)) : std::log1p(std::exp(u)) - u);
     const double log_rest = log_share - u;
     const double w = (item.log10_reversed + log_share / decade - item.location) / item.scale;
@@ -84,8 +85,8 @@ struct Integrand {
   }
 };
 
-/// Integrals over the whole line of u, times exp(-reference). `marks`: where features of the
-/// integrand are to be expected, and how wide.
+/// Integrals over the whole line of u, times exp(-reference). `marks`: positions and widths of the
+/// expected features of the integrand.
 struct ScaledIntegrals {
   Integrals sums{};
   double reference = 0;

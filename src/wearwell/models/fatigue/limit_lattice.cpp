@@ -11,7 +11,7 @@
 
 #include "wearwell/math/constants.h"
 
-// Longer than others: one rule, whose nodes are found, filled and judged over the same table.
+// Longer than others: one rule, whose nodes are found, filled and checked with the same table.
 namespace wearwell::fatigue {
 namespace {
 
@@ -19,12 +19,12 @@ constexpr double root_half = M_SQRT1_2, per_root_two_pi = 0.3989422804014327;
 const double decade = std::log(10.0);
 
 constexpr double negligible = 28;       // e^-28 is 7e-13
-constexpr double no_digits = 1e12;      // logarithms beyond are told by their largest term
+constexpr double no_digits = 1e12;      // logarithms beyond are replaced by their largest term
 constexpr int finest = 15, reach = 64;  // steps of 2^-1 to 2^-finest, from -reach to reach
-constexpr double narrowest = 0.01;      // features below are integrated about their own place
-constexpr double farthest = 0.4;        // so far their series reach
+constexpr double narrowest = 0.01;      // features below are integrated around their own position
+constexpr double farthest = 0.4;        // range of their series
 
-/// Nodes side by side, of which the machine's vectors (of any x86-64 and ARM of 64 bits) hold two.
+/// Adjacent nodes, of which the machine's vectors (of any x86-64 and 64-bit ARM) hold two.
 using Block [[gnu::vector_size(16)]] = double;
 using Bits [[gnu::vector_size(16)]] = std::uint64_t;
 constexpr int block = 2;
@@ -39,8 +39,8 @@ inline double at_most(double z, double most) {
   return z > most ? most : z;
 }
 
-/// exp(x) to 1e-14 for -700 <= x <= 700, beyond that of these ends, in the few multiplications that it takes: a study
-/// asks for some 1e9 of them.
+/// exp(x) to 1e-14 for -700 <= x <= 700, clipped beyond, with few multiplications: a study
+/// evaluates it some 1e9 times.
 inline Block exponential(Block x) {
   constexpr double per_two = 1.4426950408889634, high = 6.93147180369123816490e-01,
                    low = 1.90821492927058770002e-10, shift = 0x1.8p52;
@@ -58,7 +58,7 @@ inline double exponential(double x) {
   return std::exp(x);
 }
 
-/// Of a law of location and scale: its density, or the probability below or above.
+/// For a location-scale distribution: its density, or the probability below or above.
 enum class Role { density, below, above };
 
 /// factor = exp(bound) value, its derivative exp(bound) slope.
@@ -66,8 +66,8 @@ struct Share {
   Block value, slope;
 };
 
-/// `log_bound`: of a factor's place z its bound's logarithm, for a number or a block; `share` takes what the bound has
-/// left in `e`, an exponential that it asks for again.
+/// `log_bound`: the logarithm of a factor's bound at score z, for a number or a block; `share`
+/// takes the remaining factor from `e`, an exponential that is needed again.
 template <StandardDistribution law, Role role>
 struct Factor;
 
@@ -147,7 +147,7 @@ struct Factor<StandardDistribution::normal, Role::above> {
   }
 };
 
-// Beyond it exp(z) has no effect that a number tells; its square is one still.
+// Beyond it exp(z) has no representable effect, and its square is still finite.
 constexpr double far_above = 300;
 
 template <>
@@ -170,7 +170,7 @@ struct Factor<StandardDistribution::smallest_extreme_value, Role::below> {
   static Share share(Block z, Block /*e*/) {
     constexpr double small = 0.02;
     const Block e = exponential(at_most(z, 6)),
-                kept = exponential(-e);  // e^-403 is nothing beside 1
+                kept = exponential(-e);  // e^-403 is negligible beside 1
     const Block s = at_most(e, small);
     const Block left = 1.0 - s * (1.0 / 2 - s * (1.0 / 6 - s * (1.0 / 24 - s * (1.0 / 120))));
     return {z >= 0.0 ? 1.0 - kept : (e < small ? left : (1.0 - kept) / e),
@@ -188,7 +188,7 @@ struct Factor<StandardDistribution::smallest_extreme_value, Role::above> {
   static Share share(Block /*z*/, Block e) { return {of_both(1), -e}; }
 };
 
-/// log of the limit's share of the stress, 1/(1 + exp(-u)), and of what remains.
+/// log of the limit's share of the stress, 1/(1 + exp(-u)), and of the remaining share.
 struct Logs {
   double share, rest;
 };
@@ -234,27 +234,28 @@ const Table& table(int level) {
   return tables[static_cast<std::size_t>(level - 1)];
 }
 
-/// The limit's place w in its law and the life's place z in its, linear in the logarithms.
+/// The score w of the limit and the score z of the life, linear in the logarithms.
 struct Places {
   double w0, w_slope, z0, z_slope;
   double w(const Logs& at) const { return w0 + w_slope * at.share; }
   double z(const Logs& at) const { return z0 + z_slope * at.rest; }
 };
 
-/// Where a law is about its location: u, and the places of both there, the one of them exactly 0.
+/// Where a distribution is at its location: u, and both scores there, one of them exactly 0.
 struct Mark {
   double u = 0, share_log = 0, rest_log = 0;
   double w = 0, z = 0;
 };
 
-/// The nodes of one integral, evenly spaced in u, in blocks: outward from `origin` both ways.
+/// The nodes of one integral, evenly spaced in u, in blocks: outward from `origin` in both
+/// directions.
 struct Nodes {
   static constexpr int most = 1000, origin = most;
   struct At {
     Block w, z, bound, e_w, e_z;  // the last two: of `log_bound`
   };
   double step = 0;
-  int first = origin, last = origin;  // block; the last: behind it
+  int first = origin, last = origin;  // block; the last: one past the end
   std::array<At, 2 * most + 1> at;
 };
 
@@ -267,7 +268,7 @@ class Lattice {
  public:
   explicit Lattice(const Places& places) : places_(places) {}
 
-  /// Without constant factors; `marks` are where each law is about its location, if anywhere.
+  /// Without constant factors; `marks` are where each distribution is at its location, if anywhere.
   std::optional<Sums> operator()(std::span<const Mark> marks, bool extreme) {
     const Mark* best = &marks.front();
     double highest = -infinity;
@@ -313,7 +314,7 @@ class Lattice {
            (by_rest ? at.rest_log : at.share_log);
   }
 
-  // `measure`: the logarithm of what stands beside both factors.
+  // `measure`: the logarithm of the further factor of the integrand.
   static Block put(int node, Block w, Block z, Block measure) {
     Nodes::At& at = nodes_.at[static_cast<std::size_t>(node)];
     at.w = w;
@@ -322,13 +323,13 @@ class Lattice {
     return at.bound;
   }
 
-  // Of the narrowest feature that may stand where the limit has this share of the stress.
+  // Of the narrowest feature possible where the limit has this share of the stress.
   double width(double share) const {
     const double of_limit = places_.w_slope * (1 - share), of_life = places_.z_slope * share;
     return 1 / std::sqrt(of_limit * of_limit + of_life * of_life);
   }
 
-  // All nodes of a level that count. Returns the level, a finer one where it takes that, or -1.
+  // All non-negligible nodes of a level. Returns the level, a finer one if needed, or -1.
   int fill(int level, double near, std::span<const Mark> marks, double resolution) {
     const Table& t = table(level);
     const std::ptrdiff_t last = 2 * t.middle;
@@ -340,7 +341,7 @@ class Lattice {
       const auto k = static_cast<std::size_t>(i);
       return bound(Logs{t.share[k], t.rest[k]});
     };
-    // Uphill in steps that double while they lead up.
+    // Uphill in steps that double while the value increases.
     std::ptrdiff_t top = index(near);
     double highest = at(top);
     for (std::ptrdiff_t stride = 1; stride > 0;) {
@@ -358,7 +359,7 @@ class Lattice {
       stride = moved ? 2 * stride : stride / 2;
     }
     if (!std::isfinite(highest)) return -1;
-    // Another hump may stand at another mark.
+    // Another peak may lie at another mark.
     std::ptrdiff_t low = top, high = top;
     for (const Mark& mark : marks) {
       const std::ptrdiff_t i = index(mark.u);
@@ -368,7 +369,7 @@ class Lattice {
       high = std::max(high, i);
       highest = std::max(highest, there);
     }
-    // Blocks outward from the top, until the outermost node of one counts no more.
+    // Blocks outward from the maximum, until the outermost node of one is negligible.
     const auto walked = [&](bool ahead, std::ptrdiff_t must) {
       for (int k = 0; k < Nodes::most; ++k) {
         const std::ptrdiff_t from = top + block * (ahead ? k : -k - 1);
@@ -388,7 +389,8 @@ class Lattice {
     nodes_.step = t.step;
     nodes_.first = Nodes::origin - down;
     nodes_.last = Nodes::origin + up;
-    // Where a law is steep at an edge of the region there is little of it: its middle half tells.
+    // Where a distribution is steep at an edge of the region it has little mass: its middle half
+    // decides.
     const auto width_at = [&](std::ptrdiff_t i) {
       return width(std::exp(t.share[static_cast<std::size_t>(i)]));
     };
@@ -398,7 +400,8 @@ class Lattice {
     return needed <= finest ? needed : -1;
   }
 
-  // The logarithms about u by their series: far closer than the logarithm's singularity, pi away.
+  // The logarithms about u by their series: well within the distance pi to the logarithm's
+  // singularity.
   std::optional<Sums> about(const Mark& center, double step) {
     if (!(step > 0)) return {};
     const auto of_rest = series(1 / (1 + std::exp(-center.u))),
@@ -468,7 +471,8 @@ class Lattice {
     return all;
   }
 
-  // None where the transform of the integrand at the nodes' frequency is not small (limit_integral.cpp).
+  // Empty if the transform of the integrand at the nodes' frequency is not small
+  // (limit_integral.cpp).
   std::optional<Sums> summed() const {
     const std::span<const Nodes::At> nodes(&nodes_.at[static_cast<std::size_t>(nodes_.first)],
                                            &nodes_.at[static_cast<std::size_t>(nodes_.last)]);
@@ -498,13 +502,13 @@ class Lattice {
     const double a = every_sixth[0][0], b = every_sixth[0][1], c = every_sixth[1][0],
                  d = every_sixth[1][1], e = every_sixth[2][0], f = every_sixth[2][1];
     sums.mass = a + b + c + d + e + f;
-    // A node beyond all numbers has no weight, but no slope either.
+    // A node out of range has zero weight, and must not contribute a slope.
     if (!(sums.mass > 0 && std::isfinite(sums.of_w_w + sums.of_z_z))) return {};
     const double p = a + d, q = b + e, r = c + f;
     const double half = std::abs(a - b + c - d + e - f) / sums.mass;
     const double third =
         std::sqrt(std::max(0.0, p * p + q * q + r * r - p * q - q * r - r * p)) / sums.mass;
-    // The integrand has no more digits than its logarithm.
+    // The integrand is no more precise than its logarithm.
     const double noise = 1e-15 * std::abs(sums.reference);
     if (sums.reference < -no_digits || (third <= 3e-2 + noise && half <= 1e-5 + noise)) return sums;
     return {};
@@ -514,12 +518,13 @@ class Lattice {
   inline static thread_local Nodes nodes_;
 };
 
-/// Where each law is about its location, as far as it is on the line at all; else the middle.
+/// Where each distribution is at its location, if that is on the line; else the middle.
 struct Marks {
   std::array<Mark, 2> at{};
   std::size_t count = 0;
   bool narrow_life =
-      false;  // the life's law is the narrower, where the limit or the life is the usual one
+      // the life's distribution is the narrower, where the limit or the life is the usual one
+      false;
 };
 Marks marks_of(const LimitedLife<double>& item, const Places& places, double at) {
   Marks marks;
@@ -566,7 +571,7 @@ std::optional<LimitedLifeSlopes> on_lattice(const LimitedLife<double>& item, Out
                                             double at) {
   if (outcome == Outcome::interval || !(item.b < 0)) return {};
   const double by_log10_s = 1 / item.scale, by_y = 1 / item.sigma, by_b = 1 / item.b;
-  const double longest = (item.log10_reversed - item.log10_a) * by_b;  // of an item without limit
+  const double longest = (item.log10_reversed - item.log10_a) * by_b;  // for an item without limit
   const Places places{(item.log10_reversed - item.location) * by_log10_s, by_log10_s / decade,
                       (at - longest) * by_y, -by_b * by_y / decade};
   const Marks marks = marks_of(item, places, at);
@@ -599,7 +604,7 @@ std::optional<LimitedLifeSlopes> on_lattice(const LimitedLife<double>& item, Out
   y.by_scale = -sums.of_w_w / sums.mass * by_log10_s;
   y.by_log10_a = of_z * by_b * by_y;
   y.by_sigma = -of_z_z * by_y;
-  // z = (at - center)/sigma, and the center falls with b by center/b.
+  // z = (at - center)/sigma, and the center decreases with b as center/b.
   y.by_b = (of_z * at * by_y - of_z_z) * by_b;
   if (dense_limit) y.by_scale -= by_log10_s;
   if (outcome == Outcome::failure) y.by_sigma -= by_y;
@@ -609,7 +614,7 @@ std::optional<LimitedLifeSlopes> on_lattice(const LimitedLife<double>& item, Out
   }
   if (outcome != Outcome::runout) return y;
 
-  // Those whose limit the stress does not reach, or the life of items without one.
+  // Those whose limit is above the stress, or the life of items without one.
   const double place = dense_limit ? places.w0 : places.z0;
   const ValueAndSlope safe = log_survival_and_slope(dense_limit ? item.limit : item.life, place);
   const double larger = std::max(y.value, safe.value), smaller = std::min(y.value, safe.value);

@@ -6,11 +6,11 @@
 
 namespace wearwell::fatigue {
 
-/// `log_probability_and_slopes` by the trapezoidal rule on nodes whose logarithms stand in a table (on
-/// the line of limit_integral.h), or about a narrow law by series: a node costs an exponential. Of
-/// a run-out or a left-censored life the narrower of the two laws is the density, the other the
-/// distribution function (integration by parts). None where the rule does not reach, which its
-/// nodes tell, and for intervals.
+/// `log_probability_and_slopes` by the trapezoidal rule on nodes whose logarithms are in a table
+/// (on the line of limit_integral.h), or about a narrow distribution by series: a node costs one
+/// exponential. For a run-out or a left-censored life the narrower of the two distributions enters
+/// as density, the other as cdf (integration by parts). Empty if the rule is not accurate, which
+/// its nodes show, and for intervals.
 std::optional<LimitedLifeSlopes> on_lattice(const LimitedLife<double>& item, Outcome outcome,
                                             double at);
 

@@ -17,58 +17,57 @@
 namespace wearwell::fatigue {
 namespace {
 
-// From the unit of the load to that of the curve's stress, or of what stands for it, in SI.
+// From the unit of the load to that of the curve's stress quantity, in SI.
 double to_si_of_curve(const std::string& unit, const std::string& scale, const std::string& where,
                       const std::string& si) {
   const Dimension wanted = parse_unit(si)->dimension;
   const auto load = parse_unit(unit.empty() ? "1" : unit);
-  if (!load) throw InputError(fmt::format("{}: '{}' is no unit", where, unit));
+  if (!load) throw InputError(fmt::format("{}: '{}' is not a unit", where, unit));
   if (unit.empty())
     throw InputError(
         scale.empty()
-            ? fmt::format("{} has no unit: say it in the heading, \"{}\", or by --unit {}", where,
-                          si == "Pa" ? "stress [MPa]" : fmt::format("load [{}]", si),
+            ? fmt::format("{} has no unit: give it in the heading, \"{}\", or with --unit {}",
+                          where, si == "Pa" ? "stress [MPa]" : fmt::format("load [{}]", si),
                           si == "Pa" ? "MPa" : si)
             : fmt::format(
-                  "{} has no unit, and --scale {} stands for one of it: one of um/m or of a "
-                  "plain number? Say it in the heading or by --unit: um/m, N, or 1 for a "
-                  "plain number",
+                  "{} has no unit, but --scale {} applies per unit of it: give um/m or a plain "
+                  "number in the heading or with --unit: um/m, N, or 1 for a plain number",
                   where, scale));
   if (scale.empty()) {
     if (load->dimension == wanted) return load->scale;
     if (si != "Pa")
       throw InputError(fmt::format(
-          "{} is in {}, and the study's tests are in {}; say how one makes the other by --scale",
-          where, unit,
+          "{} is in {}, but the study's tests are in {}; give the conversion with --scale", where,
+          unit,
           si == "1" ? "as a strain or a plain number" : fmt::format("in the dimension of {}", si)));
     const bool strain = load->dimension.empty();
-    throw InputError(
-        fmt::format("{} is in {}, which is {}, no stress; say how it makes stress: --scale '{}'",
-                    where, unit, strain ? "a strain or a plain number" : "a load",
-                    strain ? "206 GPa" : fmt::format("0.35 MPa/{}", unit)));
+    throw InputError(fmt::format(
+        "{} is in {}, which is {}, not a stress; give the factor to stress: --scale '{}'", where,
+        unit, strain ? "a strain or a plain number" : "a load",
+        strain ? "206 GPa" : fmt::format("0.35 MPa/{}", unit)));
   }
   std::size_t end = 0;
   double factor = 0;
   try {
     factor = std::stod(scale, &end);
   } catch (const std::exception&) {
-    throw InputError(fmt::format("--scale: '{}' does not begin with a number", scale));
+    throw InputError(fmt::format("--scale: '{}' does not start with a number", scale));
   }
   const std::string text = scale.substr(std::min(scale.size(), scale.find_first_not_of(' ', end)));
   const auto per = parse_unit(text.empty() ? "1" : text);
-  if (!per) throw InputError(fmt::format("--scale: '{}' is no unit", text));
+  if (!per) throw InputError(fmt::format("--scale: '{}' is not a unit", text));
   Dimension product = per->dimension;
   for (const auto& [base, power] : load->dimension) {
     if ((product[base] += power) == 0) product.erase(base);
   }
   if (product != wanted)
-    throw InputError(fmt::format("--scale: {} times a load in {} is no {}", scale, unit,
+    throw InputError(fmt::format("--scale: {} times a load in {} is not a {}", scale, unit,
                                  si == "Pa" ? "stress"
                                  : si == "1"
                                      ? "strain or plain number, as the study's tests are"
                                      : fmt::format("load in {}, as the study's tests are", si)));
   if (!(std::abs(factor) > 0 && std::isfinite(factor)) || load->offset != 0 || per->offset != 0)
-    throw InputError(fmt::format("--scale: {} is no factor", scale));
+    throw InputError(fmt::format("--scale: {} is not a factor", scale));
   return factor * per->scale * load->scale;
 }
 
@@ -81,19 +80,19 @@ const Column* named(const Table& table, std::initializer_list<const char*> names
   return nullptr;
 }
 
-// Neither the table nor --unit wins where they contradict each other.
+// A contradiction between the table and --unit is an error.
 std::string unit_in(const Column& column, const std::string& given, const std::string& where) {
   const std::string said = load_heading(column).unit;
   if (given.empty()) return said;
   const auto one = parse_unit(said.empty() ? given : said), other = parse_unit(given);
-  if (!other) throw InputError(fmt::format("--unit: '{}' is no unit", given));
+  if (!other) throw InputError(fmt::format("--unit: '{}' is not a unit", given));
   if (one && (one->dimension != other->dimension || one->scale != other->scale))
-    throw InputError(fmt::format("{}: the table says {} and --unit says {}; leave one of them out",
+    throw InputError(fmt::format("{}: the table has {} and --unit has {}; remove one of them",
                                  where, said, given));
   return given;
 }
 
-// What the options make of a column.
+// Effect of the options on a column, for descriptions.
 std::string options_text(const BlockChoice& choice) {
   return (choice.signal.unit.empty() ? "" : fmt::format(" in {}", choice.signal.unit)) +
          (choice.scale.empty() ? "" : fmt::format(", times {}", choice.scale));
@@ -115,7 +114,7 @@ Block counted_signal(const BlockChoice& choice) {
   const LoadHistory::Counted counted = history.counted();
   if (counted.classes.cells().empty())
     throw InputError(fmt::format(
-        "{}, column '{}' holds {}: it has no cycle", file.source(), file.column(),
+        "{}, column '{}' has {} and no cycle", file.source(), file.column(),
         counted.samples == 1 ? "one sample" : fmt::format("{} throughout", counted.lowest)));
   Block block;
   if (choice.timed) block.seconds = file.seconds();
@@ -153,26 +152,25 @@ class CountedTable {
   std::string doubt() const {
     if (count_)
       return fmt::format(
-          "column '{}' counts cycles, but no column is called range or amplitude: is "
-          "what is counted a range (from valley to peak) or an amplitude (half of "
-          "it)? Name it so; or, of a signal, say which: --column NAME",
+          "column '{}' counts cycles, but no column is called range or amplitude: name the counted "
+          "column range (from valley to peak) or amplitude (half of it); or, for a signal, name "
+          "its column: --column NAME",
           count_->name);
     return fmt::format(
-        "column '{}' may be a signal or a class of counted cycles: of a signal say "
-        "which: --column NAME; of counted cycles add a column 'cycles'",
+        "column '{}' may be a signal or a class of counted cycles: for a signal name its column: "
+        "--column NAME; for counted cycles add a column 'cycles'",
         (size_ ? size_ : amplitude_)->name);
   }
 
   Block read() const {
     if (size_ && amplitude_)
       throw InputError(
-          fmt::format("{} has '{}' and '{}': a range is twice an amplitude; leave one "
-                      "out",
+          fmt::format("{} has '{}' and '{}': a range is twice an amplitude; remove one",
                       table_.source, size_->name, amplitude_->name));
     if (choice_.with_mean && (mean_ != nullptr) == (ratio_ != nullptr))
       throw InputError(
-          fmt::format("{}: the study's law asks for the mean stress: give a column "
-                      "'mean' or 'stress_ratio', one of them",
+          fmt::format("{}: the study's model needs the mean stress: add one of the columns 'mean' "
+                      "and 'stress_ratio'",
                       table_.source));
     const Column& size = size_ ? *size_ : *amplitude_;
     const double factor = (size_ ? 0.5 : 1) * std::abs(pascal(size));
@@ -180,7 +178,7 @@ class CountedTable {
     Block block;
     for (std::size_t i = 0; i < table_.rows; ++i) {
       const double count = cell(*count_, i);
-      if (!(count >= 0)) fail(*count_, i, "is no count of cycles");
+      if (!(count >= 0)) fail(*count_, i, "is not a number of cycles");
       const double amplitude = factor * cell(size, i);
       if (!(amplitude > 0)) fail(size, i, "must be positive");
       double mean = mean_ && choice_.with_mean ? mean_factor * cell(*mean_, i) : 0;
@@ -192,13 +190,13 @@ class CountedTable {
       block.cycles.push_back({{amplitude, mean}, count});
       block.count += count;
     }
-    if (!(block.count > 0)) throw InputError(fmt::format("{} counts no cycle", table_.source));
+    if (!(block.count > 0)) throw InputError(fmt::format("{} has no cycle", table_.source));
     block.description =
         fmt::format("{} classes of counted cycles of {}, by {} '{}'{}", table_.rows, table_.source,
                     size_ ? "the range" : "the amplitude", size.name, options_text(choice_));
     if (const Column* mean = mean_ ? mean_ : ratio_; mean && !choice_.with_mean)
       block.description +=
-          fmt::format("; '{}' is left out, since the study's law has no mean stress", mean->name);
+          fmt::format("; '{}' is ignored, since the study's model has no mean stress", mean->name);
     return block;
   }
 
@@ -210,7 +208,7 @@ class CountedTable {
   }
   double cell(const Column& column, std::size_t row) const {
     const double value = cell_number(table_, column, row);
-    if (!std::isfinite(value)) fail(column, row, "is no number");
+    if (!std::isfinite(value)) fail(column, row, "is not a number");
     return value;
   }
   [[noreturn]] void fail(const Column& column, std::size_t row, const char* what) const {
@@ -230,8 +228,8 @@ Block read_block(const BlockChoice& choice) {
     const CountedTable headings(choice, ColumnStream(choice.signal.file).columns());
     if (headings.is_one() && !choice.signal.time.empty())
       throw InputError(fmt::format(
-          "{} is a table of counted cycles, which has no times: leave --time out and say "
-          "by --block what it stands for, or of a signal which column it is: --column NAME",
+          "{} is a table of counted cycles, which has no times: remove --time and give the use of "
+          "one block with --block; or for a signal name its column: --column NAME",
           choice.signal.file.string()));
     if (headings.is_one()) return CountedTable(choice, read_table(choice.signal.file)).read();
     if (headings.doubtful())

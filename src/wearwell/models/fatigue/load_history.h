@@ -10,7 +10,7 @@
 
 namespace wearwell::fatigue {
 
-/// How a history is counted.
+/// The method of counting a history.
 struct CountingRule {
   Counting counting = Counting::four_point;
   Residual residual = Residual::half;
@@ -19,7 +19,8 @@ struct CountingRule {
   bool operator==(const CountingRule&) const = default;
 };
 
-/// A load history that comes piece by piece, counted as it comes. How it is cut changes no bit.
+/// A load history that arrives piece by piece, counted as it arrives. The division into pieces does
+/// not change a bit.
 class LoadHistory {
  public:
   struct State {
@@ -27,7 +28,7 @@ class LoadHistory {
     long long samples = 0, reversals = 0;
     double lowest = 0, highest = 0;
     TurningPoints::State turn;
-    std::optional<double> point;  ///< the last that was complete
+    std::optional<double> point;  ///< the last complete one
     std::vector<double> open;
     CycleClasses classes;
     LevelCrossings levels;
@@ -35,12 +36,12 @@ class LoadHistory {
 
   explicit LoadHistory(const CountingRule& rule);
   explicit LoadHistory(State state);
-  State state() const;  ///< to go on from
+  State state() const;  ///< state to continue from
 
   /// Finite samples.
   void add(std::span<const double> samples);
 
-  /// What was counted, the residual included as the rule says.
+  /// The counted cycles, including the residual by its rule.
   struct Counted {
     CycleClasses classes;
     LevelCrossings levels;

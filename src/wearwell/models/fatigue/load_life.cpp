@@ -29,31 +29,29 @@ void refuse_what_has_no_sum(const SnLaw& law, const DamageRule& rule) {
   if (!law.logarithmic())
     throw InputError(
         "the study's lives are normal in cycles (likelihood.family = \"normal\"): under small "
-        "stresses a scatter in cycles has no meaning, and damage no sum; fit log10-normal or "
-        "weibull");
+        "stresses a scatter in cycles has no meaning, and damage cannot be summed; fit "
+        "log10-normal or weibull");
   if (law.bends() && rule.miner != MinerRule::original)
     throw InputError(
-        "the study's curve has a knee or a fatigue limit of its own: only --rule original goes "
-        "with it; "
-        "for another rule fit without law.curve and law.fatigue_limit and give --knee");
+        "the study's curve has its own knee or fatigue limit: use --rule original; for another "
+        "rule fit without law.curve and law.fatigue_limit and give --knee");
   if (law.bends() && rule.knee.any())
-    throw InputError(
-        "--knee: the study's curve has a knee or a limit of its own; leave --knee out");
+    throw InputError("--knee: the study's curve has its own knee or limit; remove --knee");
   if (law.scatter_grows && !law.bends() && rule.miner != MinerRule::elementary)
     throw InputError(
-        "the study's scatter grows with life (law.scatter): items have no common knee; only --rule "
-        "elementary goes with it, or a curve with a knee of its own (law.curve = \"knee\")");
+        "the study's scatter grows with life (law.scatter), so items have no common knee: use "
+        "--rule elementary, or fit a curve with its own knee (law.curve = \"knee\")");
   if (!law.bends() && rule.miner != MinerRule::elementary && !rule.knee.any())
     throw InputError(
-        "--rule: the study's curve has no knee, so say where it is: --knee '2e6 cycles' or --knee "
-        "'150 MPa'; or take --rule elementary, which has none");
+        "--rule: the study's curve has no knee; give one with --knee '2e6 cycles' or --knee '150 "
+        "MPa', or use --rule elementary, which has none");
 }
 
 // One point of the posterior.
 struct Drawn {
   double weight = 0;
   std::vector<double> b;  // log10 of blocks to a damage sum of 1, by percent
-  double median = 0;      // of the item at place 0, log10 of blocks to a sum of 1
+  double median = 0;      // of the item at score 0, log10 of blocks to a sum of 1
   // Cells of items: weight, log10 of blocks to a sum of 1 at either end.
   struct Cell {
     double weight, low, high;
@@ -61,7 +59,7 @@ struct Drawn {
   std::vector<Cell> cells;
 };
 
-// Places of items, from tail to tail.
+// Scores of items, from tail to tail.
 std::vector<double> edges(StandardDistribution law, std::size_t count) {
   const double first = quantile(law, negligible), last = quantile(law, 1 - negligible);
   std::vector<double> at;
@@ -78,7 +76,7 @@ class Draws {
         question_(question),
         places_(edges(result.law.standard(), result.law.limit ? 96 : 128)) {}
 
-  /// `where` takes the shares of the cycles, by the weight of the point.
+  /// `where` takes the shares of the cycles, times the weight of the point.
   Drawn operator()(Eigen::Index i, std::vector<double>& where) const {
     const SnLaw& law = result_.law;
     const double* x = result_.posterior.values.row(i).data();
@@ -117,7 +115,7 @@ class Draws {
     }
   }
 
-  // Limits in strata; their places move from draw to draw.
+  // Stratified limits; their positions move from draw to draw.
   void add_items_of_limits(const BlockDamage& damage, Eigen::Index i, const double* x,
                            Drawn& drawn) const {
     const SnLaw& law = result_.law;
@@ -149,7 +147,7 @@ class Draws {
   std::vector<double> places_;
 };
 
-// Of as many damage sums as there are draws and more, each as likely.
+// At least as many damage sums as draws, with equal probability.
 double log10_sum(const DamageSum& sum, std::size_t draw, std::size_t j) {
   double whole = 0;
   const auto index = static_cast<double>(draw * sums_per_draw + j);
@@ -228,7 +226,7 @@ void add_contributions(const SnResult& result, const std::vector<Drawn>& drawn,
     life.contributions.push_back({result.parameters[i], shares[i] * of_posterior / all});
   if (shares.back() * of_posterior > 0.005 * all)
     life.contributions.push_back(
-        {"these together, beyond straight lines", shares.back() * of_posterior / all});
+        {"these together, nonlinear part", shares.back() * of_posterior / all});
   life.contributions.push_back({"scatter from item to item", items / all});
   life.contributions.push_back({"the damage sum at failure", of_sum / all});
 }
@@ -253,7 +251,7 @@ LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQ
   refuse_what_has_no_sum(result.law, question.rule);
   const Draws draw(result, cycles, question);
   std::vector<Drawn> drawn(static_cast<std::size_t>(result.posterior.values.rows()));
-  // Sums of shares by blocks, so that no thread changes their order.
+  // Sums of shares by blocks, so that threads do not change their order.
   constexpr std::size_t block = 64;
   std::vector<std::vector<double>> sums((drawn.size() + block - 1) / block,
                                         std::vector<double>(cycles.size(), 0));
@@ -276,7 +274,7 @@ LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQ
 std::vector<double> variance_shares(const WeightedDraws& x, const Eigen::VectorXd& y) {
   const auto d = static_cast<std::size_t>(x.values.cols());
   const Eigen::VectorXd& weights = x.weights;
-  // In units of their standard deviations; a column that does not vary explains nothing.
+  // In units of their standard deviations; a constant column explains nothing.
   const Eigen::RowVectorXd mean = weights.transpose() * x.values;
   Eigen::MatrixXd z = x.values.rowwise() - mean;
   for (Eigen::Index c = 0; c < z.cols(); ++c) {
@@ -290,7 +288,7 @@ std::vector<double> variance_shares(const WeightedDraws& x, const Eigen::VectorX
   const Eigen::MatrixXd weighted = weights.asDiagonal() * z;
   const Eigen::MatrixXd covariance = z.transpose() * weighted;
   const Eigen::VectorXd with_y = weighted.transpose() * centered;
-  // What each set of columns explains.
+  // The explained variance of each set of columns.
   std::vector<double> explained(std::size_t{1} << d, 0);
   for (std::size_t set = 1; set < explained.size(); ++set) {
     std::vector<Eigen::Index> in;
@@ -301,7 +299,7 @@ std::vector<double> variance_shares(const WeightedDraws& x, const Eigen::VectorX
     const Eigen::VectorXd to_y = with_y(in);
     explained[set] = to_y.dot(part.completeOrthogonalDecomposition().solve(to_y)) / variance;
   }
-  // Shapley: what a column adds, over all orders in which they may come.
+  // Shapley: the contribution of a column, averaged over all orders of adding columns.
   std::vector<double> orders(d + 1, 1);
   for (std::size_t i = 1; i <= d; ++i) orders[i] = orders[i - 1] * static_cast<double>(i);
   for (std::size_t c = 0; c < d; ++c) {

@@ -32,7 +32,7 @@ std::string rule_text(const LoadLifeReport& report) {
   std::string text =
       fmt::format("Miner, {}: {}", miner_rule_names()[static_cast<std::size_t>(rule.miner)],
                   report.result.law.limit     ? "no damage below each item's own fatigue limit"
-                  : report.result.law.bends() ? "by the study's own curve"
+                  : report.result.law.bends() ? "with the study's own curve"
                                               : words[static_cast<int>(rule.miner)]);
   if (rule.knee.life) text += fmt::format("; knee at {} cycles", plain_given(*rule.knee.life));
   if (rule.knee.stress)
@@ -52,16 +52,16 @@ double largest(const LoadLifeReport& report) {
 
 std::string block_text(const LoadLifeReport& report) {
   std::string text =
-      fmt::format("{}: {} cycles a block, amplitudes up to {:.6g} {}", report.block.description,
+      fmt::format("{}: {} cycles per block, amplitudes up to {:.6g} {}", report.block.description,
                   plain_given(report.block.count), largest(report), report.result.stress_unit.text);
   if (const double mean = report.block.largest_mean_left_out; mean > 0)
     text += fmt::format(
-        "; means up to {:.6g} {} are left out, since the study's law has no mean stress",
+        "; means up to {:.6g} {} are ignored, since the study's model has no mean stress",
         from_si(report.result.stress_unit, mean), report.result.stress_unit.text);
   if (report.unit != "blocks")
     text += fmt::format("; a block is {:.6g} {}", report.per_block, report.unit);
   if (report.reduction > 1e-3)
-    text += fmt::format("; summed in {} classes, by which the damage changes by {}",
+    text += fmt::format("; summed in {} classes, which changes the damage by {}",
                         report.cycles.size(), percent(report.reduction));
   return text;
 }
@@ -73,7 +73,7 @@ std::string b_name(double percent_failed) {
 Table lives_table(const LoadLifeReport& report) {
   const std::string unit = report.unit;
   Table table{"lives",
-              "When a share of all items has failed",
+              "Lives by percentage failed",
               {{"life"},
                {fmt::format("at least, {:.4g} %", 100 * report.question.confidence), unit},
                {"5 %", unit},
@@ -89,7 +89,7 @@ Table lives_table(const LoadLifeReport& report) {
 
 Table contributions_table(const LoadLifeReport& report) {
   Table table{"contributions",
-              "What the spread of log10 life of the next one comes from",
+              "Sources of the spread of the predictive log10 life",
               {{"of"}, {"share", "%", present::digits(3)}}};
   for (const Contribution& each : report.life.contributions)
     table.rows.push_back({each.name, 100 * each.share});
@@ -111,7 +111,7 @@ Table damage_table(const LoadLifeReport& report) {
     damage[c] += report.life.shares[i];
   }
   Table table{"damage",
-              "Where the damage comes from",
+              "Damage by amplitude",
               {{"amplitude from", unit.text},
                {"amplitude to", unit.text},
                {"cycles"},
@@ -133,8 +133,8 @@ html::Figure life_figure(const LoadLifeReport& report) {
     x.push_back(report.per_block * std::pow(10, log10));
     y.push_back(100 * p);
   }
-  return {"life", "Life of the next one",
-          "The share of items that have failed by then, all that is unknown averaged in.",
+  return {"life", "Predictive life",
+          "The probability that the next item has failed by then, averaged over all uncertainty.",
           plot::plot("Probability of failure against life",
                      {fmt::format("Life [{}]", html::unit(report.unit)), true},
                      {"Failed [%]", false, 0.0, 100.0},
@@ -151,9 +151,9 @@ html::Figure damage_figure(const LoadLifeReport& report) {
     y2.push_back(std::get<double>(row[3]));
   }
   const auto in_unit = [&](double si) { return from_si(report.result.stress_unit, si); };
-  return {"damage", "Where the damage comes from",
-          "Share of the damage by amplitude; the two lines are the smallest and the largest "
-          "amplitude that was tested: outside, the curve rests on the model.",
+  return {"damage", "Damage by amplitude",
+          "Share of the damage by amplitude; the two lines are the smallest and the largest tested "
+          "amplitude: outside, the curve rests on the model.",
           plot::plot("Share of the damage by amplitude",
                      {fmt::format("Amplitude [{}]", html::unit(report.result.stress_unit.text))},
                      {"Damage [%]", false, 0.0},
@@ -188,33 +188,32 @@ std::vector<Check> load_life_checks(const LoadLifeReport& report) {
   Findings extrapolation("extrapolation");
   const auto add = [&](double share, const std::string& what) {
     if (share < worth_telling) return;
-    extrapolation.add(
-        share < worth_a_warning ? Verdict::pass : Verdict::warn,
-        fmt::format("{} of the damage is {}", percent(share), what),
-        share < worth_a_warning
-            ? ""
-            : "There the answer rests on the model, not on tests. Test there, or see how much "
-              "another rule (--rule) changes.");
+    extrapolation.add(share < worth_a_warning ? Verdict::pass : Verdict::warn,
+                      fmt::format("{} of the damage is {}", percent(share), what),
+                      share < worth_a_warning
+                          ? ""
+                          : "There the result rests on the model, not on tests. Test there, or "
+                            "compare other rules (--rule).");
   };
   const std::string amplitudes = span(tested.alternating_low, tested.alternating_high);
-  add(life.above, fmt::format("done by amplitudes above those tested ({})", amplitudes));
-  add(life.below, fmt::format("done by amplitudes below those tested ({})", amplitudes));
-  add(life.beyond_mean, fmt::format("done under mean stresses beyond those tested ({})",
+  add(life.above, fmt::format("due to amplitudes above the tested range ({})", amplitudes));
+  add(life.below, fmt::format("due to amplitudes below the tested range ({})", amplitudes));
+  add(life.beyond_mean, fmt::format("due to mean stresses outside the tested range ({})",
                                     span(tested.mean_low, tested.mean_high)));
   double most = 0;
   for (const LoadCycle& each : report.block.cycles) most = std::max(most, each.stress.alternating);
   if (most > tested.alternating_high * (1 + 1e-9) && life.above < worth_telling)
     extrapolation.add(
         Verdict::pass,
-        fmt::format("amplitudes reach {:.6g} {}, above those tested, and do {} of the "
-                    "damage",
-                    from_si(unit, most), unit.text, percent(life.above)),
+        fmt::format(
+            "amplitudes reach {:.6g} {}, above the tested range, and cause {} of the damage",
+            from_si(unit, most), unit.text, percent(life.above)),
         "");
   checks.push_back(extrapolation.result(
-      fmt::format("all but {} of the damage is done where tests were", percent(worth_telling))));
+      fmt::format("all but {} of the damage is in the tested range", percent(worth_telling))));
   if (!report.result.trusted)
     checks.push_back({"study", Verdict::fail, "the study itself is not trusted",
-                      "See its own checks first: wearwell report."});
+                      "Look at its checks first: wearwell report."});
   return checks;
 }
 
@@ -233,7 +232,9 @@ std::string load_life_text(const LoadLifeReport& report) {
                     scaled(each.bound), scaled(each.q05), scaled(each.q50), scaled(each.q95),
                     scaled(each.next)});
   text += "\nLife under this history\n" + text_table(rows);
-  text += fmt::format("\nThe next one, one item (predictive)\n") +
+  text += fmt::format(
+              "\n"
+              "The next item (predictive)\n") +
           text_table({{"", "5 %", "50 %", "95 %"},
                       {fmt::format("  life [{}]", report.unit), scaled(life.next05),
                        scaled(life.next50), scaled(life.next95)},
@@ -243,12 +244,15 @@ std::string load_life_text(const LoadLifeReport& report) {
     std::vector<std::vector<std::string>> shares = {{"", "share of the variance"}};
     for (const Contribution& each : life.contributions)
       shares.push_back({"  " + each.name, fmt::format("{:.1f} %", 100 * each.share)});
-    text +=
-        fmt::format("\nWhat spreads the life of the next one (log10, standard deviation {:.3g})\n",
-                    life.sd) +
-        text_table(shares);
+    text += fmt::format(
+                "\n"
+                "Sources of the spread of the predictive life (log10, standard deviation {:.3g})\n",
+                life.sd) +
+            text_table(shares);
   } else {
-    text += "\nSome items never fail: their life has no variance that could be shared out.\n";
+    text +=
+        "\n"
+        "Some items never fail: their life has no finite variance.\n";
   }
   text += "\nChecks\n";
   static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
@@ -272,11 +276,11 @@ std::vector<present::Section> load_life_sections(const LoadLifeReport& report) {
   }
   life.add(present::Figures{{life_figure(report), damage_figure(report)}});
   life.add(lives_table(report));
-  life.add(present::Prose{
-      "At least: with this confidence (Bayesian: credible) the true value, of all such items, lies "
-      "above it; 5, 50 and 95 % are of the same. Next one: what the next item has with just that "
-      "chance."});
-  present::Section parts{"parts", "What it comes from"};
+  life.add(
+      present::Prose{"At least: the true value over all such items lies above it with this "
+                     "confidence (credible level); 5, 50 and 95 % are its quantiles. Next one: the "
+                     "quantile of the predictive life of the next item."});
+  present::Section parts{"parts", "Sources of the spread"};
   if (!report.life.contributions.empty()) parts.add(contributions_table(report));
   parts.add(damage_table(report));
   return {life, parts};

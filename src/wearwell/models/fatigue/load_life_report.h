@@ -11,21 +11,21 @@
 
 namespace wearwell::fatigue {
 
-/// A life under a history with what is needed to speak of it.
+/// A life under a history with what is needed to describe it.
 struct LoadLifeReport {
   SnResult result;
   Block block;
-  LoadCycles cycles;     ///< as damage was summed
-  double reduction = 0;  ///< by which fewer classes change the damage, relative
+  LoadCycles cycles;     ///< the rule of damage accumulation
+  double reduction = 0;  ///< relative change of the damage with fewer classes
   LoadQuestion question;
   LoadLife life;
-  std::string unit = "blocks";  ///< of lives, and how many make a block
+  std::string unit = "blocks";  ///< unit of lives, and its amount per block
   double per_block = 1;
 };
 
 const std::vector<std::string>& miner_rule_names();
 
-/// What is not as it should be: cycles beyond what was tested, a study that is not trusted.
+/// Cautions: cycles outside the tested range, a study that is not trusted.
 std::vector<Check> load_life_checks(const LoadLifeReport& report);
 
 std::string load_life_text(const LoadLifeReport& report);

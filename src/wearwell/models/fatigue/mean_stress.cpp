@@ -43,7 +43,8 @@ namespace {
 double walker_at_mean(double reversed, double mean, double gamma) {
   if (gamma == 1) return reversed;
   if (gamma == 0) return std::max(0.0, reversed - mean);
-  // Solved for the smaller of a and mean + a, which both grow with a: it lies between 0 and `reversed`.
+  // Solved for the smaller of a and mean + a, which both grow with a: it lies between 0 and
+  // `reversed`.
   const double between = std::abs(mean), power = mean > 0 ? gamma : 1 - gamma;
   const auto excess = [&](double t) {
     return power * std::log(t) + (1 - power) * std::log(t + between) - std::log(reversed);
@@ -60,7 +61,7 @@ double walker_at_mean(double reversed, double mean, double gamma) {
 double alternating_stress(MeanStress correction, double reversed, const StressLine& line,
                           double strength, double gamma) {
   const double mean = line.mean;
-  // Mean over alternating stress, where that is what stays.
+  // Mean over alternating stress, if that ratio is constant.
   const double slope = line.ratio ? (1 + *line.ratio) / (1 - *line.ratio) : 0;
   switch (correction) {
     case MeanStress::none:

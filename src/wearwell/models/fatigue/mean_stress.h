@@ -17,10 +17,10 @@ struct Stress {
   double mean = 0;
 };
 
-/// Where the mean stress is when the alternating stress grows: it stays, or the ratio R of smallest
-/// to largest stress does.
+/// What stays constant when the alternating stress grows: the mean stress, or the ratio R of
+/// smallest to largest stress.
 struct StressLine {
-  double mean = 0;              ///< Pa, where there is no ratio
+  double mean = 0;              ///< Pa, if there is no ratio
   std::optional<double> ratio;  ///< R < 1
 
   Stress at(double alternating) const {
@@ -28,7 +28,7 @@ struct StressLine {
   }
 };
 
-/// How a mean stress lowers life: the fully reversed amplitude S_f that is as harmful.
+/// Mean-stress correction: the fully reversed amplitude S_f that is as damaging.
 ///
 ///   none      S_f = S_a
 ///   goodman   S_f = S_a/(1 - S_m/S_ut)                 S_ut ultimate strength
@@ -38,7 +38,8 @@ struct StressLine {
 ///   swt       S_f = sqrt((S_m + S_a) S_a)              Smith, Watson and Topper (1970)
 ///   walker    S_f = (S_m + S_a)^(1 - gamma) S_a^gamma  Walker (1970); gamma = 1/2 is swt
 ///
-/// Beyond the strength no cycle is borne; with swt and walker a cycle without tension does no harm.
+/// Above the strength no cycle is possible; with swt and walker a cycle without tension does no
+/// damage.
 enum class MeanStress { none, goodman, gerber, soderberg, morrow, swt, walker };
 
 const std::vector<std::string>& mean_stress_names();
@@ -52,8 +53,8 @@ inline bool divides_by_strength(MeanStress correction) {
          correction == MeanStress::soderberg || correction == MeanStress::morrow;
 }
 
-/// log10(S_f/S_a): infinite where the mean stress reaches the strength, -infinite where the cycle
-/// does no harm. `strength` [Pa] and `gamma` matter only to corrections that have them.
+/// log10(S_f/S_a): infinite if the mean stress reaches the strength, -infinite if the cycle does no
+/// damage. `strength` [Pa] and `gamma` matter only to corrections that use them.
 template <class T>
 T log10_factor(MeanStress correction, const Stress& stress, const T& strength, const T& gamma) {
   using std::log;
@@ -85,8 +86,8 @@ T log10_factor(MeanStress correction, const Stress& stress, const T& strength, c
   return T(0);
 }
 
-/// The alternating stress [Pa] along a line whose fully reversed amplitude is `reversed` [Pa]: 0
-/// where the mean stress alone reaches the strength, infinite where no cycle is as harmful.
+/// The alternating stress [Pa] along a line whose fully reversed amplitude is `reversed` [Pa]: 0 if
+/// the mean stress alone reaches the strength, infinite if no cycle is as damaging.
 double alternating_stress(MeanStress correction, double reversed, const StressLine& line,
                           double strength, double gamma);
 

@@ -13,7 +13,7 @@ Model strain_life();
 /// Fatigue limits from up-and-down tests: model = "staircase".
 Model staircase();
 
-/// The model of S-N curves, with what `wearwell new spectrum` writes: tests and a load history.
+/// The S-N model, with the template of `wearwell new spectrum`: tests and a load history.
 Model spectrum();
 
 }  // namespace wearwell::fatigue

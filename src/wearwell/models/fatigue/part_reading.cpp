@@ -36,7 +36,7 @@ PartReading::PartReading(const TomlReader& root, const SnData& data, MeanStress 
   if (columns_.size() == 1 && stress_of({}, stress).empty()) only_ = stress;
 }
 
-// A plain function of the names: each stands in a column or is the same for all.
+// A plain function of the names: each is in a column or is the same for all.
 std::optional<double> PartReading::given(const std::string& name,
                                          const std::vector<double>& numbers) const {
   for (const auto& [constant, value] : constants_)
@@ -66,8 +66,7 @@ std::string PartReading::stress_of(const std::vector<double>& numbers, Stress& s
                                   : given("mean_stress", numbers).value_or(0)};
   }
   if (tension_ && !(stress.mean + stress.alternating > 0))
-    return "the largest stress is not tension, which this correction of the mean stress takes for "
-           "no harm at all";
+    return "the largest stress is not tensile, so this mean-stress correction counts no damage";
   return {};
 }
 

@@ -10,8 +10,8 @@
 
 namespace wearwell::fatigue {
 
-/// What a reading of a part on line brings: the cycles that it has survived, and the stress under which it
-/// runs, in the columns that the study's table has for it; what is the same for all stands in the study's [conditions].
+/// A reading of a tracked part: the survived cycles, and its stress, in the columns of the study's
+/// table; values that are the same for all are in the study's [conditions].
 class PartReading {
  public:
   PartReading(const TomlReader& root, const SnData& data, MeanStress correction);
@@ -19,11 +19,12 @@ class PartReading {
   const std::vector<prognosis::ReadingColumn>& columns() const { return columns_; }
   std::size_t axis() const { return 0; }
 
-  /// Why this is no reading; empty where it is one. `stress` has nothing where the reading brings none of its columns.
+  /// Why this reading is invalid; empty if it is valid. `stress` is empty if the reading has none
+  /// of its columns.
   std::string read(const std::vector<double>& numbers, double& cycles,
                    std::optional<Stress>& stress) const;
 
-  /// The stress of every part, where [conditions] has all of it.
+  /// The stress of every part, if [conditions] has all of it.
   const std::optional<Stress>& only() const { return only_; }
 
  private:
@@ -33,11 +34,12 @@ class PartReading {
   std::vector<prognosis::ReadingColumn> columns_;
   std::vector<std::pair<std::string, double>> constants_;  // SI
   std::optional<HelicalSpring> spring_;
-  bool tension_ = false;  // the largest stress has to be one
+  bool tension_ = false;  // for corrections that need the largest stress to be tensile
   std::optional<Stress> only_;
 };
 
-/// What may stand for the stress: "alternating_stress", ..., in the order in which they are read.
+/// The quantities that may give the stress: "alternating_stress", ..., in the order in which they
+/// are read.
 const std::vector<std::string>& stress_names();
 
 }  // namespace wearwell::fatigue

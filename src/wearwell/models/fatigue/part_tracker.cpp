@@ -26,11 +26,12 @@ namespace {
 using prognosis::Forecast;
 using prognosis::Reading;
 
-// Of the posterior; more where at each of them life has an end or has none, and nothing between.
+// Of the posterior; more points if life is either finite or infinite at each of them.
 constexpr std::size_t points = 1000, points_at_a_limit = 4000;
-constexpr double hardly_possible = 1e-4;  // that a part comes so far: it contradicts
+// probability of surviving so far: below it the reading contradicts
+constexpr double hardly_possible = 1e-4;
 constexpr double same_stress = 1e-6;      // relative
-constexpr double undefined_share = 1e-8;  // of the posterior, where the law has no life
+constexpr double undefined_share = 1e-8;  // of the posterior, where the model has no life
 constexpr std::string_view part_mark = "wearwell part 1";
 
 bool alike(const Stress& a, const Stress& b) {
@@ -39,13 +40,13 @@ bool alike(const Stress& a, const Stress& b) {
          std::abs(a.mean - b.mean) <= same_stress * size;
 }
 
-// What all parts share.
+// The parts common to all tracked parts.
 struct Parts {
   SnLaw law;
   SnData data;
   PartReading reading;
   ThinnedPosterior few;
-  std::optional<Stress> ahead;             // of a part of which nothing is known yet
+  std::optional<Stress> ahead;             // of a part without readings
   std::vector<std::string> seen;           // run-outs
   std::map<std::string, std::size_t> row;  // of each part of the study
   std::string fingerprint;
@@ -68,7 +69,7 @@ struct Parts {
                           data.spring, data.stress_si);
   }
 
-  // Tables of few stresses are kept; which of them changes no bit.
+  // Tables of a few stresses are cached; this does not change results.
   std::shared_ptr<const StressLives> lives(const Stress& stress) const {
     constexpr std::size_t most = 32;
     const std::lock_guard lock(lock_);
@@ -84,8 +85,8 @@ struct Parts {
   std::string refusal(const std::string& part) const {
     const auto at = row.find(part);
     if (at == row.end() || data.tests[at->second].outcome == Outcome::runout) return {};
-    return fmt::format("'{}' is row {} of {}, where it broke: nothing remains to it",
-                       printable(part), at->second + 1, data.source);
+    return fmt::format("'{}' is row {} of {}, where it failed: no life remains", printable(part),
+                       at->second + 1, data.source);
   }
 
  private:
@@ -124,32 +125,32 @@ class PartUnit final : public prognosis::TrackedUnit {
   bool is_known() const { return refusal_.empty() && stress_.has_value(); }
   std::string problem_of(const Reading& reading, double& cycles,
                          std::optional<Stress>& stress) const;
-  // Of the posterior's points, for a part that came to n; sum to `survival`.
+  // Weights of the posterior's points for a part that survived n; they sum to `survival`.
   std::vector<double> weights(const StressLives& lives, double n, double& survival) const;
 
   SharedParts parts_;
   std::string name_, refusal_;
   std::optional<Stress> stress_;
-  bool bound_ = false;          // the stress is its own, and not that of parts to come
-  double known_ = 0, now_ = 0;  // cycles: what the study has of it, and how far it came
+  bool bound_ = false;          // the stress is its own, not that of future parts
+  double known_ = 0, now_ = 0;  // cycles: known from the study, and now
   std::size_t readings_ = 0;
 };
 
 std::string PartUnit::problem_of(const Reading& reading, double& cycles,
                                  std::optional<Stress>& stress) const {
   if (reading.numbers.size() != parts_->reading.columns().size() || !reading.labels.empty())
-    throw InputError(fmt::format("a reading has {} numbers and {} labels: {} and 0 are expected",
+    throw InputError(fmt::format("a reading has {} numbers and {} labels; expected are {} and 0",
                                  reading.numbers.size(), reading.labels.size(),
                                  parts_->reading.columns().size()));
   if (!refusal_.empty()) return refusal_;
   std::string problem = parts_->reading.read(reading.numbers, cycles, stress);
   if (!problem.empty()) return problem;
   if (!stress) stress = stress_;
-  if (!stress) return "alternating_stress is missing, or what stands for it";
+  if (!stress) return "alternating_stress is missing, or other columns that give it";
   if (bound_ && !alike(*stress, *stress_))
     return fmt::format(
-        "it runs under {} and not, as before, under {}: life under a stress that changes is a sum "
-        "of damage (wearwell fatigue life)",
+        "it runs under {}, but earlier under {}: life under a changing stress is a sum of damage "
+        "(wearwell fatigue life)",
         description(parts_->law, parts_->data, *stress),
         description(parts_->law, parts_->data, *stress_));
   return {};
@@ -171,14 +172,14 @@ prognosis::UpdateResult PartUnit::take(const Reading& reading, const prognosis::
   std::optional<Stress> stress;
   taken.problem = problem_of(reading, cycles, stress);
   if (!taken.problem.empty()) return taken;
-  taken.p_value = 1;  // of one that says less than is known
+  taken.p_value = 1;  // for a reading with less information than is known
   if (cycles > now_) {
     const auto lives = parts_->lives(*stress);
     double before = 0, after = 0;
     weights(*lives, now_, before);
     weights(*lives, cycles, after);
     if (!(after > 0)) {
-      taken.problem = "no part that the population allows comes so far under that stress";
+      taken.problem = "no part of the population survives so long under that stress";
       return taken;
     }
     taken.p_value = std::min(1.0, after / before);
@@ -192,7 +193,7 @@ prognosis::UpdateResult PartUnit::take(const Reading& reading, const prognosis::
   return taken;
 }
 
-// The share of its life that a part has used at a place: of long lives little.
+// The share of its life that a part has used at a given life: small for long lives.
 prognosis::ForecastBand used(const prognosis::WeightedLives& remaining, double now, double at) {
   const auto level = [&](double p) { return at > 0 ? at / (now + remaining.quantile(p)) : 0; };
   return {at, level(0.95), level(0.5), level(0.05)};
@@ -222,7 +223,7 @@ Forecast PartUnit::forecast() const {
 
 std::vector<prognosis::ForecastBand> PartUnit::ahead(std::span<const double> places) const {
   if (!places.empty() && places.front() < now_)
-    throw std::invalid_argument("a path ahead begins where the unit is");
+    throw std::invalid_argument("a forecast must start at the unit's present position");
   const Forecast now = forecast();
   std::vector<prognosis::ForecastBand> path;
   if (std::isnan(now.passed)) return path;
@@ -263,10 +264,10 @@ void PartUnit::load(prognosis::ByteReader& from) {
   const bool bound = from.flag();
   const Stress stress{from.number(), from.number()};
   from.end();
-  if (!(now_ >= known_ && std::isfinite(now_))) from.fail("it has come to no number of cycles");
+  if (!(now_ >= known_ && std::isfinite(now_))) from.fail("its number of cycles is not a number");
   if (!bound) return;
   if (!(stress.alternating > 0 && std::isfinite(stress.alternating) && std::isfinite(stress.mean)))
-    from.fail("its stress is none");
+    from.fail("its stress is not a number");
   stress_ = stress;
   bound_ = true;
 }

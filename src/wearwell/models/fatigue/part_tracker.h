@@ -7,11 +7,12 @@
 
 namespace wearwell::fatigue {
 
-/// Follows parts that run under one stress each and have not broken: a run-out of the study (data.columns.unit names it), whose cycles the posterior
-/// has already and which count once, or a new one. A reading is the cycles survived, and the stress where it is not the same for all; what moves
-/// is which of the posterior's points a part goes with that came so far, so no order of readings matters. What is
-/// limited is the share of its life that a part has used, n/N, which is 1 where it breaks. Life may have no end (fatigue limits): the lives
-/// then are infinite with that probability. Throws InputError.
+/// Tracks parts that run under one stress each and have not failed: a run-out of the study (named
+/// by data.columns.unit), whose cycles are already in the posterior and count once, or a new one. A
+/// reading is the survived cycles, and the stress unless it is the same for all; it reweights the
+/// posterior's points by the survival of the part, so the order of readings does not matter. The
+/// quantity with the threshold is the used share of its life, n/N, which is 1 at failure. Life may
+/// have no end (fatigue limits): lives are then infinite with that probability. Throws InputError.
 std::unique_ptr<const prognosis::Tracker> track_parts(const prognosis::CarriedState& state);
 
 }  // namespace wearwell::fatigue

@@ -7,17 +7,17 @@
 
 namespace wearwell::fatigue {
 
-/// How cycles are found: by three points and the start of the history (ASTM E1049-85, 5.4.4), or by
-/// four, the two in the middle within the range of the outer two. With the residual in half cycles
-/// both count the same.
+/// The method of finding cycles: by three points and the start of the history (ASTM E1049-85,
+/// 5.4.4), or by four, where the inner two lie within the range of the outer two. With the residual
+/// in half cycles both give the same counts.
 enum class Counting { three_point, four_point };
 
-/// What becomes of the ranges that close no cycle: each counts as half a cycle, or the history is
-/// repeated, so that they close (ASTM E1049-85, 5.4.5).
+/// The treatment of unclosed ranges: each counts as half a cycle, or the history is repeated, so
+/// that they close (ASTM E1049-85, 5.4.5).
 enum class Residual { half, repeat };
 
-/// Rainflow counting of peaks and valleys, in one pass. Only points that are part of no cycle yet are
-/// kept: a few hundred, of whatever history.
+/// Rainflow counting of peaks and valleys, in one pass. Only points that are not yet part of a
+/// cycle are kept: a few hundred, for any history.
 class Rainflow {
  public:
   Rainflow(Counting counting, Residual residual, std::vector<double> open = {})
@@ -25,7 +25,7 @@ class Rainflow {
         residual_(residual),
         open_(std::move(open)) {}
 
-  /// The points that are part of no cycle yet.
+  /// The points that are not yet part of a cycle.
   const std::vector<double>& open() const { return open_; }
 
   /// `take(from, to, count)` for every cycle (1) or half cycle (0.5) that the point completes.
@@ -57,7 +57,7 @@ class Rainflow {
       for (std::size_t i = 1; i < open_.size(); ++i) take(open_[i - 1], open_[i], 0.5);
       return;
     }
-    // Where one pass ends and the next begins the signal may not turn.
+    // Where one repetition ends and the next begins the signal may not turn.
     Rainflow twice(Counting::four_point, Residual::repeat);
     TurningPoints turns;
     const auto add = [&](double point) { twice.add(point, take); };

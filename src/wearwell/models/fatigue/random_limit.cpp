@@ -11,12 +11,12 @@
 namespace wearwell::fatigue {
 namespace {
 
-/// Broken by then with a limit below the stress, or, of runouts, broken later.
+/// Failed by then with a limit below the stress, or, for runouts, failed later.
 LimitedLifeSlopes integral(const LimitedLife<double>& item, Outcome outcome, double at,
                            double until) {
   thread_local std::vector<std::pair<double, double>> marks;
   marks.assign(1, {0.0, 1.0});
-  // Where the limit is the usual one, and where the life seen is.
+  // The usual limit, and the observed life.
   const double log_share = decade * (item.location - item.log10_reversed);
   if (log_share < -1e-12) {
     const double rest = -std::expm1(log_share);
@@ -68,7 +68,7 @@ LimitedLifeSlopes adaptive_probability_and_slopes(const LimitedLife<double>& ite
                                                   double at, double until) {
   if (outcome != Outcome::runout) return integral(item, outcome, at, until);
 
-  // All but those that have broken. Only where nearly all have would that cancel.
+  // All except those that have failed. This cancels only if nearly all have.
   LimitedLifeSlopes y = integral(item, Outcome::left, at, until);
   const double broken = std::exp(y.value);
   if (broken < 0.9) {
@@ -78,7 +78,7 @@ LimitedLifeSlopes adaptive_probability_and_slopes(const LimitedLife<double>& ite
   }
   y = integral(item, outcome, at, until);
 
-  // Those whose limit the stress does not reach outlast it as well.
+  // Those whose limit is above the stress outlast it as well.
   const double w = (item.log10_reversed - item.location) / item.scale;
   const ValueAndSlope safe = log_survival_and_slope(item.limit, w);
   const double larger = std::max(y.value, safe.value), smaller = std::min(y.value, safe.value);

@@ -7,10 +7,10 @@
 
 namespace wearwell::fatigue {
 
-/// The life of items whose fatigue limits differ, under one stress (Pascual and Meeker 1999, eqs. 2
-/// to 5): log10 of the limit V has a law of location and scale; given V below log10 S_f, log10 life
-/// has a law about (log10(S_f - 10^V) - log10_a)/b with scale sigma; at or above it, life has no
-/// end.
+/// The life of items with random fatigue limits, under one stress (Pascual and Meeker 1999, eqs. 2
+/// to 5): log10 of the limit V has a location-scale distribution; given V below log10 S_f, log10
+/// life has a distribution about (log10(S_f - 10^V) - log10_a)/b with scale sigma; at or above it,
+/// life has no end.
 template <class T>
 struct LimitedLife {
   StandardDistribution life, limit;
@@ -18,7 +18,7 @@ struct LimitedLife {
   T location, scale;  ///< of the limit
 };
 
-/// Of a law that is integrated (SnLaw::integrated), at its parameters.
+/// For a model with an integral over the limit (SnLaw::integrated), at its parameters.
 template <class T>
 LimitedLife<T> limited_life(const SnLaw& law, const T* x, const T& log10_reversed) {
   const T* limit = x + law.limit_index();
@@ -39,7 +39,7 @@ struct LimitedLifeSlopes {
 LimitedLifeSlopes log_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
                                              double at, double until);
 
-/// The same by adaptive integration alone: what stands behind the quicker rule of limit_lattice.h.
+/// The same by adaptive integration only: the reference of the faster rule of limit_lattice.h.
 LimitedLifeSlopes adaptive_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
                                                   double at, double until);
 

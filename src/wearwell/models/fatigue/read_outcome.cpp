@@ -37,10 +37,10 @@ Outcome read_outcome(const Table& table, const std::optional<LifeStatus>& status
   if (!status || seen == Censoring::none)
     return status ? read_outcome(table, *status, row) : outcome_of(seen);
   if (seen_in(table, *status, row) != seen)
-    throw InputError(fmt::format("{}: '{}' is a limit, and column '{}' says '{}'; which is right?",
-                                 place(table, life.column, row),
-                                 cell_word(table.column(life.column), row), status->column,
-                                 cell_word(table.column(status->column), row)));
+    throw InputError(
+        fmt::format("{}: '{}' is a limit, but column '{}' has '{}'; correct one of them",
+                    place(table, life.column, row), cell_word(table.column(life.column), row),
+                    status->column, cell_word(table.column(status->column), row)));
   return outcome_of(seen);
 }
 
@@ -53,17 +53,17 @@ double read_interval_end(const Table& table, const ColumnChoice& until, std::siz
                                    place(table, until.column, row)));
     }
     require(end > test.life && std::isfinite(end), table, until, row,
-            "more than the life where it begins, and finite");
+            "more than the life at its start, and finite");
     return end;
   }
   const bool harmless =
       std::isnan(end) || end == test.life || (test.outcome == Outcome::runout && end == INFINITY);
   if (!harmless) {
-    throw InputError(fmt::format(
-        "{}: {} would end an interval, and the row's status says that it is {}: write interval "
-        "there, or leave this cell empty",
-        place(table, until.column, row), cell_word(table.column(until.column), row),
-        test.outcome == Outcome::failure ? "a failure (as it does where there is none)" : "none"));
+    throw InputError(
+        fmt::format("{}: {} would end an interval, but the row's status is {}: write interval "
+                    "there, or leave this cell empty",
+                    place(table, until.column, row), cell_word(table.column(until.column), row),
+                    test.outcome == Outcome::failure ? "a failure (the default)" : "none"));
   }
   return 0;
 }

@@ -6,16 +6,16 @@
 
 namespace wearwell {
 
-/// How a test ended. Throws InputError that names its cell.
+/// The outcome of a test. Throws InputError that names its cell.
 fatigue::Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t row);
 
-/// How a test ended by its status or by its life, which may be a limit (">5000", `seen`); a failure where neither says
-/// it. Throws InputError where they contradict.
+/// The outcome of a test by its status or by its life, which may be a limit (">5000", `seen`); a
+/// failure by default. Throws InputError if they contradict.
 fatigue::Outcome read_outcome(const Table& table, const std::optional<LifeStatus>& status,
                               const ColumnChoice& life, Censoring seen, std::size_t row);
 
-/// Where the interval of a test ends [cycles]; 0 of a test that is none, whose cell is empty or repeats what its life says.
-/// Another number there has two readings. Throws InputError.
+/// The end of the interval of a test [cycles]; 0 for other tests, whose cell is empty or repeats
+/// the life. Another value there is ambiguous. Throws InputError.
 double read_interval_end(const Table& table, const ColumnChoice& until, std::size_t row,
                          const fatigue::LifeTest& test);
 

@@ -6,8 +6,8 @@
 
 namespace wearwell::fatigue {
 
-/// log10 of S_f/Pa under one stress at points one after the other. Nodes of a lattice come along lines on which the strength
-/// often stays what it is: it is then not worked out anew. `law` must live on.
+/// log10 of S_f/Pa under one stress at successive points. Lattice nodes come along lines on which
+/// the strength is often constant: then the value is reused. `law` must outlive it.
 class ReversedAt {
  public:
   ReversedAt(const SnLaw& law, const Stress& stress) : law_(law), stress_(stress) {}

@@ -14,9 +14,9 @@
 namespace wearwell::fatigue {
 namespace {
 
-// A longer step than so many of the first is a gap.
+// A step longer than this multiple of the first is a gap.
 constexpr double longest_step = 1.5;
-// Ranges of larger numbers have no square that a double holds.
+// The squares of larger ranges overflow.
 constexpr double largest = 1e150;
 
 bool is_time(const Column& column) {
@@ -65,11 +65,10 @@ void SignalFile::choose(const SignalChoice& choice) {
       chosen = &column;
     }
     if (possible.empty())
-      throw InputError(fmt::format("{} has no column of numbers that is a load", source()));
+      throw InputError(fmt::format("{} has no numeric column that is a load", source()));
     if (possible.size() > 1)
       throw InputError(
-          fmt::format("{} has several columns: say which is the load: --column NAME, "
-                      "one of {}",
+          fmt::format("{} has several columns: name the load with --column NAME, one of {}",
                       source(), fmt::join(possible, ", ")));
   }
   column_ = chosen->name;
@@ -79,18 +78,18 @@ void SignalFile::choose(const SignalChoice& choice) {
   unit_ = load_heading(*chosen).unit;
   if (choice.unit.empty()) {
     if (!unit_.empty() && !parse_unit(unit_))
-      throw InputError(fmt::format("{}, column '{}': '{}' is no unit{}; say the unit: --unit UNIT",
-                                   source(), column_, unit_, unit_hint(unit_, std::nullopt)));
+      throw InputError(
+          fmt::format("{}, column '{}': '{}' is not a unit{}; give the unit: --unit UNIT", source(),
+                      column_, unit_, unit_hint(unit_, std::nullopt)));
     return;
   }
   const auto wanted = parse_unit(choice.unit);
-  if (!wanted) throw InputError(fmt::format("--unit: '{}' is no unit", choice.unit));
+  if (!wanted) throw InputError(fmt::format("--unit: '{}' is not a unit", choice.unit));
   const auto said = unit_.empty() ? std::nullopt : parse_unit(unit_);
   if (said && (said->dimension != wanted->dimension || said->scale != wanted->scale ||
                said->offset != wanted->offset))
     throw InputError(
-        fmt::format("{}, column '{}': the table says {} and --unit says {}; leave one "
-                    "of them out",
+        fmt::format("{}, column '{}': the table has {} and --unit has {}; remove one of them",
                     source(), column_, unit_, choice.unit));
   unit_ = choice.unit;
 }
@@ -106,9 +105,8 @@ std::span<const double> SignalFile::next() {
     throw InputError(fmt::format(
         "{}, row {}, column '{}': {}", source(), batch_.first_row + i + 1, column_,
         std::isnan(samples[i])
-            ? "no value: a signal has no gaps, since what happened in them is unknown; cut the "
-              "file there and count the parts"
-            : fmt::format("{} is no load that can be counted", samples[i])));
+            ? "no value: a signal must not have gaps; cut the file there and count the parts"
+            : fmt::format("{} is not a valid load", samples[i])));
   }
   if (!time_.empty()) check_times();
   return samples;
@@ -128,7 +126,7 @@ void SignalFile::check_times() {
       if (!step_) step_ = step;
       if (step > longest_step * *step_)
         fail(
-            fmt::format("a gap: nothing between {} and {}, where the first step is {:.6g}; cut the "
+            fmt::format("a gap: nothing between {} and {}, but the first step is {:.6g}; cut the "
                         "file there and count the parts",
                         *last_time_, times[i], *step_));
     }
@@ -142,11 +140,11 @@ std::optional<double> SignalFile::seconds() const {
   const auto unit = parse_unit(time_unit_);
   if (time_unit_.empty() || !unit || unit->dimension != Dimension{{"second", 1}})
     throw InputError(fmt::format(
-        "{}, column '{}' {}: say the unit of times in the heading, \"time [s]\", or by --block how "
-        "long one pass lasts",
+        "{}, column '{}' {}: give the unit of times in the heading, \"time [s]\", or the duration "
+        "of one pass with --block",
         source(), time_,
         time_unit_.empty() ? "has no unit"
-                           : fmt::format("is in '{}', which is no unit of time", time_unit_)));
+                           : fmt::format("is in '{}', which is not a unit of time", time_unit_)));
   return unit->scale * (*last_time_ - *first_time_ + *step_);
 }
 

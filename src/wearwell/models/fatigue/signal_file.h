@@ -10,36 +10,37 @@
 
 namespace wearwell::fatigue {
 
-/// Which column of which file, as a user says it.
+/// A column of a file, as named by the user.
 struct SignalChoice {
   std::filesystem::path file;
-  std::string column = {};  ///< its heading; empty: the only one of numbers that is no time
-  std::string unit = {};    ///< where the heading has none
-  std::string time = {};    ///< a column of times by which gaps are found; empty for none
+  std::string column = {};  ///< its heading; empty: the only numeric column that is not a time
+  std::string unit = {};    ///< if the heading has none
+  std::string time = {};    ///< a column of times for the check of gaps; empty for none
 };
 
-/// The name of a load and its unit, of a heading that says it, or of a unit beside it: "stress [MPa]" in
-/// any unit, "force (kN)" and "strain in um/m" in one of a stress, a force, a moment or a plain number,
-/// "stress_MPa" in one of a stress. Without a unit where none stands there, or doubtfully.
+/// The name of a load and its unit, from a heading or from a unit beside it: "stress [MPa]" in any
+/// unit, "force (kN)" and "strain in um/m" in one of a stress, a force, a moment or a plain number,
+/// "stress_MPa" in one of a stress. Without a unit if there is none or it is ambiguous.
 Heading load_heading(const Column& column);
 
-/// A load signal as it stands in a file, piece by piece. Throws InputError that names file, row and
-/// column: no such column or several, two units, no value (a gap), times that do not rise evenly.
+/// A load signal in a file, piece by piece. Throws InputError that names file, row and column: no
+/// such column or several, two units, no value (a gap), times that are not evenly spaced.
 class SignalFile {
  public:
   explicit SignalFile(const SignalChoice& choice);
 
   const std::string& source() const { return stream_.source(); }
   const std::string& column() const { return column_; }
-  const std::string& unit() const { return unit_; }  ///< empty where nobody says
-  /// A column of times in which nobody asked for gaps; else empty.
+  const std::string& unit() const { return unit_; }  ///< empty if unknown
+  /// A column of times that was not checked for gaps; else empty.
   const std::string& unread_times() const { return unread_times_; }
 
-  /// How long the samples read so far last, s, the last of them as long as the first step. None without a column of
-  /// times, or of a single sample; throws InputError where its heading says no unit of time.
+  /// The duration of the samples read so far, s, with the last of them as long as the first step.
+  /// Empty without a column of times, or for a single sample; throws InputError if its heading has
+  /// no unit of time.
   std::optional<double> seconds() const;
 
-  /// The next samples, in the file's unit; none at the end.
+  /// The next samples, in the file's unit; empty at the end.
   std::span<const double> next();
 
  private:

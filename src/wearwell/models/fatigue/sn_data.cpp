@@ -78,7 +78,7 @@ fatigue::HelicalSpring read_spring(const TomlReader& conditions) {
       positive(conditions, "wire_diameter", "m"), positive(conditions, "coil_diameter", "m"),
       positive(conditions, "active_coils", "1"), positive(conditions, "shear_modulus", "Pa")};
   if (!(spring.coil_diameter > spring.wire_diameter)) {
-    conditions.fail("coil_diameter", "must be larger than wire_diameter (it is the mean one)");
+    conditions.fail("coil_diameter", "must be larger than wire_diameter (it is the mean diameter)");
   }
   return spring;
 }
@@ -138,7 +138,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
   }
   if (ratio) {
     if (inputs.has("mean_stress")) {
-      columns.fail("mean_stress", "is given beside stress_ratio; keep one of the two");
+      columns.fail("mean_stress", "is given, and so is stress_ratio; keep one of the two");
     }
     const auto ratios = inputs.read("stress_ratio", "1");
     for (std::size_t i = 0; i < table.rows; ++i) {
@@ -158,23 +158,22 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
   return stresses;
 }
 
-// A part is one test of the table: what it shows later is told of it by name.
+// A part is one test of the table: later readings refer to it by name.
 void read_part(const Table& table, const ColumnChoice& choice, std::size_t row,
                const LifeTest& test, std::vector<std::string>& parts) {
   const std::string name = cell_word(table.column(choice.column), row);
   if (name.empty())
     throw InputError(
-        fmt::format("{}: no value; each part has a name of its own, or leave out "
-                    "data.columns.part",
+        fmt::format("{}: no value; each part needs its own name, or remove data.columns.part",
                     place(table, choice.column, row)));
   if (test.count != 1)
-    throw InputError(fmt::format("{}: '{}' is one part, and its row stands for {}",
+    throw InputError(fmt::format("{}: '{}' is one part, but its row stands for {}",
                                  place(table, choice.column, row), printable(name), test.count));
   const auto before = std::find(parts.begin(), parts.end(), name);
   if (before != parts.end())
     throw InputError(fmt::format(
-        "{}: '{}' is row {} already, and a part is one test here: keep the row that says most. One "
-        "that was tested on under more stress is not new, and no row of these",
+        "{}: '{}' is row {} already, and a part is one test here: keep the most informative row. A "
+        "part that was tested on at a higher stress is not new; remove that row",
         place(table, choice.column, row), printable(name), before - parts.begin() + 1));
   parts.push_back(name);
 }
@@ -316,8 +315,8 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
     }
     if (without_tension_harmless && !(test.stress.mean + test.stress.alternating > 0)) {
       throw InputError(
-          fmt::format("{}, row {}: the largest stress is not tension, which this correction of the "
-                      "mean stress takes for no harm at all; leave the row out",
+          fmt::format("{}, row {}: the largest stress is not tensile, so this mean-stress "
+                      "correction counts no damage; remove the row",
                       table.source, i + 1));
     }
     any_broke = any_broke || test.outcome != Outcome::runout;
@@ -327,7 +326,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   }
   if (!any_broke) {
     throw InputError(fmt::format(
-        "{}, rows 1 to {}: every test is a runout; lives without one failure have no upper end",
+        "{}, rows 1 to {}: every test is a runout; without a failure lives have no upper bound",
         table.source, table.rows));
   }
   return data;

@@ -39,8 +39,8 @@ Numbers spaced(double low, double high, std::size_t count) {
   return points;
 }
 
-// Points that would hide each other stand one above the other: their heights moved, in steps of a share
-// of the plot's, up and down in turn. `x` and `y` from 0 to 1 over the plot.
+// Overlapping points are spread vertically: their heights move, in steps of a share of the plot's,
+// up and down in turn. `x` and `y` from 0 to 1 over the plot.
 Numbers apart(const Numbers& x, Numbers y) {
   constexpr double near_x = 0.012, near_y = 0.02, step = 0.022;
   const Numbers where = y;
@@ -53,7 +53,7 @@ Numbers apart(const Numbers& x, Numbers y) {
   return y;
 }
 
-// All tests, or some of them evenly.
+// All tests, or an even selection.
 SnData drawn_tests(const SnData& data) {
   if (data.tests.size() <= most_tests) return data;
   SnData few = data;
@@ -67,7 +67,7 @@ SnData drawn_tests(const SnData& data) {
   return few;
 }
 
-// What the figures share: the law, the data, and a posterior of few points.
+// What the figures share: the model, the data, and a thinned posterior.
 class Drawing {
  public:
   Drawing(const SnLaw& law, const SnData& data, const SnPredictions& predictions, const Fit& fit)
@@ -136,26 +136,24 @@ class Drawing {
                    {colour::limit, "B10, at least with " + confidence, 1, 2, true})};
     add_standards(stresses, marks);
     add_tests(moved, low, high, marks);
-    return {
-        "sn-curve",
-        law_.curve == fatigue::SnCurve::strain_life
-            ? "Strain-life curve"
-            : fmt::format("S-N curve: life against {}", driver_word(law_, data_)),
-        fmt::format("{}. The dashed line is the one to design with: nine in ten outlast it, with "
-                    "{} confidence. The inner band holds the life that half of all specimens "
-                    "outlast, the outer band the life of the next one, with 90 % probability.{} "
-                    "Tests at one place stand above each other.{}",
-                    where_drawn(), confidence, arrows_note(), thinned_),
-        plot::plot("Alternating stress against life, with bands and tests",
-                   {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
-                    from_si(data_.life_unit, longest_ * 20)},
-                   {fmt::format("Alternating {} [{}]", driver_word(law_, data_),
-                                html::unit(data_.stress_unit.text)),
-                    true, in_unit(low), in_unit(high)},
-                   marks, 380, true)};
+    return {"sn-curve",
+            law_.curve == fatigue::SnCurve::strain_life
+                ? "Strain-life curve"
+                : fmt::format("S-N curve: life against {}", driver_word(law_, data_)),
+            fmt::format("{}. The dashed line is for design: nine in ten outlast it, with {} "
+                        "confidence. The inner band is the 90 % interval of the median life, the "
+                        "outer band that of the next life.{} Tests at one place are stacked.{}",
+                        where_drawn(), confidence, arrows_note(), thinned_),
+            plot::plot("Alternating stress against life, with bands and tests",
+                       {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
+                        from_si(data_.life_unit, longest_ * 20)},
+                       {fmt::format("Alternating {} [{}]", driver_word(law_, data_),
+                                    html::unit(data_.stress_unit.text)),
+                        true, in_unit(low), in_unit(high)},
+                       marks, 380, true)};
   }
 
-  // The predicted density of every stress that was tested or is asked about, one above the other.
+  // The predictive density of every tested or requested stress, stacked.
   html::Figure lives() const {
     std::vector<StressPoint> points = tested_points(law_, data_);
     for (const StressPoint& asked : predictions_.points) {
@@ -224,11 +222,9 @@ class Drawing {
                                    {colour::chains[2], "run-outs", 1, 0, false, 90}));
     }
     html::Figure figure{
-        "lives", fmt::format("Life of the next one, by {}", driver_word(law_, data_)),
-        std::string(
-            "The density of log10 life that the fit predicts under each stress, all drawn to one "
-            "scale, with the tests that it rests on. A test left of the short stroke lies below "
-            "its B10.") +
+        "lives", fmt::format("Predictive life, by {}", driver_word(law_, data_)),
+        std::string("The predictive density of log10 life under each stress, all on one scale, "
+                    "with its tests. A test left of the short stroke lies below its B10.") +
             thinned_,
         plot::plot("Predicted density of life at each stress, with the tests",
                    {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
@@ -238,7 +234,7 @@ class Drawing {
     return figure;
   }
 
-  // Mean against alternating stress of one life; nothing to draw where the mean does not matter.
+  // Mean against alternating stress of one life; empty if the mean does not matter.
   html::Figure haigh() const {
     double life = 0;
     if (!predictions_.allowed.empty()) {
@@ -293,7 +289,7 @@ class Drawing {
                    {colour::limit, "nine in ten outlast it (predictive)", 1, 1.5, true})};
     const std::string life_text =
         html::given(from_si(data_.life_unit, life)) + "\u00a0" + html::unit(data_.life_unit.text);
-    // Far from the tests the band may be as wide as the prior: it is cut off.
+    // Far from the tests the band may be as wide as the prior: it is clipped.
     double highest = to_si(data_.stress_unit, *std::max_element(ci50.begin(), ci50.end()));
     for (const LifeTest& test : data_.tests) highest = std::max(highest, test.stress.alternating);
     if (!before_x.empty()) {
@@ -302,12 +298,11 @@ class Drawing {
     }
     if (!after_x.empty()) {
       marks.push_back(plot::points({{"x", after_x}, {"y", after_y}, {"alternating", after_y}},
-                                   {colour::chains[2], "went on", 1, 0, false, 60}));
+                                   {colour::chains[2], "survived", 1, 0, false, 60}));
     }
     return {"haigh", fmt::format("Haigh diagram of {}", life_text),
-            fmt::format("Alternating against mean stress that {} are borne at: by half of all "
-                        "specimens, and by the next one with 90 % probability. Tests by whether "
-                        "they failed before.{}",
+            fmt::format("Alternating against mean stress for {}: median over specimens, and 90 % "
+                        "predictive survival. Tests by whether they failed before.{}",
                         life_text, thinned_),
             plot::plot("Haigh diagram: alternating against mean stress at one life, with the tests",
                        {fmt::format("Mean {} [{}]", driver_word(law_, data_),
@@ -322,7 +317,7 @@ class Drawing {
  private:
   double in_unit(double stress) const { return from_si(data_.stress_unit, stress); }
 
-  // What the standards make of the same tests, 90/90, where they apply.
+  // The standards' curves of the same tests, 90/90, if they apply.
   void add_standards(const Numbers& stresses, std::vector<plot::Json>& marks) const {
     if (!standard_.line) return;
     Numbers y, iso, owen;
@@ -342,12 +337,12 @@ class Drawing {
     return fmt::format("Life [{}]", html::unit(data_.life_unit.text));
   }
 
-  // Lives far beyond the plot are drawn to where nobody sees the difference.
+  // Lives far beyond the plot are drawn just outside it.
   double shown(double life) const {
     return from_si(data_.life_unit, std::clamp(life, shortest_ * 1e-4, longest_ * 1e4));
   }
 
-  // The alternating stress at the common mean stress that is as harmful, in the median.
+  // The equally damaging alternating stress at the common mean stress, by the posterior median.
   double moved_to_line(const Stress& stress) const {
     if (law_.correction == MeanStress::none) return stress.alternating;
     return QuantityDistribution(draws_,
@@ -362,8 +357,8 @@ class Drawing {
     if (law_.correction == MeanStress::none) return "Alternating stress as tested";
     if (line_.ratio) return fmt::format("At the stress ratio {:.4g} of the tests", *line_.ratio);
     return fmt::format(
-        "At a mean stress of {}, the tests' average; tests at others are drawn at the alternating "
-        "stress that would be as harmful there",
+        "At a mean stress of {}, the tests' average; other tests are drawn at the equally damaging "
+        "alternating stress",
         html::quantity(in_unit(line_.mean), data_.stress_unit.text));
   }
 
@@ -371,8 +366,8 @@ class Drawing {
     const bool censored =
         std::any_of(data_.tests.begin(), data_.tests.end(),
                     [](const LifeTest& test) { return test.outcome != Outcome::failure; });
-    return censored ? " Arrows point to where the life of a test lies that was stopped before it "
-                      "broke, or had broken before."
+    return censored ? " Arrows mark run-outs and tests that failed before an inspection; they "
+                      "point to where the life lies."
                     : "";
   }
 
@@ -396,8 +391,8 @@ class Drawing {
     };
     Group groups[] = {{"failures", "circle", colour::measured, {}, {}, {}},
                       {"run-outs", "triangle-right", colour::chains[2], {}, {}, {}},
-                      {"broken before", "triangle-left", colour::chains[1], {}, {}, {}},
-                      {"broken between", "diamond", colour::chains[3], {}, {}, {}}};
+                      {"left-censored", "triangle-left", colour::chains[1], {}, {}, {}},
+                      {"interval-censored", "diamond", colour::chains[3], {}, {}, {}}};
     for (std::size_t i = 0; i < data_.tests.size(); ++i) {
       Group& group = groups[static_cast<int>(data_.tests[i].outcome)];
       group.x.push_back(from_si(data_.life_unit, lives[i]));

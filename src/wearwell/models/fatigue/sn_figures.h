@@ -11,7 +11,7 @@
 
 namespace wearwell {
 
-/// What drives the lives, for axes: "stress", "strain", "force" or "load".
+/// The stress quantity for axes: "stress", "strain", "force" or "load".
 const char* driver_word(const fatigue::SnLaw& law, const SnData& data);
 
 /// The S-N curve with its bands, the lives of each stress with its tests (Fig. 8 of Heo et al.

@@ -9,7 +9,7 @@ namespace {
 
 using Found = std::optional<ColumnRoles::Found>;
 
-// What all tests have: lives, how they ended, how many alike; into `columns`.
+// Columns of all tests: lives, outcomes, numbers of equal tests; into `columns`.
 bool take_lives(ColumnRoles& roles, std::string& columns) {
   const Found life = roles.take("life", {"life", "cycles"});
   if (!life || life->si != "cycle") return false;
@@ -25,19 +25,19 @@ bool take_lives(ColumnRoles& roles, std::string& columns) {
         fmt::format("status: '>' in column '{}' is a run-out", life->column->name));
   } else if (!status) {
     roles.guesses.emplace_back(
-        "no column says which tests were stopped unbroken: all count as failures");
+        "no column tells which tests were stopped unbroken: all count as failures");
   }
   return true;
 }
 
-// Where lives are not in the table no S-N curve is.
+// Without lives in the table there is no S-N curve.
 bool has_lives(const ColumnRoles& roles) {
   const Found life = roles.find({"life", "cycles"});
   return life && life->si == "cycle";
 }
 
 constexpr const char* asked =
-    "types = \"all\"                            # lives under every stress that was tested\n";
+    "types = \"all\"                            # lives under every tested stress\n";
 
 }  // namespace
 
@@ -66,26 +66,27 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
       fmt::format(
           "title = {}\n"
           "model = \"sn\"\n\n"
-          "{}[data.columns]\n{}\n"
+          "{}[data.columns]\n"
+          "{}\n"
           "[law]                                   # the simplest curve: Basquin's; others: curve "
-          "= \"knee\", "
-          "fatigue_limit = \"random\" (docs/reference/fatigue.md)\n"
+          "= \"knee\", fatigue_limit = \"random\" (docs/reference/fatigue.md)\n"
           "mean_stress = \"{}\"{}\n\n"
-          "# Without [prior] weak defaults hold (docs/reference/priors.md). What you know makes a "
-          "better "
-          "answer:\n"
-          "# [prior]\n# b = {{ distribution = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
+          "# Without [prior] weak defaults apply (docs/reference/priors.md). Replace them with "
+          "what you know:\n"
+          "# [prior]\n"
+          "# b = {{ distribution = \"normal\", mean = -0.1, sd = 0.03 }}\n"
+          "{}\n"
           "[predict]\n"
-          "{}# b_lives = [1, 10]                       # when 1 and 10 % have failed\n"
-          "# required_life = \"1e6 cycles\"            # which alternating stress lets\n"
-          "# reliability = [\"90 %\"]                  # such a share outlast that?\n",
+          "{}# b_lives = [1, 10]                       # lives at which 1 and 10 % have failed\n"
+          "# required_life = \"1e6 cycles\"            # adds the allowable alternating stress\n"
+          "# reliability = [\"90 %\"]                  # at which this share outlasts the life\n",
           toml_text("S-N curve, from " + roles.file()), roles.data_section(), columns,
           means ? "goodman" : "none",
           means ? "                   # or gerber, soderberg, morrow, swt, walker, none"
                 : "                      # all tests at one mean stress or ratio",
           means ? "# log10_Sut = { distribution = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 } "
-                  "   # the "
-                  "strength of a tensile test\n"
+                  "   # "
+                  "strength from a tensile test\n"
                 : "",
           asked));
 }
@@ -100,11 +101,14 @@ std::optional<Scaffold> first_strain_study(ColumnRoles& roles) {
       fmt::format(
           "title = {}\n"
           "model = \"sn\"\n\n"
-          "{}[data.columns]    # alternating_stress holds the strain amplitude\n{}\n"
-          "[law]\nmean_stress = \"none\"\n"
+          "{}[data.columns]    # alternating_stress holds the strain amplitude\n"
+          "{}\n"
+          "[law]\n"
+          "mean_stress = \"none\"\n"
           "curve = \"strain-life\"                   # sigma_f'/E (2N)^b + eps_f' (2N)^c\n\n"
-          "# Without [prior] weak defaults for metals hold (docs/reference/priors.md).\n\n"
-          "[predict]\n{}",
+          "# Without [prior] weak defaults for metals apply (docs/reference/priors.md).\n\n"
+          "[predict]\n"
+          "{}",
           toml_text("Strain-life curve, from " + roles.file()), roles.data_section(), columns,
           asked));
 }
@@ -118,16 +122,17 @@ std::optional<Scaffold> first_staircase(ColumnRoles& roles) {
   if (const Found count = roles.take("count", {"count"}))
     columns += ColumnRoles::line("count", *count);
   return roles.study(
-      "fatigue limit: what broke and what did not, under stresses", ReadingFit::specific,
-      fmt::format(
-          "title = {}\n"
-          "model = \"staircase\"\n\n"
-          "{}[data.columns]\n{}\n"
-          "# Without [prior] weak defaults hold (docs/reference/priors.md).\n\n"
-          "[predict]\n"
-          "reliability    = [\"50 %\", \"90 %\"]        # which stress is borne by such a share?\n"
-          "credible_level = 0.9                     # of the lower bound\n",
-          toml_text("Fatigue limit, from " + roles.file()), roles.data_section(), columns));
+      "fatigue limit: failures and run-outs under stresses", ReadingFit::specific,
+      fmt::format("title = {}\n"
+                  "model = \"staircase\"\n\n"
+                  "{}[data.columns]\n"
+                  "{}\n"
+                  "# Without [prior] weak defaults apply (docs/reference/priors.md).\n\n"
+                  "[predict]\n"
+                  "reliability    = [\"50 %\", \"90 %\"]        # adds the stress that this share "
+                  "survives\n"
+                  "credible_level = 0.9                     # of the lower bound\n",
+                  toml_text("Fatigue limit, from " + roles.file()), roles.data_section(), columns));
 }
 
 }  // namespace wearwell::fatigue

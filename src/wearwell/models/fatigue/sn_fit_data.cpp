@@ -24,7 +24,7 @@ FitData sn_fit_data(const SnLaw& law, const SnData& data,
                  !law.integrated()};
   std::vector<double> mean;
   Rise& rise = *result.rise;
-  rise.expected = "life grows as stress falls";
+  rise.expected = "life increases as stress decreases";
   for (const LifeTest& test : data.tests) {
     const double stress = law.log10_reversed(start.data(), test.stress);
     result.counts.push_back(test.count);
@@ -49,10 +49,10 @@ FitData sn_fit_data(const SnLaw& law, const SnData& data,
   }
   result.remedies.life = true;
   result.remedies.scatter = law.scatter_grows
-                                ? "Scatter grows already: look for a second failure mode at the "
-                                  "stresses where lives scatter most."
-                                : "Lives often scatter more the longer they are: try [law] scatter "
-                                  "= \"grows\"; or look for a second failure mode.";
+                                ? "Scatter already grows with life: look for a second failure mode "
+                                  "at the stresses with the largest scatter."
+                                : "Long lives often scatter more: try [law] scatter = \"grows\"; "
+                                  "or look for a second failure mode.";
   return result;
 }
 

@@ -9,8 +9,8 @@
 
 namespace wearwell {
 
-/// What the check `fit` asks of an S-N study. Residuals may follow the stress that the law takes for the cause, at the values where
-/// searches start, and the mean stress.
+/// The hypotheses of the check `fit` for an S-N study. Residuals may depend on the stress, at the
+/// start values of searches, and on the mean stress.
 FitData sn_fit_data(const fatigue::SnLaw& law, const SnData& data,
                     const std::vector<Parameter>& parameters);
 

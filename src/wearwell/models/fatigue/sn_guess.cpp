@@ -21,7 +21,7 @@ SnGuess guess(const SnLaw& law, const LifeTests& tests, double strength) {
   const double mx = sx / n, my = sy / n, vx = sxx / n - mx * mx, vy = syy / n - my * my;
   const double slope = vx > 0 ? (sxy / n - mx * my) / vx : 0;
   SnGuess result;
-  // A slope that is no S-N curve's says only that the tests are few.
+  // An implausible slope only means that the tests are few.
   if (slope < -2 && slope > -50) result.b = 1 / slope;
   result.log10_a = mx - result.b * my;
   const double rest = vy - 2 * (sxy / n - mx * my) / result.b + vx / (result.b * result.b);

@@ -5,8 +5,8 @@
 
 namespace wearwell::fatigue {
 
-/// Where searches start: least squares of log10 life on log10 stress through all tests as if they
-/// had failed, with the strength at `strength` [Pa] and gamma at 1/2.
+/// Start values of searches: least squares of log10 life on log10 stress through all tests as if
+/// they had failed, with the strength at `strength` [Pa] and gamma at 1/2.
 struct SnGuess {
   double log10_a = 0;  ///< a in Pa
   double b = -0.1;

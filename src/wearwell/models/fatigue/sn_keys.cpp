@@ -46,13 +46,16 @@ StudyKeys stress_keys() {
                   {"conditions.mean_stress", "\"0 MPa\"", "mean stress, the same for all tests"}});
   add_keys(keys,
            input_keys("max_stress", "{ column = \"max_stress\", unit = \"MPa\" }", "\"600 MPa\"",
-                      "largest stress, with min_stress instead", {}, given({"min_stress"})));
+                      "largest stress, with min_stress, instead of an amplitude", {},
+                      given({"min_stress"})));
   add_keys(keys,
            input_keys("min_stress", "{ column = \"min_stress\", unit = \"MPa\" }", "\"0 MPa\"",
                       "smallest stress, with max_stress", {}, given({"max_stress"})));
-  add_keys(keys, input_keys("displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }",
-                            "\"5 mm\"", "of a helical spring, with displacement_mean instead", {},
-                            given({"displacement_mean"})));
+  add_keys(
+      keys,
+      input_keys("displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }", "\"5 mm\"",
+                 "amplitude of a helical spring, with displacement_mean, instead of a stress", {},
+                 given({"displacement_mean"})));
   add_keys(keys, input_keys("displacement_mean", "{ column = \"mean\", unit = \"mm\" }",
                             "\"10 mm\"", "mean displacement of a helical spring", {},
                             given({"displacement_amplitude"})));
@@ -99,7 +102,7 @@ StudyKeys parameter_keys() {
       {"prior.c", "{ distribution = \"normal\", mean = -0.6, sd = 0.1 }",
        "of strain-life: the plastic exponent"},
       {"prior.sigma_growth", "{ distribution = \"normal\", mean = 0, sd = 0.15 }",
-       "decades by which the scatter grows over a decade of life"},
+       "decades by which the scatter grows per decade of life"},
       {"prior.log10_limit", "{ distribution = \"normal\", mean = \"2.3 log10(MPa)\", sd = 0.3 }",
        "logarithm of the fatigue limit"},
       {"prior.sigma_limit", "{ distribution = \"half-normal\", scale = 0.1 }",
@@ -107,24 +110,26 @@ StudyKeys parameter_keys() {
   };
 }
 
-// One stress that is asked about.
+// One requested stress.
 StudyKeys point_keys() {
   const std::string at = "predict.stress.*";
   const Names other = {".max_stress", ".min_stress", ".displacement_amplitude",
                        ".displacement_mean"};
   return {
       {at, "{ alternating_stress = \"400 MPa\", stress_ratio = -1 }",
-       "a stress by a name of yours: which lives has it?"},
-      needed_key(at + ".alternating_stress", "\"400 MPa\"", "of that stress, as the next six",
-                 other),
+       "a stress with a name of your choice: adds its lives"},
+      needed_key(at + ".alternating_stress", "\"400 MPa\"",
+                 "amplitude of that stress, as the next six keys", other),
       {at + ".stress_ratio", "-1", "smallest over largest stress"},
       {at + ".mean_stress", "\"100 MPa\"", "instead of stress_ratio"},
-      needed_key(at + ".max_stress", "\"600 MPa\"", "with min_stress instead", {}, {".min_stress"}),
-      needed_key(at + ".min_stress", "\"0 MPa\"", "with max_stress", {}, {".max_stress"}),
-      needed_key(at + ".displacement_amplitude", "\"5 mm\"", "of a helical spring", {},
-                 {".displacement_mean"}),
-      needed_key(at + ".displacement_mean", "\"10 mm\"", "of a helical spring", {},
-                 {".displacement_amplitude"}),
+      needed_key(at + ".max_stress", "\"600 MPa\"", "largest stress, with min_stress", {},
+                 {".min_stress"}),
+      needed_key(at + ".min_stress", "\"0 MPa\"", "smallest stress, with max_stress", {},
+                 {".max_stress"}),
+      needed_key(at + ".displacement_amplitude", "\"5 mm\"",
+                 "displacement amplitude of a helical spring", {}, {".displacement_mean"}),
+      needed_key(at + ".displacement_mean", "\"10 mm\"", "mean displacement of a helical spring",
+                 {}, {".displacement_amplitude"}),
   };
 }
 
@@ -138,36 +143,39 @@ StudyKeys study_keys() {
       keys,
       {needed_key("data.columns.life", "\"cycles\"",
                   "cycles at which a test ended, or was stopped"),
-       {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it broke"},
+       {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it failed"},
        {"data.columns.status", "\"status\"",
         "failure, runout, left or interval; without it all failed"},
        unused_columns_key(),
-       {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
-       {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
+       {"data.columns.count", "\"count\"", "number of equal tests in a row"},
+       {"data.columns.label", "\"type\"", "label for predict.types and the report"},
        {"data.columns.part", "\"part\"",
-        "a name of its own for each, so that run-outs can be followed "
+        "unique name of each part, so that run-outs can be tracked "
         "([tracking.md](../explanation/tracking.md))"},
        needed_key("law.mean_stress", "\"goodman\"",
-                  "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
-       {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},
+                  "mean-stress correction ([fatigue.md](fatigue.md))"),
+       {"law.fatigue_limit", "\"random\"", "none or random fatigue limit (none)"},
        {"law.curve", "\"knee\"", "basquin, knee, stromeyer, bastenaire or strain-life (basquin)"},
        {"law.second_slope", "\"free\"", "below a knee: free, haibach (2k - 1) or infinite (free)"},
-       {"law.scatter", "\"grows\"", "whether scatter grows with life (constant)"},
-       {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
-       {"likelihood.family", "\"log10-normal\"", "how lives scatter (log10-normal)"}});
+       {"law.scatter", "\"grows\"", "constant scatter, or scatter that grows with life (constant)"},
+       {"law.limit_family", "\"normal\"", "distribution of the logarithm of the limit (normal)"},
+       {"likelihood.family", "\"log10-normal\"", "distribution of lives (log10-normal)"}});
   add_keys(keys, parameter_keys());
   add_keys(keys, {{"predict.types", "\"all\"", "the stresses of these labels, or of all tests"}});
   add_keys(keys, point_keys());
   add_keys(keys,
-           {{"predict.b_lives", "[1, 10]", "when have 1 and 10 % failed? (1 and 10)"},
-            {"predict.credible_level", "0.9", "of lower bounds"},
-            {"predict.survival_to", "\"5e5 cycles\"", "what share outlasts that?"},
+           {{"predict.b_lives", "[1, 10]",
+             "percentages failed; adds the lives at which 1 and 10 % have failed"},
+            {"predict.credible_level", "0.9", "confidence of lower bounds"},
+            {"predict.survival_to", "\"5e5 cycles\"", "adds the share that outlasts this life"},
             needed_key("predict.required_life", "\"1e6 cycles\"",
-                       "which alternating stress lasts that long,", {}, {"predict.reliability"}),
-            needed_key("predict.reliability", "[\"50 %\", \"90 %\"]", "by such a share", {},
+                       "adds the allowable alternating stress for this life,", {},
+                       {"predict.reliability"}),
+            needed_key("predict.reliability", "[\"50 %\", \"90 %\"]", "survived by this share", {},
                        {"predict.required_life"}),
-            {"predict.stress_ratio", "0.1", "of that stress"},
-            {"predict.mean_stress", "\"300 MPa\"", "of that stress, instead of stress_ratio"}});
+            {"predict.stress_ratio", "0.1", "stress ratio of that stress"},
+            {"predict.mean_stress", "\"300 MPa\"",
+             "mean stress of that stress, instead of stress_ratio"}});
   return keys;
 }
 
@@ -179,14 +187,14 @@ StudyKeys staircase_keys() {
       {needed_key("data.columns.alternating_stress",
                   "{ column = \"alternating_stress\", unit = \"MPa\" }", "stress of the test"),
        needed_key("data.columns.status", "\"status\"", "failure or runout"),
-       {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
-       {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
+       {"data.columns.count", "\"count\"", "number of equal tests in a row"},
+       {"law.limit_family", "\"normal\"", "distribution of the logarithm of the limit (normal)"},
        {"prior.log10_limit", "{ distribution = \"normal\", mean = \"2.5 log10(MPa)\", sd = 0.2 }",
         "logarithm of the median fatigue limit"},
        {"prior.sigma_limit", "{ distribution = \"half-normal\", scale = 0.05 }",
         "scatter of the logarithm of the limit"},
-       {"predict.reliability", "[\"50 %\", \"90 %\"]", "which stress is borne by such a share?"},
-       {"predict.credible_level", "0.9", "of the lower bound"}});
+       {"predict.reliability", "[\"50 %\", \"90 %\"]", "adds the stress that this share survives"},
+       {"predict.credible_level", "0.9", "confidence of the lower bound"}});
   return keys;
 }
 

@@ -8,38 +8,41 @@
 
 namespace wearwell::fatigue {
 
-/// How lives scatter about the S-N curve.
+/// The scatter of lives about the S-N curve.
 ///
 ///   log10_normal  log10 life is normal, sigma its standard deviation (ISO 12107)
-///   weibull       log10 life has the smallest extreme value law with scale sigma about the curve,
+///   weibull       log10 life has the smallest extreme value distribution with scale sigma about
+///   the curve,
 ///                 so life is Weibull of shape 1/(sigma ln 10) and 63.2 % fail below the curve
 ///   normal        life itself is normal, sigma in cycles (Heo et al. 2011 as printed)
 enum class LifeFamily { log10_normal, weibull, normal };
 
-/// How life falls with the fully reversed stress S, N cycles.
+/// The S-N curve: life N in cycles against the fully reversed stress S.
 ///
 ///   basquin     S = a N^b
-///   knee        N = N_D (S/S_D)^-k, below S_D with k2 in place of k; or, where each item has a limit of
-///               its own about S_D, the first line above it and no end of life below
-///   stromeyer   S - limit = a N^b, no end of life below the limit (Stromeyer 1914)
+///   knee        N = N_D (S/S_D)^-k, below S_D with k2 instead of k; or, if each item has its own
+///   limit
+///               about S_D, the first line above it and infinite life below
+///   stromeyer   S - limit = a N^b, infinite life below the limit (Stromeyer 1914)
 ///   bastenaire  N = N_B B/(S - limit) exp(-((S - limit)/B)^C) (Bastenaire 1972)
 ///   strain_life S, a strain, = elastic (2N)^b + plastic (2N)^c (Coffin, Manson, Basquin)
 enum class SnCurve { basquin, knee, stromeyer, bastenaire, strain_life };
 
-/// What k2 is: a parameter, or 2k - 1 (Haibach 1970), or without bound: a horizontal limit, which then
-/// scatters over items.
+/// The slope k2: a parameter, or 2k - 1 (Haibach 1970), or infinite: a horizontal limit, which then
+/// is random.
 enum class SecondSlope { free, haibach, infinite };
 
-/// An S-N curve with a mean-stress correction and scatter about it. With Basquin's curve and a random
-/// fatigue limit, S - limit = a N^b where S is above the item's limit, and life has no end below it;
-/// log10 of the limit is normal or smallest extreme value over items (Pascual and Meeker 1999).
+/// An S-N curve with a mean-stress correction and scatter about it. With Basquin's curve and a
+/// random fatigue limit, S - limit = a N^b if S is above the item's limit, and life is infinite
+/// below it; log10 of the limit is normal or smallest extreme value over items (Pascual and Meeker
+/// 1999).
 struct SnLaw {
   MeanStress correction = MeanStress::goodman;
   LifeFamily family = LifeFamily::log10_normal;
-  std::optional<double> strength;  ///< Pa, where it is known
-  std::optional<double> gamma;     ///< Walker's, where it is known
-  std::optional<StandardDistribution>
-      limit;                         ///< the law of log10 of the fatigue limit, if there is one
+  std::optional<double> strength;  ///< Pa, if known
+  std::optional<double> gamma;     ///< Walker's, if known
+  /// the distribution of log10 of the fatigue limit, if there is one
+  std::optional<StandardDistribution> limit;
   SnCurve curve = SnCurve::basquin;  ///< with a limit: basquin or knee
   SecondSlope second_slope = SecondSlope::free;
   /// sigma is the scatter at `scatter_at` cycles, and sigma (N/scatter_at)^growth at others.
@@ -76,7 +79,7 @@ struct SnLaw {
 
   /// Whether lives are an integral over the limit; otherwise they have a closed form.
   bool integrated() const { return limit && curve == SnCurve::basquin; }
-  /// Whether the curve is not one straight line.
+  /// Whether the S-N line is curved.
   bool bends() const { return limit || curve != SnCurve::basquin; }
   bool straight() const { return !bends() && !scatter_grows; }
 
@@ -86,7 +89,7 @@ struct SnLaw {
   }
   bool logarithmic() const { return family != LifeFamily::normal; }
 
-  /// Pa; 1 where the correction has none.
+  /// Pa; 1 if the correction has none.
   template <class T>
   T strength_at(const T* x) const {
     using std::exp;
@@ -104,8 +107,8 @@ struct SnLaw {
            log10_factor(correction, stress, strength_at(x), gamma_at(x));
   }
 
-  /// log10 of the life on the curve; of an item whose own limit is not reached. Infinite below a limit
-  /// that is the same for all.
+  /// log10 of the life on the curve; for an item whose own limit is not reached. Infinite below a
+  /// common limit.
   template <class T>
   T log10_life(const T* x, const T& log10_reversed) const {
     using std::exp;
@@ -135,7 +138,7 @@ struct SnLaw {
         return x[0] - rest - exp(rest * decade * x[2]) / decade;
       }
       case SnCurve::strain_life: {
-        // Solved for plain numbers; one more step of Newton's brings the derivatives.
+        // Solved for plain numbers; one more Newton step gives the derivatives.
         const double plain[] = {scalar(x[0]), scalar(x[1]), scalar(x[2]), scalar(x[3])};
         const double y = log10_reversals(plain, scalar(log10_reversed));
         if (!std::isfinite(y)) return T(y);
@@ -153,9 +156,9 @@ struct SnLaw {
     return (log10_reversed - x[0]) / x[1];
   }
 
-  /// log10 of the reversals 2N of a strain-life curve at the logarithm of a strain: the sum of both lines
-  /// is convex and falls, so that Newton's method from the longer of their own lives only falls short of
-  /// it, and from the left does not go too far.
+  /// log10 of the reversals 2N of a strain-life curve at the logarithm of a strain: the sum of both
+  /// lines is convex and decreasing, so that Newton's method from the longer of their own lives
+  /// approaches from the left without overshooting.
   static double log10_reversals(const double* x, double log10_strain) {
     const double decade = std::log(10.0);
     double y = std::max((log10_strain - x[0]) / x[1], (log10_strain - x[2]) / x[3]);
@@ -172,26 +175,26 @@ struct SnLaw {
     return y;
   }
 
-  /// The scatter of lives about a place of the curve, which log10_life gives.
+  /// The scatter of lives about a point of the curve, which log10_life gives.
   template <class T>
   T sigma_at(const T* x, const T& log10_life) const {
     using std::exp;
     if (!scatter_grows) return x[sigma_index()];
-    constexpr double most = 6;  // decades; farther out it stays
+    constexpr double most = 6;  // decades; constant farther out
     const double shift = scalar(log10_life) - log10_scatter_at;
     const T decades =
         std::abs(shift) < most ? T(log10_life - log10_scatter_at) : T(std::copysign(most, shift));
     return x[sigma_index()] * exp(std::log(10.0) * x[growth_index()] * decades);
   }
 
-  /// Where a stress lies in the standard law of log10 of the limit, of limits that scatter.
+  /// The score of a stress in the standard distribution of log10 of the limit, for random limits.
   template <class T>
   T limit_place(const T* x, const T& log10_reversed) const {
     return (log10_reversed - x[limit_index()]) / x[limit_index() + 1];
   }
 
-  /// The life on the curve of an item of the population of fatigue limits: `z` is its place in the standard
-  /// law of log10 of the limit. Infinite below the limit.
+  /// The life on the curve of an item of the population of fatigue limits: `z` is its score in the
+  /// standard distribution of log10 of the limit. Infinite below the limit.
   double log10_life_of_item(const double* x, double log10_reversed, double z) const {
     const int i = limit_index();
     const double share = std::pow(10, x[i] + x[i + 1] * z - log10_reversed);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int max_parameters = 8;
 
-// From so many tests on those that are alike are taken together.
+// With at least this many tests equal ones are merged.
 constexpr std::size_t tests_are_many = 2000;
 
 class SnLikelihood final : public LogDensity {
@@ -32,7 +32,7 @@ class SnLikelihood final : public LogDensity {
       }
       rows_.push_back(row);
     }
-    // An integral over the limit is worth the search; without one the sum of few keeps its order.
+    // An integral over the limit is worth the search; without one a short sum keeps its order.
     const bool many = tests_.size() >= tests_are_many;
     const bool summed = many && law_.straight() && law_.standard() == StandardDistribution::normal;
     std::map<std::array<double, 5>, std::size_t> terms, levels;
@@ -62,7 +62,7 @@ class SnLikelihood final : public LogDensity {
 
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
-  // No density is higher than that of a life whose limit is known, no probability more than 1.
+  // No density exceeds that of a life with known limit, no probability exceeds 1.
   double value_above(std::span<const double> x, double least) const override {
     if (!law_.integrated() || law_.scatter_grows) return value(x);
     const Shared<double> shared(law_, x.data());
@@ -79,13 +79,13 @@ class SnLikelihood final : public LogDensity {
     for (const Term& each : terms_) {
       rest -= most(each);
       sum += each.count * term(shared, each.row, log10_reversed(shared, each.row));
-      // Rounding of the sums is far less than a hundredth.
+      // Rounding of the sums is far below a hundredth.
       if (!(sum + rest > least - 0.01)) return -infinity;
     }
     return sum;
   }
 
-  // The stresses that are as harmful stay what they are, unless the axis is what they depend on.
+  // The equivalent reversed stresses are constant, unless they depend on the axis.
   std::function<double(double)> along(std::span<const double> x, std::size_t axis) const override {
     if ((law_.has_strength() && axis == static_cast<std::size_t>(law_.strength_index())) ||
         (law_.has_gamma() && axis == static_cast<std::size_t>(law_.gamma_index())))
@@ -138,16 +138,16 @@ class SnLikelihood final : public LogDensity {
     double log_measure;
   };
 
-  // What tests that ended alike under one stress add: runouts above all.
+  // The term of tests with equal outcome under one stress: mainly runouts.
   struct Term {
     std::size_t row;
     int count;
   };
 
-  // Failures under one stress, whose normal law knows of them no more than this.
+  // Failures under one stress: sufficient statistics of the normal distribution.
   struct Level {
     std::size_t row;                                           // of one of them
-    double count = 0, mean = 0, squares = 0, log_measure = 0;  // squares: about the mean
+    double count = 0, mean = 0, squares = 0, log_measure = 0;  // sum of squares about the mean
 
     void add(double at, int times, double measure) {
       count += times;
@@ -158,7 +158,7 @@ class SnLikelihood final : public LogDensity {
     }
   };
 
-  // What all rows have in common.
+  // The parts common to all rows.
   template <class T>
   struct Shared {
     const T* x;
@@ -181,7 +181,7 @@ class SnLikelihood final : public LogDensity {
     return sum(shared, [&](std::size_t, std::size_t row) { return log10_reversed(shared, row); });
   }
 
-  // Over terms, then levels; `reversed_of` knows log10 of the reversed stress by number and by row.
+  // Over terms, then levels; `reversed_of` gives log10 of the reversed stress by number and by row.
   template <class T, class Reversed>
   T sum(const Shared<T>& shared, const Reversed& reversed_of) const {
     T sum(0);
@@ -204,7 +204,7 @@ class SnLikelihood final : public LogDensity {
     return sum;
   }
 
-  // With a random limit and no unknown of the mean stress: derivatives without dual numbers.
+  // With a random limit and a known mean-stress correction: derivatives without dual numbers.
   double limited(std::span<const double> x, std::span<double> gradient) const {
     const Shared<double> shared(law_, x.data());
     std::fill(gradient.begin(), gradient.end(), 0.0);
@@ -238,7 +238,7 @@ class SnLikelihood final : public LogDensity {
     using std::exp;
     const T location = law_.log10_life(shared.x, reversed);
     if (law_.logarithmic()) return location;
-    constexpr double most = 300;  // decades; a longer life is no number
+    constexpr double most = 300;  // decades; a longer life overflows
     return scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
   }
 
@@ -277,21 +277,21 @@ class SnLikelihood final : public LogDensity {
     return log_between(standard, z, until);
   }
 
-  // About a curve that is no straight line, or with a scatter that is not the same everywhere; and of
-  // a knee with a limit that scatters: life has an end for those whose limit the stress reaches.
+  // For a curved S-N line, or scatter that varies along it; and for a knee with a random limit:
+  // life is finite for items whose limit is below the stress.
   template <class T>
   T bent(const Shared<T>& shared, std::size_t i, const T& reversed, const T& location) const {
     using std::log;
     const Row& row = rows_[i];
     const Outcome outcome = tests_[i].outcome;
     if (!std::isfinite(scalar(location))) {
-      // Below a limit of all items life has no end.
+      // Below a common limit life is infinite.
       return T(scalar(location) > 0 && outcome == Outcome::runout ? 0 : -infinity);
     }
     const StandardDistribution standard = law_.standard();
     const T sigma = law_.sigma_at(shared.x, location);
     const T z = (row.at - location) / sigma;
-    T reached(0);  // log of the share of items whose limit the stress reaches
+    T reached(0);  // log of the share of items whose limit is below the stress
     if (law_.limit) {
       const T w = law_.limit_place(shared.x, reversed);
       reached = log_cdf(*law_.limit, w);

@@ -18,13 +18,13 @@ using fatigue::SecondSlope;
 using fatigue::SnCurve;
 using fatigue::SnLaw;
 
-// "log10_Sut": how the logarithm of the strength is called.
+// "log10_Sut": the parameter name of the logarithm of the strength.
 std::string log_strength_name(MeanStress correction) {
   const std::string name(strength_name(correction));
   return name == "S_ut" ? "log10_Sut" : name == "S_y" ? "log10_Sy" : "log10_" + name;
 }
 
-// Refuses tests whose mean stress no allowed strength bears.
+// Refuses tests whose mean stress exceeds every allowed strength.
 void refuse_beyond(const SnData& data, double strength, const std::string& name) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const double mean = data.tests[i].stress.mean;
@@ -39,8 +39,8 @@ void refuse_beyond(const SnData& data, double strength, const std::string& name)
   }
 }
 
-// What is known of S-N curves before any test of this one, and the size of the stresses, which are
-// set and not measured (docs/reference/priors.md).
+// Prior knowledge of S-N curves, and the size of the stresses, which are set and not measured
+// (docs/reference/priors.md).
 class Defaults {
  public:
   explicit Defaults(const SnData& data) : data_(data) {
@@ -55,7 +55,7 @@ class Defaults {
   // Basquin's b of -0.05 to -0.12 (Basquin 1910, Dowling 2013) raises the highest stress by 2 to 6
   // from 1e5 cycles to 1; welds, of -1/3, by 50.
   DefaultPrior log10_a() const { return logarithm(4 * highest_, 0.7); }
-  // Long tails: welds have -0.33.
+  // Heavy tails: welds have -0.33.
   DefaultPrior b() const { return {"student-t", StudentT{4, -0.12, 0.06}, "1"}; }
   // Slopes from 3 (welds) to 15; the knee near a million cycles (FKM 1e6, Eurocode 5e6); slopes below it
   // from 2k - 1 to 45.
@@ -95,13 +95,12 @@ Parameter read_driver_prior(const TomlReader& root, const std::optional<TomlRead
   try {
     return read_prior(root, priors, spec);
   } catch (const InputError& error) {
-    // Whatever drives lives sets the dimension: where a prior contradicts it, either may be the slip.
+    // The stress quantity sets the dimension: if a prior contradicts it, either may be wrong.
     const std::string what = error.what();
     if (stress_si == "Pa" || what.find("wrong dimension") == std::string::npos) throw;
     const std::string message = without_excerpt(what);
-    throw InputError(
-        fmt::format("{}, since data.columns says that lives are driven by what is in '{}'{}",
-                    message, stress_unit.text, what.substr(message.size())));
+    throw InputError(fmt::format("{}, since by data.columns the stress quantity is '{}'{}", message,
+                                 stress_unit.text, what.substr(message.size())));
   }
 }
 
@@ -122,9 +121,8 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
   if (law.strength) {
     refuse_beyond(data, *law.strength, strength);
     if (priors && priors->has(log_strength_name(law.correction))) {
-      priors->fail(
-          log_strength_name(law.correction),
-          fmt::format("is given, but conditions.{} says that it is known; keep one", strength));
+      priors->fail(log_strength_name(law.correction),
+                   fmt::format("is given, but conditions.{} fixes it; keep one", strength));
     }
     material = *law.strength;
   } else if (law.has_strength()) {
@@ -232,13 +230,13 @@ std::vector<std::string> sn_meanings(const SnLaw& law) {
                      : law.logarithmic() ? "scatter of log10 life"
                                          : "scatter of life");
   if (law.scatter_grows)
-    words.emplace_back("decades by which the scatter grows over a decade of life");
+    words.emplace_back("decades by which the scatter grows per decade of life");
   if (law.limit) {
     words.emplace_back("logarithm of the median fatigue limit");
     words.emplace_back("scatter of the logarithm of the fatigue limit");
   }
   if (law.limit == StandardDistribution::smallest_extreme_value) {
-    words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
+    words[words.size() - 2] = "logarithm of the fatigue limit with 63.2 % below it";
   }
   return words;
 }

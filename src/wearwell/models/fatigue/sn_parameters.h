@@ -12,19 +12,18 @@
 
 namespace wearwell {
 
-/// The unknowns of an S-N study in the order that SnLaw counts them, with the priors of the study or
-/// weak ones made of what is known of such curves and of the size of the tested stresses. Throws
-/// InputError.
+/// The unknowns of an S-N study in the order of SnLaw, with the study's priors or weak ones from
+/// what is known of such curves and from the size of the tested stresses. Throws InputError.
 std::vector<Parameter> sn_parameters(const TomlReader& root, const fatigue::SnLaw& law,
                                      const SnData& data);
 
-/// read_prior of a parameter of the driver of lives (SnData::stress_si); where its dimension is wrong the
-/// message says where the driver's comes from.
+/// read_prior for a parameter of the stress quantity (SnData::stress_si); if its dimension is wrong
+/// the message names the source of that dimension.
 Parameter read_driver_prior(const TomlReader& root, const std::optional<TomlReader>& priors,
                             const ParameterSpec& spec, const std::string& stress_si,
                             const Unit& stress_unit);
 
-/// What each of them is, in words.
+/// Descriptions of each of them.
 std::vector<std::string> sn_meanings(const fatigue::SnLaw& law);
 
 }  // namespace wearwell

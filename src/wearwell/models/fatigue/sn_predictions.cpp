@@ -28,7 +28,7 @@ using fatigue::SnLaw;
 using fatigue::Stress;
 using fatigue::StressLine;
 
-// Of a posterior's points each brings so many slices of the population of fatigue limits.
+// The number of slices of the population of fatigue limits per point of the posterior.
 constexpr std::size_t slices_of_next = 25;
 
 const Unit& percent() {
@@ -40,7 +40,7 @@ std::string description(const Quantity& quantity) {
   return fmt::format("{:.6g}{}", quantity.value, after_number(quantity.unit));
 }
 
-// Whose lives are predicted: of all tests, or of some evenly where nearly each has a stress of its own.
+// The tests whose lives are predicted: all, or an even selection if nearly each has its own stress.
 std::vector<std::size_t> covered_tests(std::size_t tests, std::size_t stresses) {
   constexpr std::size_t most_stresses = 500;
   const std::size_t count = stresses > most_stresses ? most_stresses : tests;
@@ -74,9 +74,9 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
           known.push_back(label);
         }
       }
-      predict.fail("types", fmt::format("'{}' is no type of the data; possible are {} (nearest: "
-                                        "'{}')",
-                                        type, fmt::join(known, ", "), nearest_name(type, known)));
+      predict.fail("types",
+                   fmt::format("'{}' is not a type in the data; use one of {} (nearest: '{}')",
+                               type, fmt::join(known, ", "), nearest_name(type, known)));
     }
   }
   return points;
@@ -84,7 +84,7 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
 
 using Reduction = std::function<void(const double* x, double* y)>;
 
-// A posterior in terms of `count` numbers that follow from its parameters.
+// A posterior in terms of `count` quantities derived from its parameters.
 WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Reduction& reduction) {
   const auto reduce = [&](const Points& points) {
     Points values(points.rows(), count);
@@ -110,7 +110,7 @@ class LivesAt {
       draws_ = draws;
       return;
     }
-    // All that matters here of a point is the centre of its lives and their scatter.
+    // Only the center of a point's lives and their scatter matter here.
     ReversedAt reversed(law, stress);
     draws_ = reduced(draws, 2, [&](const double* x, double* y) {
       y[0] = life_center(law, x, reversed(x));
@@ -145,7 +145,7 @@ class LivesAt {
   WeightedDraws draws_;
 };
 
-// The life of the next one; then of all, B-lives and survival.
+// The predictive life; then for all items, B-lives and survival.
 std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& draws,
                                         const Stress& stress, const SnPredictions& predictions) {
   const LivesAt lives(law, draws, stress);
@@ -215,7 +215,7 @@ struct Span {
   }
 };
 
-// What the tests span.
+// The range of the tests.
 struct Tested {
   Span alternating, mean, life;
   long count = 0;
@@ -236,7 +236,8 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
   const Tested tested(data);
   Findings findings("extrapolation");
   const std::string advice =
-      "No test lies there: the answer rests on the model. Test there, or stay inside.";
+      "There are no tests there: the result rests on the model. Test there, or stay in the tested "
+      "range.";
   for (const StressPoint& point : predictions.points) {
     if (!tested.alternating.holds(point.stress.alternating)) {
       findings.add(Verdict::warn,
@@ -282,17 +283,17 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
                    advice);
     }
   }
-  return findings.result("every stress and life that is asked about lies among those tested");
+  return findings.result("every requested stress and life lies in the tested range");
 }
 
-// The lowest of n tests lies as likely as not below the life by which a share 1 - 2^(-1/n) has
-// failed; farther down there is only the shape of the law of scatter. The same rule, at a chosen
+// The lowest of n tests lies with equal probability above and below the life by which a share 1 -
+// 2^(-1/n) has failed; below it only the assumed distribution counts. The same rule, at a chosen
 // confidence, gives the numbers of tests of ISO 12107.
 Check few_tests(const SnData& data, const SnPredictions& predictions) {
   const auto n = static_cast<double>(Tested(data).count);
   const double lowest = 100 * -std::expm1(-std::log(2.0) / n);
   const std::string supported =
-      fmt::format("the lowest of {:.0f} tests shows about B{:.2g}", n, lowest);
+      fmt::format("the lowest of {:.0f} tests is near B{:.2g}", n, lowest);
   std::vector<double> asked = predictions.percents;
   for (const AllowedStress& allowed : predictions.allowed) {
     asked.push_back(100 * (1 - allowed.reliability));
@@ -304,18 +305,17 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
   std::vector<std::string> below;
   for (const double percent : asked) {
     if (percent >= lowest) continue;
-    below.push_back(fmt::format("B{:.4g} ({:.0f} tests show it)", percent,
+    below.push_back(fmt::format("B{:.4g} (needs {:.0f} tests)", percent,
                                 std::ceil(std::log(0.5) / std::log1p(-percent / 100) - 1e-9)));
   }
   Findings findings("percentile-support");
   if (!below.empty()) {
     findings.add(
-        Verdict::warn, fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
-        "Below the lowest test the answer rests on the distribution of scatter, not on data. "
-        "Design "
-        "with the lower bound, not with the posterior predictive, and try another family.");
+        Verdict::warn, fmt::format("{}; requested: {}", supported, fmt::join(below, ", ")),
+        "Below the lowest test the result rests on the distribution of scatter, not on data. "
+        "Design with the lower bound, not with the posterior predictive, and try another family.");
   }
-  return findings.result(fmt::format("{}, and nothing below it is asked for", supported));
+  return findings.result(fmt::format("{}, and nothing below it is requested", supported));
 }
 
 }  // namespace
@@ -329,7 +329,7 @@ std::string description(const SnLaw& law, const SnData& data, const Stress& stre
   const double highest = stress.mean + stress.alternating;
   const std::string mean =
       fmt::format("{:.5g}{}", value(stress.mean), after_number(data.stress_unit));
-  // A ratio of pulsating compression has no end.
+  // A ratio of pulsating compression is unbounded.
   if (!(std::abs(highest) > 1e-9 * stress.alternating))
     return fmt::format("{} amplitude, mean {}", alternating, mean);
   return fmt::format("{} amplitude, R = {:.3g} (mean {})", alternating,
@@ -350,7 +350,7 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
     points.push_back({name, stress});
     ++stresses[name];
   }
-  // A type that was tested under several stresses is one of each.
+  // A type that was tested under several stresses counts as one of each.
   for (StressPoint& point : points) {
     if (stresses[point.name] > 1) {
       point.name += " at " + description(law, data, point.stress);
@@ -376,7 +376,7 @@ double next_allowed(const SnLaw& law, const WeightedDraws& draws, const StressLi
     const Stress stress = line.at(std::pow(10, log10_alternating));
     return next_life(law, draws, stress).cdf(life) - (1 - reliability);
   };
-  // Under so little or so much no specimen is tested.
+  // Below or above, no specimen is ever tested.
   constexpr double least = 0, most = 13;
   const double root = solve_increasing(excess, 8, 0.25, {.absolute = 1e-8}, least, most);
   return root == least ? 0 : root == most ? INFINITY : std::pow(10, root);
@@ -416,8 +416,8 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   const std::vector<Quantity> reliabilities = predict.quantities("reliability", "1");
   if (required.empty() != reliabilities.empty()) {
     predict.fail(required.empty() ? "reliability" : "required_life",
-                 "needs the other: required_life and reliability ask together for the alternating "
-                 "stress that is allowed");
+                 "needs the other key: required_life and reliability together give the allowable "
+                 "alternating stress");
   }
   if (required.empty()) return result;
   StressLine line;
@@ -432,8 +432,8 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
 
 namespace {
 
-// The life by which a share has failed, on the scale on which lives scatter: it fixes log10_a. Of a
-// random limit it would be an integral.
+// The life by which a share has failed, on the scale on which lives scatter: it determines log10_a.
+// With a random limit it would be an integral.
 ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, double share) {
   const double z = quantile(law.standard(), share);
   return {0,
@@ -452,7 +452,7 @@ ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, doub
 void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                        PosteriorStudy& study) {
   const double level = predictions.credible_level;
-  // Of several percentages the one nearest to the tenth of B10, of several reliabilities the highest.
+  // Of several percentages the one nearest to 10 %, of several reliabilities the highest.
   const auto nearest = std::min_element(
       predictions.percents.begin(), predictions.percents.end(),
       [](double a, double b) { return std::abs(std::log(a / 10)) < std::abs(std::log(b / 10)); });
@@ -471,7 +471,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     const std::string of = point.name == words ? "specimen" : point.name;
     const std::string at = of.ends_with(words) ? "" : "at " + words;
     QuantityGroup group;
-    // As a bearing that is not yet seen is a new one.
+    // An unseen item is a new one, as for bearings.
     group.requests.push_back(request("life", "new " + of, at, data.life_unit));
     group.requests.back().is_life = true;
     group.requests.back().credible_level.reset();

@@ -11,7 +11,7 @@
 
 namespace wearwell {
 
-/// A stress that is asked about.
+/// A requested stress.
 struct StressPoint {
   std::string name;  ///< "type A"
   fatigue::Stress stress;
@@ -24,7 +24,7 @@ struct AllowedStress {
   fatigue::StressLine line;
 };
 
-/// What [predict] of an S-N study asks for.
+/// The requests in [predict] of an S-N study.
 struct SnPredictions {
   std::vector<StressPoint> points;
   std::vector<double> percents;  ///< of the B-lives
@@ -33,8 +33,8 @@ struct SnPredictions {
   std::vector<AllowedStress> allowed;
 };
 
-/// The stresses that were tested, by the type of specimen where there are types; one that was
-/// tested under several stresses stands there with each.
+/// The tested stresses, by the type of specimen if there are types; a type tested under several
+/// stresses occurs with each.
 std::vector<StressPoint> tested_points(const fatigue::SnLaw& law, const SnData& data);
 
 /// Reads [predict]. Throws InputError.
@@ -45,8 +45,8 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const fatigue::SnLa
 void add_sn_quantities(const fatigue::SnLaw& law, const SnData& data,
                        const SnPredictions& predictions, PosteriorStudy& study);
 
-/// The life of the next item under a stress. No draws of it: its law is a mixture over the
-/// posterior.
+/// The life of the next item under a stress. It has no draws: its distribution is a mixture over
+/// the posterior.
 fatigue::MixedLife next_life(const fatigue::SnLaw& law, const WeightedDraws& draws,
                              const fatigue::Stress& stress);
 
@@ -55,12 +55,12 @@ fatigue::MixedLife next_life(const fatigue::SnLaw& law, const WeightedDraws& dra
 double next_allowed(const fatigue::SnLaw& law, const WeightedDraws& draws,
                     const fatigue::StressLine& line, double life, double reliability);
 
-/// Where each test lies in the life that is predicted of its stress.
+/// The score of each test in the predictive life of its stress.
 CoverageTable sn_coverage(const fatigue::SnLaw& law, const SnData& data,
                           const WeightedDraws& draws);
 
-/// Whether stresses and lives that are asked about were tested, and whether the tests are as many
-/// as their percentiles need.
+/// Whether requested stresses and lives are in the tested range, and whether the number of tests
+/// supports the percentiles.
 std::vector<Check> sn_checks(const fatigue::SnLaw& law, const SnData& data,
                              const SnPredictions& predictions, const Fit& fit);
 

@@ -46,7 +46,7 @@ TestedSpan span_of(const LifeTests& tests) {
 SnLaw read_law(const JsonReader& json) {
   SnLaw law;
   const auto correction = mean_stress_named(json.at("mean_stress").text());
-  if (!correction) json.at("mean_stress").fail("is no correction of the mean stress");
+  if (!correction) json.at("mean_stress").fail("is not a mean-stress correction");
   law.correction = *correction;
   const std::string family = json.at("family").one_of({families[0], families[1], families[2]});
   law.family = family == families[0]   ? LifeFamily::log10_normal
@@ -107,16 +107,14 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   const std::filesystem::path file = summary_file(folder);
   if (saved.header.model != "sn")
     throw InputError(
-        fmt::format("{}: its model is \"{}\"; what is asked needs an S-N curve, model \"sn\"",
+        fmt::format("{}: its model is \"{}\"; this command needs an S-N curve, model \"sn\"",
                     folder.string(), saved.header.model));
   const Json summary = read_json(file);
   const JsonReader root(summary, file);
   const auto json = root.find("fatigue");
   if (!json)
-    throw InputError(
-        fmt::format("{} has no \"fatigue\": an earlier wearwell wrote it; fit the study "
-                    "again",
-                    file.string()));
+    throw InputError(fmt::format(
+        "{} has no \"fatigue\": an earlier wearwell wrote it; fit the study again", file.string()));
   SnResult result{saved.header.title,
                   saved.header.equation,
                   saved.header.trusted,
@@ -126,7 +124,7 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
                   {},
                   {},
                   driver_si(json->at("stress_unit").text())};
-  if (result.stress_si.empty()) json->at("stress_unit").fail("is no unit of a stress");
+  if (result.stress_si.empty()) json->at("stress_unit").fail("is not a unit of a stress");
   result.stress_unit = read_unit(json->at("stress_unit").text(), result.stress_si);
   const JsonReader tested = json->at("tested");
   TestedSpan& span = result.tested;
@@ -140,8 +138,8 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
 
   for (const ParameterSummary& each : saved.parameters) result.parameters.push_back(each.name);
   if (std::ssize(result.parameters) != result.law.dimension())
-    throw InputError(fmt::format("{}: {} parameters do not make the law that it names",
-                                 file.string(), result.parameters.size()));
+    throw InputError(fmt::format("{}: {} parameters do not match the named model", file.string(),
+                                 result.parameters.size()));
   prognosis::CarriedState state = prognosis::read_state(folder);
   prognosis::require_parameters(state, result.parameters);
   result.posterior.values = std::move(state.posterior.values);

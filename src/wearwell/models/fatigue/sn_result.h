@@ -11,7 +11,7 @@
 
 namespace wearwell::fatigue {
 
-/// What the tests of a study spanned, Pa and cycles.
+/// The tested range of a study, Pa and cycles.
 struct TestedSpan {
   double alternating_low = 0, alternating_high = 0;
   double mean_low = 0, mean_high = 0;
@@ -19,24 +19,24 @@ struct TestedSpan {
   int tests = 0, failures = 0;
 };
 
-/// An S-N study as its folder of results keeps it.
+/// An S-N study from its folder of results.
 struct SnResult {
   std::string title, equation;
   bool trusted = true;
   SnLaw law;
   TestedSpan tested;
   Unit stress_unit;
-  std::vector<std::string> parameters;  ///< names, as SnLaw counts them
+  std::vector<std::string> parameters;  ///< names, in the order of SnLaw
   WeightedDraws posterior;              ///< without cells, SI
-  std::string stress_si = "Pa";         ///< of the stress, or of what stands for it
-  Unit life_unit = {"cycles", 1, 0};    ///< in which the study tells lives
+  std::string stress_si = "Pa";         ///< of the stress quantity
+  Unit life_unit = {"cycles", 1, 0};    ///< unit of reported lives
 };
 
-/// What `fit` writes as "fatigue" into summary.json: the law's choices and what was tested.
+/// The entry "fatigue" that `fit` writes to summary.json: the model's options and the tested range.
 nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data);
 
-/// Reads summary.json and the posterior of state.bin. Throws InputError: no folder of results, of another model, of an
-/// earlier version.
+/// Reads summary.json and the posterior of state.bin. Throws InputError for a folder without
+/// results, of another model, or of an earlier version.
 SnResult read_sn_result(const std::filesystem::path& folder);
 
 }  // namespace wearwell::fatigue

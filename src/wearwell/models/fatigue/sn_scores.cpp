@@ -21,7 +21,7 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
     return normal_score(log_probability(item, Outcome::left, at, at),
                         log_probability(item, Outcome::runout, at, at));
   }
-  constexpr double most = 300;  // decades; a longer life is no number
+  constexpr double most = 300;  // decades; a longer life overflows
   const double center_of_all = law.log10_life(x, log10_reversed);
   double center = std::min(center_of_all, most);
   if (!law.logarithmic()) center = std::pow(10, center);

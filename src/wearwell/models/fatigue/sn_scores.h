@@ -6,8 +6,8 @@
 
 namespace wearwell::fatigue {
 
-/// Where each test lies in the law of its life: of a failure the place, of a run-out, a left-censored
-/// test or an interval what it lies between. Tests of one row share one.
+/// The score of each test in the distribution of its life: of a failure its quantile, of a run-out,
+/// a left-censored test or an interval its bounds. Tests of one row share one.
 Scores sn_scores(const SnLaw& law, const LifeTests& tests);
 
 }  // namespace wearwell::fatigue

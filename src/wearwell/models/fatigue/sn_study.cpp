@@ -25,7 +25,7 @@ using fatigue::SecondSlope;
 using fatigue::SnCurve;
 using fatigue::SnLaw;
 
-// The form of the curve and its scatter, where they are not Basquin's with the same scatter everywhere.
+// The form of the curve and its scatter, unless it is Basquin's with constant scatter.
 void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
   const auto curve =
       table.choice("curve", {"basquin", "knee", "stromeyer", "bastenaire", "strain-life"});
@@ -36,10 +36,13 @@ void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
   if (curve == "strain-life") {
     law.curve = SnCurve::strain_life;
     if (law.correction != MeanStress::none)
-      table.fail("mean_stress", "strain-life curves are of fully reversed tests here: \"none\"");
-    if (random_limit) table.fail("fatigue_limit", "a strain-life curve has none");
+      table.fail("mean_stress",
+                 "must be \"none\": strain-life curves are for fully reversed tests");
+    if (random_limit)
+      table.fail("fatigue_limit", "is not possible: a strain-life curve has no fatigue limit");
   }
-  // With a limit of its own for each item Stromeyer's curve is that of a random fatigue limit.
+  // With an individual limit for each item Stromeyer's curve becomes that of a random fatigue
+  // limit.
   if (curve == "stromeyer" && !random_limit) law.curve = SnCurve::stromeyer;
   if (slope && law.curve != SnCurve::knee) {
     table.fail("second_slope", "needs curve = \"knee\": it is the slope below the knee");
@@ -47,21 +50,21 @@ void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
   if (slope == "haibach") law.second_slope = SecondSlope::haibach;
   if (slope == "infinite") law.second_slope = SecondSlope::infinite;
   if (law.curve == SnCurve::knee && random_limit != (slope == "infinite")) {
-    table.fail(
-        random_limit ? "second_slope" : "fatigue_limit",
-        "below a knee life has either a second slope (second_slope = \"free\" or "
-        "\"haibach\"), or no end, and then the limit scatters: second_slope = \"infinite\" and "
-        "fatigue_limit = \"random\" together");
+    table.fail(random_limit ? "second_slope" : "fatigue_limit",
+               "below a knee life has either a second slope (second_slope = \"free\" or "
+               "\"haibach\"), or is infinite with a random limit: second_slope = \"infinite\" and "
+               "fatigue_limit = \"random\" together");
   }
   if (law.curve == SnCurve::bastenaire && random_limit) {
     table.fail(
         "fatigue_limit",
-        "Bastenaire's curve has one limit for all; random goes with basquin, stromeyer or knee");
+        "Bastenaire's curve has one common limit; use random with basquin, stromeyer or knee");
   }
   law.scatter_grows = scatter == "grows";
   if (law.scatter_grows && random_limit) {
     table.fail("scatter",
-               "lives scatter more near a random fatigue limit already; grows goes with none");
+               "lives already scatter more near a random fatigue limit; use grows with "
+               "fatigue_limit = \"none\"");
   }
 }
 
@@ -117,7 +120,7 @@ std::string description(const SnLaw& law) {
                : "; N scatters normally with standard deviation sigma";
   if (law.limit) {
     words += fmt::format(
-        "; log10 of the limit is {} with location {} and scale sigma_limit, and no end of life "
+        "; log10 of the limit is {} with location {} and scale sigma_limit, and life is infinite "
         "below it",
         *law.limit == StandardDistribution::normal ? "normal" : "smallest extreme value",
         law.curve == SnCurve::knee ? "log10_S_D" : "log10_limit");
@@ -125,7 +128,7 @@ std::string description(const SnLaw& law) {
   return words;
 }
 
-// "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
+// "9 tests: 8 failures, 1 runout", with the ranges of stresses and lives.
 std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
   long long counts[4] = {}, all = 0;
@@ -189,9 +192,8 @@ SnLaw read_sn_law(const TomlReader& root) {
       table ? table->choice("mean_stress", fatigue::mean_stress_names()) : std::nullopt;
   if (!correction) {
     root.fail("law",
-              "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
-              "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
-              "\"none\"");
+              "needs mean_stress, the mean-stress correction: [law] mean_stress = \"goodman\", "
+              "\"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or \"none\"");
   }
   law.correction = *fatigue::mean_stress_named(*correction);
   const auto limit = table->choice("fatigue_limit", {"none", "random"});
@@ -209,11 +211,13 @@ SnLaw read_sn_law(const TomlReader& root) {
     if (family == "weibull") law.family = LifeFamily::weibull;
     if (family == "normal") law.family = LifeFamily::normal;
     if (law.limit && law.family == LifeFamily::normal) {
-      likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
+      likelihood->fail(
+          "family",
+          "normal on life does not combine with a random fatigue limit; use log10-normal");
     }
     if (!law.straight() && law.family == LifeFamily::normal) {
       likelihood->fail("family",
-                       "normal on life goes with a straight curve of constant scatter alone; use "
+                       "normal on life needs a straight curve with constant scatter; use "
                        "log10-normal or weibull");
     }
   }
@@ -233,7 +237,7 @@ SnLaw read_sn_law(const TomlReader& root) {
 
 namespace {
 
-// A test to failure has a density, any other a probability.
+// A failure contributes a density, any other test a probability.
 DensityUnit density_of(const SnData& data) {
   DensityUnit unit{data.life_unit.text, {}, 0};
   for (const LifeTest& test : data.tests) {
@@ -251,24 +255,22 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
   const SnData data = read_sn_data(root, source, law.correction);
   if (law.curve == SnCurve::strain_life && data.stress_si != "1") {
     root.required_table("law").fail(
-        "curve",
-        fmt::format("\"strain-life\" needs strains: data.columns.alternating_stress is in {}; a "
-                    "strain has the unit %, um/m or 1",
-                    data.stress_unit.text));
+        "curve", fmt::format("\"strain-life\" needs strains, but data.columns.alternating_stress "
+                             "is in {}; use a unit of strain: %, um/m or 1",
+                             data.stress_unit.text));
   }
   if (data.stress_si != "Pa" && law.strength) {
     root.required_table("conditions")
         .fail(std::string(strength_name(law.correction)),
-              fmt::format("is a stress, but what drives the lives is in {}; use law.mean_stress = "
-                          "\"none\", \"swt\" "
-                          "or \"walker\"",
+              fmt::format("is a stress, but the stress quantity of the tests is in {}; use "
+                          "law.mean_stress = \"none\", \"swt\" or \"walker\"",
                           data.stress_unit.text));
   }
   if (study.stages) {
     root.required_table("update").fail(
         "stages",
-        "is not for model \"sn\": tests have no order; fit the first tests as a study of "
-        "their own (data.sql = \"select ... limit 6\")");
+        "is not possible for model \"sn\": tests have no order; fit the first tests as a separate "
+        "study (data.sql = \"select ... limit 6\")");
   }
   study.parameters = sn_parameters(root, law, data);
   study.equation = description(law);

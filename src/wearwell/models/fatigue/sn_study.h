@@ -7,10 +7,11 @@
 
 namespace wearwell {
 
-/// Reads `model = "sn"` (docs/reference/fatigue.md) into `study`, whose general parts are read already.
+/// Reads `model = "sn"` (docs/reference/fatigue.md) into `study`, whose common parts are already
+/// read.
 void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// The law that [formula], [likelihood] and [conditions] of it choose. Throws InputError.
+/// The model of [formula], [likelihood] and [conditions]. Throws InputError.
 fatigue::SnLaw read_sn_law(const TomlReader& root);
 
 }  // namespace wearwell

@@ -27,7 +27,7 @@ using fatigue::StairTest;
 
 struct StairData {
   std::vector<StairTest> tests;
-  std::string stress_si = "Pa";  // of a stress, or of what stands for it
+  std::string stress_si = "Pa";  // of the stress quantity
   Unit unit;
   StandardDistribution limit = StandardDistribution::normal;
   std::vector<double> reliabilities = {0.5, 0.9};
@@ -42,7 +42,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
   data.stress_si = stated_driver_si(root, table);
   const ColumnChoice stress = required_column(columns, "alternating_stress", data.stress_si, table);
   const auto status = read_life_status(columns, table);
-  if (!status) columns.fail("status", "is missing: which tests failed, and which did not?");
+  if (!status) columns.fail("status", "is missing: the column of failures and run-outs");
   const auto count = read_column(columns, "count", "1", table);
   const std::vector<double> stresses = si_numbers(table, stress);
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
@@ -51,7 +51,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
     require(stresses[i] > 0, table, stress, i, "positive");
     const fatigue::Outcome outcome = read_outcome(table, *status, i);
     if (outcome != fatigue::Outcome::failure && outcome != fatigue::Outcome::runout)
-      throw InputError(fmt::format("{}: a staircase knows failure and runout only",
+      throw InputError(fmt::format("{}: a staircase test has only failure and runout",
                                    place(table, status->column, i)));
     const double n = count ? counts[i] : 1;
     if (count)
@@ -92,7 +92,7 @@ double log10_limit(const StairData& data, const double* x, double reliability) {
   return x[0] + x[1] * quantile(data.limit, 1 - reliability);
 }
 
-// The stress [Pa] that the next item bears with this probability.
+// The stress [Pa] that the next item survives with this probability.
 double next_limit(const StairData& data, const WeightedDraws& draws, double reliability) {
   const auto excess = [&](double log10) {
     double broken = 0;
@@ -129,7 +129,7 @@ void add_limits(const StairData& data, PosteriorStudy& study) {
   }
 }
 
-// What one more test under a stress would leave unknown of the limit that is asked about.
+// The expected remaining uncertainty of the requested limit after one more test at a stress.
 struct NextTest {
   double stress = 0, failure = 0;  // Pa, its probability
   double sd = 0;                   // of log10 of the limit, expected after it
@@ -145,7 +145,7 @@ std::vector<NextTest> next_tests(const StairData& data, const WeightedDraws& dra
   if (step > 0) stresses.insert(high + step);
   std::vector<NextTest> tests;
   for (const double stress : stresses) {
-    // Weight, mean and square of the limit: all, and those of an item that fails.
+    // Weight, mean and square of the limit: over all items, and over those that fail.
     double sums[2][3] = {};
     for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
       const double* x = draws.values.row(i).data();
@@ -169,7 +169,7 @@ std::vector<NextTest> next_tests(const StairData& data, const WeightedDraws& dra
   return tests;
 }
 
-// The probability to fail against stress, with the share of the tests that failed at each.
+// The failure probability against stress, with the share of failed tests at each.
 html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
   namespace colour = plot::colour;
   constexpr Eigen::Index most_draws = 4000;
@@ -207,10 +207,10 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
   const std::string bound_name = fmt::format("{:.6g} % survive, at least with {:.6g} %", 100 * most,
                                              100 * data.credible_level);
   return {
-      "failure-probability", "Probability to fail against stress",
-      "The line is the posterior median, the band holds 90 %. Points are the shares of the tests "
-      "that failed under each stress.",
-      plot::plot("Probability to fail against alternating stress, with the shares of the tests",
+      "failure-probability", "Failure probability against stress",
+      "The line is the posterior median with its 90 % band. Points are the shares of failed tests "
+      "at each stress.",
+      plot::plot("Failure probability against alternating stress, with the shares of the tests",
                  {"Alternating stress" + (unit.empty() ? "" : " [" + unit + "]"), false, x.front(),
                   x.back()},
                  {"Fails [%]", false, 0.0, 100.0},
@@ -232,9 +232,9 @@ PresetAddition addition(const StairData& data, const WeightedDraws& draws) {
   const std::string comparison =
       classical.problem.empty()
           ? fmt::format(
-                "Dixon and Mood (1948), by the {} alone: mean {:.5g} {}, standard deviation "
-                "{:.3g} {}{}. With few tests its standard deviation is mostly too small, and "
-                "it has no interval.",
+                "Dixon and Mood (1948), by the {} only: mean {:.5g} {}, standard deviation {:.3g} "
+                "{}{}. With few tests its standard deviation is usually too small, and it has no "
+                "interval.",
                 classical.of_failures ? "failures" : "run-outs", in_unit(classical.mean),
                 data.unit.text, in_unit(classical.sd), data.unit.text,
                 classical.crude_sd ? " (the method gives 0.53 of a step here)" : "")
@@ -244,7 +244,7 @@ PresetAddition addition(const StairData& data, const WeightedDraws& draws) {
   const std::vector<NextTest> tests = next_tests(data, draws, most, before);
   present::Table table{
       "next-test",
-      fmt::format("What one more test would add to the limit for {:.6g} %", 100 * most),
+      fmt::format("Information of one more test on the limit for {:.6g} %", 100 * most),
       {{"at", data.unit.text},
        {"fails", "%", present::digits(3)},
        {"less spread of log10 limit", "%", present::digits(3)}}};
@@ -258,7 +258,7 @@ PresetAddition addition(const StairData& data, const WeightedDraws& draws) {
   }
   added.blocks["predictions"] = {{present::Prose{comparison}}, {table}};
   added.text = "For comparison\n" + wrapped(comparison, 2, 4) + "\n" +
-               fmt::format("What one more test would add to the limit for {:.6g} %\n", 100 * most) +
+               fmt::format("Information of one more test on the limit for {:.6g} %\n", 100 * most) +
                text_table(rows);
   nlohmann::ordered_json json;
   if (classical.problem.empty()) {
@@ -284,7 +284,8 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
   StairData data;
   read_wishes(root, data);
   read_tests(root, source, study, data);
-  if (study.stages) root.required_table("update").fail("stages", "is not for model \"staircase\"");
+  if (study.stages)
+    root.required_table("update").fail("stages", "is not possible for model \"staircase\"");
   double mean = 0, tests = 0, failed = 0;
   for (const StairTest& test : data.tests) {
     mean += test.count * std::log10(test.stress);
@@ -297,7 +298,7 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
     spec.fallback = std::move(fallback);
     return read_driver_prior(root, priors, spec, data.stress_si, data.unit);
   };
-  // Of a plain number, a strain or a share of the strength, logarithms are plain numbers too.
+  // For a plain number, a strain or a share of the strength, logarithms are plain numbers too.
   const bool plain = data.stress_si == "1";
   study.parameters.push_back(
       read({"log10_limit", plain ? "1" : fmt::format("log10({})", data.stress_si), -INFINITY,
@@ -309,9 +310,9 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
                     "scatter of the logarithm of the fatigue limit"};
   study.equation =
       data.limit == StandardDistribution::normal
-          ? "a test fails when the stress is above its item's limit; log10 of the limit is normal"
-          : "a test fails when the stress is above its item's limit; log10 of the limit has a "
-            "smallest extreme value law";
+          ? "a test fails if the stress is above its item's limit; log10 of the limit is normal"
+          : "a test fails if the stress is above its item's limit; log10 of the limit has a "
+            "smallest extreme value distribution";
   study.quantity = "outcome";
   study.data_notes = {
       fmt::format("{:.0f} tests: {:.0f} failures, {:.0f} run-outs", tests, failed, tests - failed)};
@@ -323,7 +324,8 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
                     "the {} end of every limit rests on the prior",
                     failures ? "run-out" : "failure", tests, tests == 1 ? "" : "s",
                     failures ? "high" : "low", failures ? "lower" : "upper"),
-        fmt::format("Test at {} stresses, until both ends occur.", failures ? "lower" : "higher")};
+        fmt::format("Test at {} stresses, until both outcomes occur.",
+                    failures ? "lower" : "higher")};
   }
   study.likelihood = [=](std::size_t rows) {
     return fatigue::staircase_likelihood(

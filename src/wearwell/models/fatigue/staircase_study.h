@@ -4,8 +4,8 @@
 
 namespace wearwell {
 
-/// What model = "staircase" reads beyond what all studies of a posterior have (docs/reference/staircase.md).
-/// Throws InputError.
+/// The keys of model = "staircase" in addition to those of all posterior studies
+/// (docs/reference/staircase.md). Throws InputError.
 void read_staircase_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
 }  // namespace wearwell

@@ -21,11 +21,11 @@ double standard_log10_stress(const SnLaw& law, const Stress& stress) {
 StandardFit standard_fit(const SnLaw& law, const SnData& data) {
   StandardFit fit;
   if (law.family != fatigue::LifeFamily::log10_normal) {
-    fit.why_not = "they take log10 life as normal, which this study does not";
+    fit.why_not = "they assume normal log10 life, which this study does not";
     return fit;
   }
   if (law.has_strength() || law.has_gamma()) {
-    fit.why_not = "what a mean stress does is unknown here, and they know one stress only";
+    fit.why_not = "the mean-stress correction is unknown here, and they need a known stress";
     return fit;
   }
   std::vector<double> x, y;

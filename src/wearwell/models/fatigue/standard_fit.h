@@ -9,17 +9,17 @@
 
 namespace wearwell {
 
-/// What the standards fit: failures alone, a straight line in logarithms, as if it were known that
-/// nothing else was seen.
+/// The fit of the standards: failures only, a straight line in logarithms, ignoring all other
+/// tests.
 struct StandardFit {
   std::optional<fatigue::FittedLine> line;  ///< of log10 life [cycles] on log10 stress [Pa]
-  std::string why_not;                      ///< where the standards do not apply
+  std::string why_not;                      ///< if the standards do not apply
   int failures = 0, left_out = 0;
 };
 StandardFit standard_fit(const fatigue::SnLaw& law, const SnData& data);
 
-/// log10 of the fully reversed stress/Pa on which the standards' line is fitted, where they apply: constants of
-/// the mean stress are known then.
+/// log10 of the fully reversed stress/Pa for the standards' line, if they apply: the mean-stress
+/// correction is then known.
 double standard_log10_stress(const fatigue::SnLaw& law, const fatigue::Stress& stress);
 
 }  // namespace wearwell

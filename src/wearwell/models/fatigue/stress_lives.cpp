@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t slices_of_a_point = 40;
 
-// One law of life among those that a point's lives are mixed of; `share` of its parts follow it.
+// One distribution in the mixture of a point's lives; `share` of its parts follow it.
 struct LifeComponent {
   double share, center, sigma;
 };
@@ -21,7 +21,7 @@ struct LifeComponent {
 // Of one point of the posterior.
 struct PointLives {
   std::vector<LifeComponent> laws;
-  double endless = 0;  // the share whose life has no end
+  double endless = 0;  // the share with infinite life
   bool defined = true;
 };
 
@@ -45,7 +45,7 @@ PointLives lives_of_point(const SnLaw& law, const double* x, const Stress& stres
   return lives;
 }
 
-// Sums of probabilities that may be too small for a double by themselves.
+// Sums of probabilities that may underflow individually.
 double log_survival_of(const SnLaw& law, const PointLives& lives, double log10_life) {
   const double at = law.logarithmic() ? log10_life : std::pow(10, log10_life);
   if (lives.laws.size() == 1 && lives.endless == 0)
@@ -58,8 +58,8 @@ double log_survival_of(const SnLaw& law, const PointLives& lives, double log10_l
   return sum > 0 ? std::log(sum) : -infinity;
 }
 
-// Where lives are told: from where hardly any has ended to where no law of weight has one left, in even steps, and on
-// from there in growing ones.
+// The grid of lives: from where hardly any has ended to where no distribution of non-negligible
+// weight has any left, in even steps, and then in growing ones.
 std::vector<double> places_of(const SnLaw& law, const std::vector<PointLives>& points,
                               std::span<const double> weight) {
   constexpr double far = 6, light = 1e-7, step_in_sigma = 0.1, growth = 1.05;
@@ -117,7 +117,7 @@ StressLives::StressLives(const SnLaw& law, const ThinnedPosterior& points, const
   });
 }
 
-// Between places a straight line in the logarithm of survival.
+// Between grid points linear in the logarithm of survival.
 double StressLives::log_survival_at(std::size_t point, double log10_life) const {
   const double* own = log_.data() + point * at_.size();
   const auto above = std::upper_bound(at_.begin(), at_.end(), log10_life);
@@ -139,14 +139,15 @@ std::vector<double> StressLives::log_survival(double n, double known) const {
   return log;
 }
 
-// Where what remains is told: close behind n in steps of what remains, beyond where the table has its places.
+// The grid of remaining lives: close after n in steps of the remaining life, beyond that at the
+// table's points.
 std::vector<double> StressLives::places_beyond(double n) const {
   const double from = n > 0 ? std::log10(n) : -infinity;
   const auto first = std::upper_bound(at_.begin(), at_.end(), from);
   std::vector<double> places;
   if (n > 0 && first != at_.end()) {
     constexpr double least = 1e-5, ratio = 1.09;  // of n
-    constexpr std::ptrdiff_t cells = 6;           // as far as even steps of log life are too wide
+    constexpr std::ptrdiff_t cells = 6;           // as long as even steps of log life are too wide
     const auto end = first + std::min(cells, at_.end() - first - 1);
     for (double r = least * n; std::log10(n + r) < *end; r *= ratio)
       places.push_back(std::log10(n + r));
@@ -171,7 +172,7 @@ prognosis::WeightedLives StressLives::remaining(std::span<const double> weight, 
                                    static_cast<std::ptrdiff_t>(at_.size()) - 1));
     between.push_back({above, (each - at_[above - 1]) / (at_[above] - at_[above - 1])});
   }
-  std::vector<double> left(places.size(), 0.0);  // who lives beyond each place
+  std::vector<double> left(places.size(), 0.0);  // survivors at each point
   double all = 0;
   for (std::size_t i = 0; i < points_; ++i) {
     if (!(weight[i] > 0)) continue;
@@ -181,7 +182,7 @@ prognosis::WeightedLives StressLives::remaining(std::span<const double> weight, 
     const double* own = log_.data() + i * at_.size();
     for (std::size_t p = 0; p < places.size(); ++p) {
       const auto [k, part] = between[p];
-      // Before the first place hardly any life has ended.
+      // Before the first point hardly any life has ended.
       const double log = part <= 0             ? own[k - 1]
                          : part >= 1           ? own[k]
                          : own[k] == -infinity ? own[k - 1]
@@ -201,7 +202,7 @@ prognosis::WeightedLives StressLives::remaining(std::span<const double> weight, 
     before = left[p];
     begin = end;
   }
-  // Beyond the last place no life has an end.
+  // Beyond the last point all lives are infinite.
   if (before > light * all) {
     life.push_back(infinity);
     share.push_back(before);

@@ -11,26 +11,27 @@
 
 namespace wearwell::fatigue {
 
-/// The lives of parts under one stress, for each of a posterior's points apart: their survival on a grid of log10 life, a
-/// tenth of the least scatter apart, and coarser beyond the lives that are expected. Made once; what a part has survived
-/// then only changes the weights of the points, w_i S_i(n)/S_i(known), and where their lives begin.
+/// The lives of parts under one stress, separately for each of a posterior's points: their survival
+/// on a grid of log10 life, with steps of a tenth of the smallest scatter, and coarser beyond the
+/// expected lives. Made once; survival of a part then only changes the weights of the points, w_i
+/// S_i(n)/S_i(known), and the start of their lives.
 class StressLives {
  public:
-  /// Nothing is known of points at which the law has no life under that stress: `undefined` is their weight, and
-  /// they have no life at all, as in the likelihood.
+  /// At some points the model may have no life under that stress: `undefined` is their weight, and
+  /// they are left out, as in the likelihood.
   StressLives(const SnLaw& law, const ThinnedPosterior& points, const Stress& stress);
 
-  /// Lives beyond that have no end, cycles.
+  /// Lives beyond count as infinite, cycles.
   static constexpr double most_cycles = 1e15;
 
   double undefined() const { return undefined_; }
 
-  /// log S_i(n)/S_i(known) of each point: minus infinity where it survives that never. `known` <= n [cycles] is what the
-  /// posterior holds of the part; 0: nothing.
+  /// log S_i(n)/S_i(known) of each point: minus infinity if it never survives that. `known` <= n
+  /// [cycles] is what the posterior contains of the part; 0: nothing.
   std::vector<double> log_survival(double n, double known) const;
 
-  /// Of parts that have survived n, what remains [cycles], infinite where life has no end: mixed over the points with
-  /// these weights, which have the survival to n in them.
+  /// The remaining life [cycles] of parts that have survived n, infinite if life has no end: mixed
+  /// over the points with these weights, which include the survival to n.
   prognosis::WeightedLives remaining(std::span<const double> weight, double n) const;
 
  private:
@@ -39,7 +40,7 @@ class StressLives {
 
   std::size_t points_ = 0;
   double undefined_ = 0;
-  std::vector<double> at_;   // log10 of cycles, rising
+  std::vector<double> at_;   // log10 of cycles, ascending
   std::vector<double> log_;  // log survival: by point, by place
   std::vector<double> endless_;
 };

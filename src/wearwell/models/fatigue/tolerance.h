@@ -23,16 +23,17 @@ struct FittedLine {
 /// At least three points at two x.
 FittedLine fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// The factor k of a one-sided tolerance limit, y - k sd: with this confidence a share `reliability`
-/// of a normal law lies above it, when its mean was estimated with a variance of `leverage` and its
-/// standard deviation with so many degrees of freedom (Owen 1968): the noncentral t quantile
-/// t(confidence; freedom, z sqrt(1/leverage)) sqrt(leverage).
+/// The factor k of a one-sided tolerance limit, y - k sd: with this confidence a share
+/// `reliability` of a normal distribution lies above it, if its mean was estimated with a variance
+/// of `leverage` and its standard deviation with this number of degrees of freedom (Owen 1968): the
+/// noncentral t quantile t(confidence; freedom, z sqrt(1/leverage)) sqrt(leverage).
 double owen_factor(double reliability, double confidence, double leverage, double freedom);
 
 /// Lower limits of y at x:
 ///   Owen      exact for the line
 ///   ISO 12107 k of a plain sample of freedom + 1, times sqrt(1 + leverage)
-///   E739      the lower end of the band that holds the whole median line (its reliability is 1/2)
+///   E739      the lower end of the band that contains the whole median line (its reliability is
+///   1/2)
 double owen_limit(const FittedLine& line, double x, double reliability, double confidence);
 double iso_12107_limit(const FittedLine& line, double x, double reliability, double confidence);
 double astm_e739_band(const FittedLine& line, double x, double confidence);

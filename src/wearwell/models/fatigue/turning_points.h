@@ -5,15 +5,15 @@
 
 namespace wearwell::fatigue {
 
-/// The peaks and valleys of a signal that comes piece by piece: where it turns, its first sample, and
-/// at the end its last. However it is cut, the points are the same.
+/// The peaks and valleys of a signal that arrives piece by piece: its turning points, its first
+/// sample, and at the end its last. They do not depend on the division into pieces.
 class TurningPoints {
  public:
-  /// What the next piece depends on.
+  /// The state that the next piece depends on.
   struct State {
     bool begun = false;
     int direction = 0;  ///< +1 rising, -1 falling, 0 while all samples are equal
-    double last = 0;    ///< the farthest sample in that direction: a point once the signal turns
+    double last = 0;    ///< the extreme sample in that direction: a point once the signal turns
   };
 
   TurningPoints() = default;
@@ -51,7 +51,7 @@ class TurningPoints {
     state_.direction = rising ? 1 : -1;
   }
 
-  /// The last sample, which ends the signal as a point; none of a constant one.
+  /// The last sample, which ends the signal as a point; none for a constant one.
   template <class Take>
   void finish(Take&& take) const {
     if (state_.direction != 0) take(state_.last);

@@ -33,7 +33,7 @@ namespace {
 using formula::c_number;
 using Words = std::map<std::string, std::string>;
 
-// What is exported, as the tracker has it.
+// The model to export, as the tracker has it.
 struct Exported {
   TomlReader root;
   std::shared_ptr<const FormulaModel> model;
@@ -52,8 +52,8 @@ struct Exported {
         population(model, state.posterior) {
     if (rows.follows())
       throw InputError(
-          "the law depends on rows before its own (cum, step, a state by its rate): such a path is "
-          "not exported to C");
+          "the formula depends on earlier rows (cum, step, a state given by its rate); C export "
+          "does not support such paths");
     if (choice.lines > 0)
       population.few = PopulationPoints(ThinnedPosterior(state.posterior, choice.lines));
     if (!choice.unit.empty()) see(choice.unit);
@@ -98,7 +98,7 @@ std::string shouted(std::string text) {
   return text;
 }
 
-// Within a comment of C.
+// Inside a comment of C.
 std::string commented(const std::string& text) {
   std::string out;
   for (const char each : printable(text)) {
@@ -140,7 +140,7 @@ void add_tables(const Exported& from, Words& words) {
     if (row.empty()) row.push_back(0);
     parameters += fmt::format("    {{{}}},\n", row_of(row));
   }
-  // Effects in the order of the symbols that are given by row.
+  // Effects in the order of the row symbols.
   std::vector<std::size_t> order(from.model->effects.size());
   for (std::size_t e = 0; e < order.size(); ++e) order[e] = e;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -214,7 +214,8 @@ void add_symbols(const Exported& from, Words& words) {
       formula::c_function(from.model->lines, from.lives.wanted()[0], symbols, "limited");
 }
 
-// Readings of the unit itself, or of the study's that was read most, and what we have of them.
+// Readings of the unit itself, or else of the most often read unit of the study, with the expected
+// results.
 void add_test(Exported& from, Words& words) {
   std::vector<UnitReading> readings;
   UnitReading last = from.seen.empty() ? from.lives.before_rows() : from.seen.back();
@@ -281,9 +282,10 @@ std::string filled(std::string_view text, const Words& words, const std::string&
 CExport c_export(const prognosis::CarriedState& state, const CExportChoice& choice,
                  const std::string& version) {
   if (!std::regex_match(choice.name, std::regex("[a-z][a-z0-9_]{0,30}")))
-    throw InputError(fmt::format(
-        "--name: '{}' is no name for C: small letters, digits and _, a letter first, 31 at most",
-        printable(choice.name)));
+    throw InputError(
+        fmt::format("--name: '{}' is not a valid C name: use small letters, digits and _, a letter "
+                    "first, at most 31 characters",
+                    printable(choice.name)));
   Exported from(state, choice);
   const FormulaModel& model = *from.model;
   const std::size_t nodes = from.laid.nodes.count(), effects = model.effects.size();
@@ -301,7 +303,7 @@ CExport c_export(const prognosis::CarriedState& state, const CExportChoice& choi
       8 * (result.lines * parameters + nodes * std::max<std::size_t>(effects, 1) + nodes);
   Words words;
   words["VERSION"] = version;
-  words["TITLE"] = commented(from.root.text("title").value_or("without a title"));
+  words["TITLE"] = commented(from.root.text("title").value_or("untitled"));
   words["LAW"] =
       commented(formula::compile(model.lines, from.lives.wanted(), model.row_symbols).text(0));
   words["LIMITED"] = commented(from.lives.name());

@@ -17,19 +17,18 @@ std::size_t measured_column(const FormulaModel& model, std::size_t m) {
 void refuse_formula(const FormulaModel& model) {
   for (const char* name : {"status", "lower", "upper", "entry", "count"})
     if (model.data.number(name) || model.data.label(name))
-      throw InputError(fmt::format(
-          "the study has a column '{}': readings that are more than one exact number (censored, "
-          "truncated, counted) are not exported to C",
-          name));
+      throw InputError(
+          fmt::format("the study has a column '{}': C export supports exact readings only, not "
+                      "censored, truncated or counted ones",
+                      name));
   for (const Measured& each : model.measured) {
     if (each.process)
       throw InputError(
-          fmt::format("'{}' grows in random steps ({}): such a process is not exported to C",
+          fmt::format("'{}' has random increments ({}); C export does not support such processes",
                       each.column, each.form->name));
     if (each.trials || !each.form->c_density)
       throw InputError(
-          fmt::format("'{}' is of the {} family, which is not exported to C; normal and lognormal "
-                      "are",
+          fmt::format("'{}' is of the {} family; C export supports normal and lognormal only",
                       each.column, each.form->name));
   }
 }

@@ -13,7 +13,7 @@ inline double chebyshev_node(std::size_t i, std::size_t n) {
   return -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
 }
 
-/// Coefficients of T_0, T_1, ... of values at the nodes, which stand `stride` apart.
+/// Coefficients of T_0, T_1, ... of values at the nodes, which are `stride` apart.
 inline std::vector<double> chebyshev_series(const double* values, std::size_t n,
                                             std::size_t stride) {
   std::vector<double> c(n);
@@ -37,7 +37,7 @@ inline void chebyshev_polynomials(double t, std::span<double> value, std::span<d
   }
 }
 
-/// A series of which `of` has the polynomials, or their derivatives.
+/// A series with the polynomials `of`, or with their derivatives.
 inline double chebyshev_sum(const std::vector<double>& c, const std::vector<double>& of) {
   double sum = 0;
   for (std::size_t k = 0; k < c.size(); ++k) sum += c[k] * of[k];

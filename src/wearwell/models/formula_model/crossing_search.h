@@ -10,13 +10,13 @@ namespace wearwell::formula_model {
 
 inline constexpr std::size_t most_crossings = 128;  ///< of one search
 
-/// Where each of `count` rising (or falling) functions reaches its level, from `begin` on, with a first guess of
-/// `scale`: infinite where it never does, `begin` where it has. `evaluate(places)` computes all of them, each at its
-/// own place, `output(i)` is what it gave. `ahead` takes how far each has passed its level at `begin` (negative: not
-/// yet).
+/// First position from `begin` on where each of `count` rising (or falling) functions reaches its
+/// level, with a first guess of `scale`: infinite if it never does, `begin` if it has already.
+/// `evaluate(places)` computes all of them, each at its own position; `output(i)` is its result.
+/// `ahead` takes the excess of each over its level at `begin` (negative: not yet reached).
 ///
-/// Outward from the scale until the level is passed, then within that by the rule of false position with
-/// halved ends (Dowell and Jarratt 1971): of a straight path it is there at once.
+/// Expands from the scale until the level is passed, then applies the Illinois variant of false
+/// position (Dowell and Jarratt 1971), which is exact for a straight path in one step.
 template <class Evaluate, class Output>
 void search_crossings(bool rising, double begin, double scale, std::size_t count,
                       const double* level, const Evaluate& evaluate, const Output& output,
@@ -25,7 +25,7 @@ void search_crossings(bool rising, double begin, double scale, std::size_t count
   constexpr std::size_t most = most_crossings;
   double low[most] = {}, high[most] = {}, at_low[most] = {};
   double at_high[most] = {}, trial[most] = {};
-  std::uint8_t state[most] = {};  // 0 looks outward, 1 inward, 2 is done
+  std::uint8_t state[most] = {};  // 0 brackets, 1 refines, 2 is done
   int side[most] = {};
   const auto excess = [&](std::size_t i) {
     const double y = output(i) - level[i];
@@ -39,7 +39,7 @@ void search_crossings(bool rising, double begin, double scale, std::size_t count
     state[i] = at_low[i] >= 0 ? 2 : 0;
     place[i] = begin;
     trial[i] = begin + scale;
-    // A path may be no number at its very beginning: log 0.
+    // A path may be NaN or infinite at its start: log 0.
     if (std::isnan(at_low[i]) || at_low[i] == -infinity) at_low[i] = -infinity;
   }
   for (int step = 0; step < most_outward + most_inward; ++step) {

@@ -6,9 +6,9 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr double least_share = 1e-7;  // of a unit's posterior: nodes with less are left out
+constexpr double least_share = 1e-7;  // of a unit's posterior: smaller nodes are left out
 
-// Nodes of the trapezoidal rule, which is exact for a normal law.
+// Nodes of the trapezoidal rule, which is exact for a normal distribution.
 void fill_normal(double step, double reach, std::vector<double>& z, std::vector<double>& share) {
   const int most = static_cast<int>(reach / step);
   double sum = 0;
@@ -111,7 +111,7 @@ void lines_of_seen_unit(const latent::UnitIntegrals& integrals, std::size_t unit
     if (sweep.weight[unit] > 0) nodes.emplace_back(sweep.z[unit], sweep.weight[unit]);
   }
   std::sort(nodes.begin(), nodes.end());
-  // All nodes from the first to the last that counts: steps between them are even.
+  // All nodes from the first to the last non-negligible one, so that steps between them stay even.
   const auto counts = [](const auto& node) { return node.second > least_share; };
   const auto first = std::find_if(nodes.begin(), nodes.end(), counts);
   const auto last = std::find_if(nodes.rbegin(), std::make_reverse_iterator(first), counts).base();

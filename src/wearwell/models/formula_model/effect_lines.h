@@ -7,15 +7,16 @@
 
 namespace wearwell::formula_model {
 
-/// A law of a unit's effects as lines of nodes: along each of them even steps of some parameter, so that a
-/// density can be drawn through them (`CellMixture::add_curve`). A line of one node is a point.
+/// A distribution of a unit's effects as lines of nodes: along each line some parameter changes in
+/// even steps, so that a density can be interpolated through them (`CellMixture::add_curve`). A
+/// line of one node is a point.
 struct EffectLines {
   std::vector<double> z;          ///< nodes x effects
   std::vector<double> share;      ///< of each node; sum to 1
-  std::vector<std::size_t> ends;  ///< of each line: the node behind its last
+  std::vector<std::size_t> ends;  ///< of each line: one past its last node
   std::size_t count() const { return share.size(); }
 
-  /// What line after line has, of as many numbers as there are nodes: its shares and its numbers.
+  /// Appends a line; both arguments have one entry per node: weights and values.
   template <class Visit>
   void each(std::span<const double> value, const Visit& visit) const {
     std::size_t begin = 0;
@@ -26,23 +27,24 @@ struct EffectLines {
   }
 };
 
-/// Places of a unit's effects, with weights that sum to 1: a trapezoidal rule over the standard normal
-/// law, cut at `reach`, whose error is e^-80 of a smooth function.
+/// Values of a unit's effects, with weights that sum to 1: a trapezoidal rule over the standard
+/// normal distribution, cut at `reach`, with an error of e^-80 for smooth functions.
 struct NormalNodes {
   NormalNodes(std::size_t effects, double reach);
   std::vector<double> z;  ///< nodes x effects
   std::vector<double> weight;
 };
 
-/// Effects of a unit not yet seen, none, one or two: standard normal, as far as `reach`. Of two the lines lie along the
-/// first, or as they are turned.
+/// Effects of a new unit, none, one or two: standard normal, up to `reach`. With two effects the
+/// lines run along the first, or in the turned direction.
 EffectLines lines_of_new_unit(std::size_t effects, double step = 0.25, double reach = 8.25);
 
-/// Of two effects: fills `turned` with lines along `direction`, that in which what is asked for changes: across it
-/// one line after the other tells the same. Any length; zero and no number are the diagonal.
+/// For two effects: fills `turned` with lines along `direction`, in which the requested quantity
+/// changes; it is nearly constant across lines. Any length; zero and NaN mean the diagonal.
 void turn(const EffectLines& lines, const double direction[2], EffectLines& turned);
 
-/// Of a unit seen: the nodes on which its effects were integrated out. Of two effects points, which are many.
+/// Of a unit of the study: the nodes of the integral over its effects. With two effects they are
+/// points, of which there are many.
 void lines_of_seen_unit(const latent::UnitIntegrals& integrals, std::size_t unit,
                         std::size_t effects, EffectLines& lines);
 

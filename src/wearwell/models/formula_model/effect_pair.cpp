@@ -7,16 +7,18 @@
 #include "wearwell/models/formula_model/lognormal_unit.h"
 #include "wearwell/models/formula_model/unit_rule.h"
 
-// Longer than others: one integral over two effects, the rules that may take it, and the derivatives of each.
+// Longer than others: one integral over two effects, its quadrature rules, and the derivatives of
+// each.
 namespace wearwell::formula_model {
 namespace {
 
-constexpr double fallen = 21;  // log of the integrand below its highest: beyond that nothing counts
+// log of the integrand relative to its maximum: smaller values are negligible
+constexpr double fallen = 21;
 constexpr double most_of_half = 1e-4;
-constexpr std::size_t most_even_nodes = 2500;  // more are for other rules
+constexpr std::size_t most_even_nodes = 2500;  // units with more are left to other rules
 constexpr int most_rounds = 60;
 
-// The step of an effect by its own standard normal number, and its derivatives.
+// The step of an effect by its standard normal variable, and its derivatives.
 struct Step {
   double value, slope, bend;
 };
@@ -28,7 +30,7 @@ Step step_of(const EffectPair& pair, int e, double v) {
   return {factor - 1, s * factor, s * s * factor};
 }
 
-// log p - top - z'z/2 at steps that are d0 and d1 from the best.
+// log p - top - z'z/2 at steps d0 and d1 from the best.
 double log_f_at(const EffectPair& pair, double d0, double d1, double z0, double z1) {
   const auto& H = pair.H;
   return -0.5 * ((H[0] * d0 + 2 * H[1] * d1) * d0 + H[2] * d1 * d1 + z0 * z0 + z1 * z1);
@@ -67,7 +69,7 @@ class Rule {
   double highest_ = -infinity;
 };
 
-// From the best steps and how well the rows know them: the mode where the steps are straight in v.
+// From the best steps and their precision: the mode, if the steps were linear in v.
 void Rule::start(double& z0, double& z1) const {
   constexpr double least = 0.1;
   double v[2], slope[2];
@@ -88,7 +90,7 @@ void Rule::start(double& z0, double& z1) const {
   if (!(std::isfinite(z0) && std::isfinite(z1) && log_f(z0, z1) > log_f(0, 0))) z0 = z1 = 0;
 }
 
-// Newton's method; where the curvature is not positive, without the bends of the steps.
+// Newton's method; without the second derivatives of the steps where the curvature is not positive.
 bool Rule::find_mode() {
   constexpr double close = 0.01, longest = 3;
   const auto& H = pair_.H;
@@ -118,7 +120,7 @@ bool Rule::find_mode() {
       tilt_ = -B01 / B11;
       return true;
     }
-    // Far out in the tail of the population modes are far from 0.
+    // In the far tail of the population modes are far from 0.
     const double most = longest + std::hypot(z0, z1);
     double share = std::min(1.0, most / std::hypot(m0, m1)), there = -infinity;
     for (; share > 1e-8; share *= 0.25) {
@@ -141,7 +143,7 @@ Rule::Place Rule::place(double d0, double z0, double z1) const {
           std::max(known + by * rest_ * rest_ * b.bend, 0.5 * known)};
 }
 
-// Along z1, from where the neighbours' modes point.
+// Along z1, starting from the extrapolated modes of the neighbors.
 bool Rule::go_to_mode(double d0, double z0, double& z1, Place& at) const {
   constexpr double close = 0.3, longest = 3;
   at = place(d0, z0, z1);
@@ -163,7 +165,8 @@ bool Rule::go_to_mode(double d0, double z0, double& z1, Place& at) const {
   return false;
 }
 
-// The nodes at one z0, outwards from the mode there on both sides; false where that is not found or nodes are too many.
+// The nodes at one z0, outward from the mode there on both sides; false if the mode is not found or
+// there are too many nodes.
 bool Rule::add_line(double z0, double& z1, double gap) {
   const double d0 = step(0, z0).value - pair_.best[0], step0 = d0 + pair_.best[0];
   Place middle{};
@@ -249,8 +252,8 @@ std::optional<double> Rule::integral(double gap) {
   return highest_ + std::log(sum * width) - log_two_pi;
 }
 
-// Over z1 at one z0, without z0^2/2 and what a normal law has of constants, with its nodes: a unit of one effect, as what
-// is quadratic in two is quadratic in the second given the first.
+// The integral over z1 at one z0, without z0^2/2 and the constants of a normal distribution, with
+// its nodes: given the first effect, the unit is quadratic in the second alone.
 std::optional<double> Rule::line_integral(double d0, double z0,
                                           std::vector<LognormalUnit::Node>& kept) const {
   const auto& H = pair_.H;
@@ -283,7 +286,8 @@ std::optional<double> Rule::line_integral(double d0, double z0,
   return base - 0.5 * H[2] * off * off / precision + 0.5 * (log_two_pi - std::log(precision));
 }
 
-// Nodes z0 lie sinh(t) widths from the mode: close there, and as far out as the population's law reaches.
+// Nodes z0 lie sinh(t) widths from the mode: dense there, and as far out as the population's
+// distribution reaches.
 std::optional<double> Rule::one_after_the_other(int stride, double& open) {
   constexpr double finest = 0.05, negligible = -36;
   constexpr int most = 600;

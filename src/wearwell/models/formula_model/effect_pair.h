@@ -6,7 +6,7 @@
 
 namespace wearwell::formula_model {
 
-/// A unit whose log likelihood is quadratic in the steps s of two effects from their middles,
+/// A unit whose log-likelihood is quadratic in the steps s of two effects from their medians,
 ///
 ///   log p(data | s) = top - (s - best)' H (s - best)/2.
 ///
@@ -21,7 +21,7 @@ struct EffectPair {
   /// log p - top - z'z/2.
   double log_f(double z0, double z1) const;
 
-  /// The nodes of an integral, line by line: each line has one z0. One thread's.
+  /// The nodes of an integral, line by line: each line has one z0. One thread uses it at a time.
   struct Nodes {
     struct Line {
       std::size_t begin;
@@ -43,17 +43,19 @@ struct EffectPair {
   /// Means over the unit's posterior.
   struct Moments {
     double first[2] = {}, second[3] = {};  ///< of steps; 00, 01, 11
-    /// Of the derivative of log p by v_e, over scatter_e; of that times v_e; and of log p by the correlation.
+    /// Means of the derivative of log p by v_e, over scatter_e; of that times v_e; and of log p by
+    /// the correlation.
     double slope[2] = {}, slope_v[2] = {}, by_correlation = 0;
   };
 
-  /// Between nodes, in widths at the mode: enough for the integral, and what lives are spread over.
+  /// Distance of nodes, in widths at the mode: fine enough for the integral and for lives.
   static constexpr double coarse = 0.5, fine = 0.4;
 
-  /// log of the integral of exp(log p - top) N(z; 0, I) dz, to some 1e-9. The trapezoidal rule over z0, and at each of
-  /// its nodes over z1 about the mode there, so that a ridge that bends is followed. Where that and every second node
-  /// of it differ, one effect after the other, as they do of scatters far beyond 1: then `open` is what is left
-  /// between the last rule and every second node of it, relative, and else 0. Nothing where there is no mode.
+  /// log of the integral of exp(log p - top) N(z; 0, I) dz, to about 1e-9. The trapezoidal rule
+  /// over z0, and at each of its nodes over z1 around the mode there, so that it follows a curved
+  /// ridge. If it disagrees with every second of its nodes, integrates one effect after the other,
+  /// as needed for scatters far beyond 1: then `open` is the relative difference between the last
+  /// rule and every second node of it, and else 0. Empty if there is no mode.
   std::optional<double> log_integral(Nodes& nodes, double gap = coarse,
                                      double* open = nullptr) const;
   Moments moments(const Nodes& nodes) const;

@@ -29,11 +29,12 @@ Conditions read_conditions(const TomlReader& table, const FormulaModel& model) {
     if (model.label != each.name) known.push_back(each.name);
   }
   for (const std::string& name : table.keys()) {
-    if (model.along == name) table.fail(name, "is the axis (predict.along); ask with predict.at");
+    if (model.along == name)
+      table.fail(name, "is the axis (predict.along); use predict.at instead");
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       table.fail(name, known.empty()
-                           ? "is no condition: no column of the data is one"
-                           : fmt::format("is no condition; possible are {} (nearest: '{}')",
+                           ? "is not a condition: the data have no such column"
+                           : fmt::format("is not a condition; use one of {} (nearest: '{}')",
                                          fmt::join(known, ", "), nearest_name(name, known)));
     }
     if (const LabelColumn* label = model.data.label(name)) {
@@ -46,7 +47,7 @@ Conditions read_conditions(const TomlReader& table, const FormulaModel& model) {
       const auto at = std::find(label->levels.begin(), label->levels.end(), level);
       if (at == label->levels.end()) {
         table.fail(name,
-                   fmt::format("'{}' is none of the data's; possible are {} (nearest: '{}')", level,
+                   fmt::format("'{}' is not in the data; use one of {} (nearest: '{}')", level,
                                fmt::join(label->levels, ", "), nearest_name(level, label->levels)));
       }
       result.labels[name] = static_cast<int>(at - label->levels.begin());
@@ -100,7 +101,7 @@ Conditions common_conditions(const FormulaModel& model, const Conditions& given)
   for (const LabelColumn& each : model.data.labels) {
     if (each.levels.size() == 1 && model.label != each.name)
       result.labels.try_emplace(each.name, 0);
-    // Of what varies, one not yet seen.
+    // For the units' label: a new unit.
     if (model.is_drawn(each.name)) {
       result.labels.try_emplace(each.name, static_cast<int>(each.levels.size()));
     }
@@ -111,10 +112,12 @@ Conditions common_conditions(const FormulaModel& model, const Conditions& given)
 void fail_without_condition(const FormulaModel& model, const TomlReader& table,
                             const std::string& key, const std::string& column) {
   const NumberColumn& numbers = *model.data.number(column);
-  table.fail(key, fmt::format("needs predict.given.{}: it is not the same in all rows (write "
-                              "given = {{ {} = \"{:.4g} {}\" }})",
-                              column, column, from_si(numbers.unit.unit, numbers.values.front()),
-                              numbers.unit.unit.text));
+  table.fail(
+      key,
+      fmt::format(
+          "needs predict.given.{}: it varies between rows (write given = {{ {} = \"{:.4g} {}\" }})",
+          column, column, from_si(numbers.unit.unit, numbers.values.front()),
+          numbers.unit.unit.text));
 }
 
 void fail_without_label(const TomlReader& table, const std::string& key,

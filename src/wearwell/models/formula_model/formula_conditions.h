@@ -9,25 +9,25 @@
 
 namespace wearwell::formula_model {
 
-/// Under which conditions something is asked: values of columns and labels.
+/// The conditions of a prediction: values of columns and labels.
 struct Conditions {
   std::map<std::string, double> numbers;  ///< SI
   std::map<std::string, int> labels;      ///< index of the level
   std::string words;                      ///< "force = 20 N"
-  /// Numbers that nobody said, and that need not be the same in all rows: those of a unit's last row.
+  /// Values that were not given and vary between rows: taken from a unit's last row.
   std::set<std::string> of_last_row = {};
 };
 
-/// Reads predict.given or a table like it. Throws InputError.
+/// Reads predict.given or a similar table. Throws InputError.
 Conditions read_conditions(const TomlReader& table, const FormulaModel& model);
 
-/// Those of a unit's last row, where `given` does not say otherwise.
+/// Adds the conditions of a unit's last row, unless `given` has them.
 Conditions conditions_of_unit(const FormulaModel& model, std::size_t unit, const Conditions& given);
 
-/// Columns that are the same in all rows, where `given` does not say otherwise.
+/// Adds columns that are the same in all rows, unless `given` has them.
 Conditions common_conditions(const FormulaModel& model, const Conditions& given);
 
-/// Where an expression needs a condition that is neither given nor the same in all rows.
+/// Throws if an expression needs a condition that is neither given nor the same in all rows.
 [[noreturn]] void fail_without_condition(const FormulaModel& model, const TomlReader& table,
                                          const std::string& key, const std::string& column);
 [[noreturn]] void fail_without_label(const TomlReader& table, const std::string& key,

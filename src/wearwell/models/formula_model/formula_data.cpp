@@ -14,7 +14,7 @@
 #include "wearwell/input/heading.h"
 #include "wearwell/math/constants.h"
 
-// Longer than others: columns, and what each cell of a measured one says.
+// Longer than others: columns, and the meaning of each cell of a measured one.
 namespace wearwell::formula_model {
 namespace {
 
@@ -36,7 +36,7 @@ LabelColumn read_labels(const Table& table, const std::string& name, const Colum
   return result;
 }
 
-// SI, NaN where the cell is empty. `limit` [SI]: what "<LOD" stands for, NaN where the study does not say it.
+// SI, NaN for an empty cell. `limit` [SI]: the value of "<LOD", NaN if the study does not have one.
 NumberColumn read_numbers(const Table& table, const std::string& name, const Column& column,
                           formula::AnyUnit unit, double limit) {
   bool any_empty = false, any_limit = false;
@@ -73,7 +73,7 @@ bool is_text(const Column& column) {
   });
 }
 
-// One measured column with what the others say of it.
+// One measured column with the columns that qualify it.
 class ObservedReader {
  public:
   ObservedReader(const FormulaData& data, const std::string& name, const ResponseForm& form,
@@ -133,7 +133,7 @@ class ObservedReader {
     return static_cast<int>(n);
   }
 
-  // Between two values, of which an empty one is none.
+  // The interval between two values; an empty one is open.
   Response between(std::size_t i) const {
     if (!lower_ || !upper_) {
       const NumberColumn* there = lower_ ? lower_ : upper_;
@@ -143,7 +143,7 @@ class ObservedReader {
     }
     double a = lower_->values[i], b = upper_->values[i];
     if (std::isnan(a) && std::isnan(b)) {
-      throw InputError(fmt::format("{}: neither this nor the upper end has a value",
+      throw InputError(fmt::format("{}: both this cell and the upper end are empty",
                                    place(data_.table, lower_->column, i)));
     }
     if (std::isnan(a) || (form_.positive && a <= 0)) return {Censoring::left, b};
@@ -153,25 +153,26 @@ class ObservedReader {
     return {Censoring::interval, a, b};
   }
 
-  // An end beside a row that is no interval says the same or nothing; else there are two readings.
+  // An end in a row that is not an interval must repeat the value or be empty; otherwise there are
+  // two readings.
   void refuse_other_ends(const Response& y, std::size_t i) const {
     const auto refuse = [&](const NumberColumn* end, bool open) {
       if (!end || open || std::isnan(end->values[i]) || end->values[i] == y.at) return;
       demand(false, *end, i,
              status_ ? "empty where the status is not interval"
-                     : "empty where there is a measured value, which is read as exact");
+                     : "empty if there is a measured value, which is read as exact");
     };
     refuse(lower_, y.seen == Censoring::left && lower_ && lower_->values[i] <= 0);
     refuse(upper_, y.seen == Censoring::right && upper_ && upper_->values[i] == infinity);
   }
 
-  // By its cell, "<0.5", or by its status; both may say it, alike.
+  // By its cell, "<0.5", or by its status; both are allowed if they agree.
   Censoring seen_of(std::size_t i) const {
     const Censoring said = status_ ? seen_in(data_.table, *status_, i) : Censoring::none;
     if (!exact_ || exact_->seen.empty() || exact_->seen[i] == Censoring::none) return said;
     if (status_ && said != exact_->seen[i])
       throw InputError(fmt::format(
-          "{}: '{}' is a limit, and column '{}' says '{}'; which is right?",
+          "{}: '{}' is a limit, but column '{}' has '{}'; correct one of them",
           place(data_.table, exact_->column, i), data_.table.column(exact_->column).text[i],
           status_->column, cell_word(data_.table.column(status_->column), i)));
     return exact_->seen[i];
@@ -185,10 +186,10 @@ class ObservedReader {
       y = between(i);
     } else {
       if (!exact_) {
-        throw InputError(fmt::format("{}: the study names no column of the observed value itself",
+        throw InputError(fmt::format("{}: the study has no column for the observed value itself",
                                      place(data_.table, status_->column, i)));
       }
-      y = {seen, need(exact_, i, "what was observed is missing").values[i]};
+      y = {seen, need(exact_, i, "the observed value is missing").values[i]};
       refuse_other_ends(y, i);
     }
     if (form_.positive && exact_ && y.seen != Censoring::interval) {
@@ -196,14 +197,14 @@ class ObservedReader {
     }
     if (form_.counted) {
       if (y.seen != Censoring::none) {
-        throw InputError(fmt::format("{}: a count of the {} family is never censored",
+        throw InputError(fmt::format("{}: a count of the {} family cannot be censored",
                                      place(data_.table, exact_ ? exact_->column : "", i),
                                      form_.name));
       }
       demand(y.at >= 0 && y.at == std::floor(y.at), *exact_, i, "a whole number, 0 or more");
     }
     if (trials_) {
-      y.trials = need(trials_, i, "how many trials were there?").values[i];
+      y.trials = need(trials_, i, "give the number of trials").values[i];
       demand(y.trials >= 1 && y.trials == std::floor(y.trials), *trials_, i,
              "a whole number from 1");
       demand(y.at <= y.trials, *exact_, i, "no more than the number of trials");
@@ -212,9 +213,10 @@ class ObservedReader {
       y.entry = entry_->values[i];
       const double last = y.seen == Censoring::interval ? y.until : y.at;
       demand(y.entry < last, *entry_, i,
-             "less than what was observed (it is where watching began)");
+             "less than the observed value (it is the delayed entry, where observation began)");
       if (y.seen == Censoring::left) {
-        demand(false, *entry_, i, "empty for a left-censored row: it ended after watching began");
+        demand(false, *entry_, i,
+               "empty for a left-censored row: the event came after observation began");
       }
       if (y.seen == Censoring::interval) y.at = std::max(y.at, y.entry);
     }
@@ -241,7 +243,7 @@ const LabelColumn* FormulaData::label(const std::string& name) const {
 void FormulaData::require_values(const NumberColumn& column) const {
   for (std::size_t i = 0; i < column.seen.size(); ++i) {
     if (column.seen[i] != Censoring::none)
-      static_cast<void>(cell_number(table, table.column(column.column), i));  // refuses it
+      static_cast<void>(cell_number(table, table.column(column.column), i));  // refused below
   }
 }
 
@@ -276,14 +278,14 @@ formula::AnyUnit written_unit(const Table& table, const Column& column, const st
   }
 }
 
-// Empty where the unit has a root of something.
+// Empty if the unit has a root.
 std::string si_of(const formula::AnyUnit& unit) {
   const bool whole = std::all_of(unit.powers.begin(), unit.powers.end(),
                                  [](const auto& each) { return each.second.denominator() == 1; });
   return whole ? formula::si_text(unit.powers) : std::string();
 }
 
-// What "<LOD" stands for in a column of this unit, SI; NaN where the study does not say it.
+// The value of "<LOD" in a column of this unit, SI; NaN if the study does not have one.
 double detection_limit(const TomlReader& choice, const formula::AnyUnit& unit) {
   const std::string si = si_of(unit);
   if (!choice.text("detection_limit") || si.empty()) return NAN;
@@ -321,7 +323,7 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
     }
     const Column* const column = &study_column(columns, name, heading, data.table);
     if (is_label(name) && unit) {
-      columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
+      columns.fail(name, "has a unit, but the study uses it as a label; remove one of the two");
     }
     const bool words = is_text(*column) || (name == "status" && !column->is_number);
     if (is_label(name) || (!unit && words)) {
@@ -330,7 +332,7 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
       if (!unit) {
         unit = written_unit(data.table, *column, name);
       } else if (const std::string si = si_of(*unit); !si.empty() && says_unit(*column)) {
-        unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses what contradicts
+        unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses contradictions
       }
       const double limit = in_table ? detection_limit(*in_table, *unit) : NAN;
       data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit), limit));

@@ -13,23 +13,23 @@
 
 namespace wearwell::formula_model {
 
-/// A column of numbers as the study names it.
+/// A numeric column by its name in the study.
 struct NumberColumn {
   std::string name;    ///< in expressions: "force"
   std::string column;  ///< in the file: "F"
   formula::AnyUnit unit;
-  std::vector<double> values;  ///< SI; NaN where the cell is empty; of a limit, "<0.5", the limit
-  std::vector<Censoring> seen = {};  ///< of each row, where any cell is a limit
+  std::vector<double> values;        ///< SI; NaN for an empty cell; for "<0.5" the limit
+  std::vector<Censoring> seen = {};  ///< of each row, if any cell is a limit
 };
 
 /// A column of labels.
 struct LabelColumn {
   std::string name, column;
-  std::vector<std::string> levels;  ///< in the order in which they come
-  std::vector<int> at;              ///< row by row, into `levels`
+  std::vector<std::string> levels;  ///< in the order of their first occurrence
+  std::vector<int> at;              ///< per row, index into `levels`
 };
 
-/// What the study names under [data.columns], row by row.
+/// The columns that the study names under [data.columns], row by row.
 struct FormulaData {
   Table table;
   std::vector<NumberColumn> numbers;
@@ -38,25 +38,25 @@ struct FormulaData {
 
   const NumberColumn* number(const std::string& name) const;
   const LabelColumn* label(const std::string& name) const;
-  /// Throws InputError that names file, row and column where a cell is empty or a limit.
+  /// Throws InputError that names file, row and column if a cell is empty or a limit.
   void require_complete(const NumberColumn& column) const;
-  /// The same of limits alone.
+  /// The same for limits only.
   void require_values(const NumberColumn& column) const;
 };
 
-/// Reads [data.columns]. Columns of text are labels, and columns of numbers that the study uses as
+/// Reads [data.columns]. Text columns are labels, and so are numeric columns that the study uses as
 /// such: `label_names`. Throws InputError.
 FormulaData read_own_data(const TomlReader& root, const Source& source,
                           const std::vector<std::string>& label_names);
 
-/// Names under [data.columns] that say how much is known of an observation.
+/// Names under [data.columns] that qualify an observation.
 struct SpecialColumns {
   std::optional<std::string> status, lower, upper, entry, count;
 };
-/// Those that there are.
+/// Those that exist.
 SpecialColumns special_columns(const FormulaData& data);
 
-/// The observations of one measured column, of the rows that have one.
+/// The observations of one measured column, from the rows that have one.
 struct Observed {
   std::vector<std::size_t> rows;  ///< of the table
   std::vector<Response> responses;
@@ -64,7 +64,7 @@ struct Observed {
   std::size_t failures = 0;  ///< exact, or known to have ended
 };
 
-/// `trials` is the name of the column that has the number of trials, of the binomial family. Where
+/// `trials` is the name of the column with the number of trials, for the binomial family. If
 /// `may_lack`, an empty cell is a row without this observation. Throws InputError.
 Observed read_observed(const FormulaData& data, const std::string& name, const ResponseForm& form,
                        const SpecialColumns& special, const std::optional<std::string>& trials,

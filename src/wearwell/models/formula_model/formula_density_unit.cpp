@@ -7,7 +7,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Which observations of a column have a density, not a probability.
+// Observations of a column that contribute a density, not a probability.
 std::vector<bool> has_density(const FormulaModel& model, const Measured& measured) {
   const Observed& observed = measured.observed;
   std::vector<bool> has(observed.responses.size());
@@ -16,7 +16,7 @@ std::vector<bool> has_density(const FormulaModel& model, const Measured& measure
     has[i] = observed.responses[i].seen == Censoring::none;
   const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
   if (!measured.process || measured.process->process == Process::wiener || noisy) return has;
-  // Where a growing path stands still, its mean does too: that is certain.
+  // Where the mean of an increasing process does not grow, the path is constant with certainty.
   std::vector<std::size_t> of_row(model.data.table.rows, has.size());
   for (std::size_t i = 0; i < has.size(); ++i) of_row[observed.rows[i]] = i;
   std::vector<double> before(model.units.size(), 0.0);

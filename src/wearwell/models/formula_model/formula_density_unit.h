@@ -5,8 +5,8 @@
 
 namespace wearwell::formula_model {
 
-/// The units of the measured columns, factor by factor of the likelihood: units where these are its factors, else
-/// observations, column by column.
+/// The units of the measured columns, by factor of the likelihood: by unit if units are its
+/// factors, else by observation, column by column.
 DensityUnit density_unit(const FormulaModel& model);
 
 }  // namespace wearwell::formula_model

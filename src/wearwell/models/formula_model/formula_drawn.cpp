@@ -35,7 +35,8 @@ const LabelColumn& label_of(const TomlReader& root, const FormulaData& data,
   const LabelColumn* column = data.label(name);
   if (!column) {
     root.required_table("random_effects")
-        .fail(name, "is no column under data.columns; what varies does so from label to label");
+        .fail(name,
+              "is not a column under data.columns; random effects vary over the levels of a label");
   }
   return *column;
 }
@@ -61,7 +62,7 @@ class ScattersAt {
         data_(formula::bind_no_columns(model.drawn_scatter, model.symbols)),
         workspace_(model.drawn_scatter.workspace(1)) {}
 
-  // Of level `i` of effect `e`.
+  // Level `i` of effect `e`.
   double value(std::size_t e, std::size_t i, const double* x) {
     const DrawnEffect& effect = model_.drawn[e];
     model_.drawn_scatter.forward(data_, 0, 1, {{x, model_.parameters.size()}, {}}, workspace_);
@@ -86,10 +87,9 @@ void add_level_of_new(const TomlReader& root, const std::string& label, formula:
     const std::string fresh = "new " + label;
     if (std::find(each.levels.begin(), each.levels.end(), fresh) != each.levels.end()) {
       root.required_table("random_effects")
-          .fail(label,
-                fmt::format("one in the data is called '{}', which is what one not yet seen is "
-                            "called here; give it another name",
-                            fresh));
+          .fail(label, fmt::format("a level in the data is called '{}', which is "
+                                   "the name of a new level here; rename it",
+                                   fresh));
     }
     each.levels.push_back(fresh);
   }
@@ -99,10 +99,10 @@ void require_few(const TomlReader& root, const FormulaModel& model, const std::s
   if (model.parameters.size() <= static_cast<std::size_t>(max_dimension)) return;
   root.required_table("random_effects")
       .fail(label,
-            fmt::format("what is drawn of each {} and of a new one makes {} parameters with all "
-                        "others, and {} are the most that a posterior may have: let fewer vary, "
-                        "or fewer {}s",
-                        label, model.parameters.size(), max_dimension, label));
+            fmt::format(
+                "the random effects of each {} and of a new one bring the number of parameters "
+                "to {}; a posterior may have at most {}: use fewer random effects, or fewer {}s",
+                label, model.parameters.size(), max_dimension, label));
 }
 
 }  // namespace
@@ -115,9 +115,10 @@ std::size_t label_of_units(const TomlReader& root, const FormulaData& data,
   if (const auto said = table.text("rows_of")) {
     const auto at = std::find(names.begin(), names.end(), *said);
     if (at == names.end()) {
-      table.fail("rows_of", fmt::format("'{}' is none of the labels that parameters vary with "
-                                        "({}): the units are of one of them",
-                                        *said, fmt::join(names, ", ")));
+      table.fail(
+          "rows_of",
+          fmt::format("'{}' is not a label with random effects ({}); units must be one of them",
+                      *said, fmt::join(names, ", ")));
     }
     return static_cast<std::size_t>(at - names.begin());
   }
@@ -132,13 +133,13 @@ std::size_t label_of_units(const TomlReader& root, const FormulaData& data,
   }
   if (inmost.size() == 1) return inmost.front();
   root.required_table("random_effects")
-      .fail(names[1],
-            fmt::format(
-                "which rows are of one unit, those of one {}? {}. Say so: rows_of = \"{}\" under "
-                "[data]",
-                fmt::join(names, " or of one "),
-                inmost.empty() ? "None lies within the others" : "Each lies within the others",
-                names[0]));
+      .fail(
+          names[1],
+          fmt::format("which label identifies the units, {}? {}. Add rows_of = \"{}\" under [data]",
+                      fmt::join(names, " or "),
+                      inmost.empty() ? "No label is nested in the others"
+                                     : "The labels are nested in each other",
+                      names[0]));
 }
 
 void add_drawn_effects(const TomlReader& root, const std::vector<WrittenEffects>& written,
@@ -151,7 +152,7 @@ void add_drawn_effects(const TomlReader& root, const std::vector<WrittenEffects>
     if (label.levels.size() < 2) {
       root.required_table("random_effects")
           .fail(random_effects.label,
-                fmt::format("all rows of {} are of one {}; how it varies needs at least 2",
+                fmt::format("all rows of {} are of one {}; its variation needs at least 2",
                             model.data.table.source, random_effects.label));
     }
     add_level_of_new(root, random_effects.label, model.symbols);
@@ -168,16 +169,18 @@ void add_drawn_effects(const TomlReader& root, const std::vector<WrittenEffects>
           std::find_if(model.symbols.parameters.begin(), model.symbols.parameters.end(),
                        [&](const auto& s) { return s.name == each.name; });
       if (middle == model.symbols.parameters.end()) {
-        table.fail(each.name, "is no parameter: it has no prior");
+        table.fail(each.name, "is not a parameter: it has no prior");
       }
       if (middle->scope != formula::Scope::one) {
-        table.fail(each.name, "is one for each level of a label already; it cannot vary as well");
+        table.fail(
+            each.name,
+            "has one value for each level of a label; it cannot have a random effect as well");
       }
       effect.middle = begin[static_cast<std::size_t>(middle - model.symbols.parameters.begin())];
       scatters.push_back({fmt::format("[random_effects.{}] {} {}", random_effects.label, each.name,
                                       each.lognormal ? "log_sd" : "sd"),
                           each.scatter, each.lognormal ? formula::Powers() : middle->powers,
-                          each.lognormal ? "a logarithm's scatter" : each.name, true});
+                          each.lognormal ? "the sd of a logarithm" : each.name, true});
       if (random_effects.correlation && &each != &random_effects.effects.front()) {
         effect.correlation = random_effects.correlation;
         correlations.push_back(
@@ -272,14 +275,14 @@ void tell_drawn_effects(std::shared_ptr<const FormulaModel> model, PosteriorStud
 void refuse_drawn_effects(const FormulaModel& model, const std::string& what) {
   if (model.drawn.empty()) return;
   throw InputError(fmt::format(
-      "what varies with {} is drawn, not integrated out ({} of each {}): units of such a law are "
-      "not {}; fit the study again when there is more data",
+      "the random effects of {} are drawn, not integrated out ({} of each {}): units "
+      "of such a model cannot be {}; fit the study again when you have more data",
       model.drawn.front().label, model.drawn.front().name, model.drawn.front().label, what));
 }
 
 namespace {
 
-// Of the effects of units, those that are drawn.
+// Those effects of units that are drawn.
 std::vector<std::size_t> drawn_of_units(const FormulaModel& model) {
   std::vector<std::size_t> places;
   for (const DrawnEffect& each : model.drawn) {

@@ -33,7 +33,7 @@ struct Drawing {
   std::vector<SpreadPath> paths;  // the first that of a new unit
   std::vector<std::string> of;
   std::vector<Readings> readings;
-  std::vector<Numbers> traced;  // places of rows, SI
+  std::vector<Numbers> traced;  // positions of rows, SI
   std::optional<double> limit;  // SI
   std::size_t left_out = 0;
   std::optional<ProcessLimit> process;  // with the mean of a process
@@ -41,12 +41,12 @@ struct Drawing {
   std::vector<html::Figure> draw(const WeightedDraws& draws) const;
 };
 
-// 90 % of a path and its median, in the units of the figure.
+// 90 % band and median of a path, in the units of the figure.
 struct Band {
   Numbers x, low, middle, high;
 };
 
-// What small multiples show of both axes.
+// Axes of the small multiples.
 struct Window {
   double x_low = INFINITY, x_high = -INFINITY, y_low = INFINITY, y_high = -INFINITY;
 
@@ -94,7 +94,7 @@ Band band_of(const Drawing& drawing, std::size_t i, const Spread& spread) {
   return band;
 }
 
-// With names of the marks, for a legend, or without.
+// With names of the marks for a legend, or without.
 std::vector<plot::Json> marks_of(const Drawing& drawing, std::size_t i, const Band& band,
                                  bool named) {
   const auto name = [&](const char* words) { return named ? words : ""; };
@@ -119,11 +119,11 @@ html::Figure figure_of(const Drawing& drawing, std::size_t i, const Band& band) 
   const bool of_new = !drawing.paths[i].unit;
   const std::string caption =
       of_new ? fmt::format(
-                   "Where the path of a new {} runs with a probability of 90 %, under the "
-                   "conditions asked for, with the readings of all.",
+                   "90 % band of the path of a new {}, under the given conditions, with the "
+                   "readings of all.",
                    drawing.noun)
-             : "What its rows say of its own path, and how it goes on under the conditions asked "
-               "for: 90 % of what is known of the path, without the scatter of a reading.";
+             : "The path given its rows, and its forecast under the given conditions: 90 % band of "
+               "the path, without measurement scatter.";
   return {
       fmt::format("path-{}-{}", drawing.quantity, i), html::capital(drawing.of[i]), caption,
       plot::plot(
@@ -143,15 +143,14 @@ std::vector<html::Figure> panels_of(const Drawing& drawing, const std::vector<Ba
   }
   const std::string quantity = html::capital(drawing.quantity);
   std::string caption = fmt::format(
-      "{} [{}] against {} [{}], all on the same axes: readings, the median path and 90 % of what "
-      "is "
-      "known of it under the conditions asked for, without the scatter of a reading{}.",
+      "{} [{}] against {} [{}], all on the same axes: readings, the median path and its 90 % band "
+      "under the given conditions, without measurement scatter{}.",
       quantity, html::unit(drawing.unit.text), drawing.along, html::unit(drawing.axis.text),
-      drawing.limit ? "; dashed: the limit" : "");
+      drawing.limit ? "; dashed: the failure threshold" : "");
   if (drawing.left_out > 0) {
     caption +=
         fmt::format(" Of {} {}s, those {} are drawn.", drawing.left_out + bands.size() - 1,
-                    drawing.noun, drawing.limit ? "nearest to the limit" : "that come first");
+                    drawing.noun, drawing.limit ? "nearest to the threshold" : "that come first");
   }
   std::vector<html::Figure> figures;
   for (std::size_t i = 1; i < bands.size(); ++i) {
@@ -182,12 +181,12 @@ std::vector<html::Figure> Drawing::draw(const WeightedDraws& draws) const {
   return figures;
 }
 
-// The path; of a process with what its steps scatter by.
+// The path; for a process with the scatter of its increments.
 std::vector<formula::Wanted> path_slots(const Measured& measured) {
   return {measured.wanted.begin(), measured.wanted.begin() + (measured.process ? 2 : 1)};
 }
 
-// As far as what is asked for, and the median life.
+// Covers the requested positions and the median life.
 double horizon(const Asked& asked, const LimitedPath& path, bool limited) {
   double farthest = path.begin + 1.2 * path.scale;
   for (const Quantity& at :
@@ -235,7 +234,7 @@ void add_unit(const Asked& asked, const Measured& measured, const LimitedPath& a
   drawing.traced.push_back(std::move(traced));
 }
 
-// The limit, where it is one of the path of what is measured.
+// The threshold, if it is of a measured path.
 std::optional<double> limit_of(const Asked& asked, const Measured& measured, const Path& path) {
   const auto limits = asked.predict.table("limit");
   if (!limits) return {};
@@ -251,7 +250,7 @@ std::optional<double> limit_of(const Asked& asked, const Measured& measured, con
       .si();
 }
 
-// All units, or of many those whose last reading is nearest to the limit.
+// All units, or if there are many those whose last reading is nearest to the threshold.
 std::vector<std::size_t> drawn_units(const Asked& asked, const Measured& measured,
                                      const LimitedPath& path, const Drawing& drawing) {
   std::vector<std::size_t> units(asked.model->units.size());

@@ -4,8 +4,8 @@
 
 namespace wearwell::formula_model {
 
-/// Adds figures of the paths that [predict] asks for to the study: of a new unit and of each one seen, with
-/// bands, readings and the limit.
+/// Adds figures of the paths that [predict] requests to the study: of a new unit and of each unit,
+/// with bands, readings and the threshold.
 void add_path_figures(const Asked& asked, PosteriorStudy& study);
 
 }  // namespace wearwell::formula_model

@@ -28,7 +28,7 @@ double scaled_tail(double e, double x) {
   return std::exp(e) / (2.50662827463100050 * fraction);
 }
 
-// The probability that a path with scale 1 has gone `d` by the time its mean is m.
+// The probability that a path with scale 1 has grown by `d` when its mean is m.
 double passed(Process process, double m, double d) {
   if (process == Process::gamma) return boost::math::gamma_q(m, d, Quiet());
   const bool wiener = process == Process::wiener;
@@ -40,7 +40,7 @@ double passed(Process process, double m, double d) {
 // Of a process with scale 1.
 double unit_quantile(Process process, double d, double p) {
   if (d > 1e6) return d - std::sqrt(2 * d) * boost::math::erfc_inv(2 * p, Quiet());
-  // On the logarithm: it may be far below the distance where the scale is large.
+  // In the logarithm: it may be far below the distance if the scale is large.
   const double root =
       solve_increasing([&](double x) { return passed(process, std::exp(x), d) - p; }, std::log(d),
                        0.5 / std::sqrt(1 + d), {.absolute = 1e-11}, -600, 600);
@@ -125,7 +125,7 @@ void ScoreTable::look_up(double size, double scale, double* values) const {
     }
     return;
   }
-  // The cubic through four neighbours.
+  // The cubic through four neighbors.
   const auto i = static_cast<std::size_t>(x);
   const double t = x - static_cast<double>(i);
   const double weight[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,

@@ -11,7 +11,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Of one value; of normal laws without their distribution function.
+// For one value; for normal distributions without the cdf.
 double place(ResponseFamily family, double value, const double* slots, double trials) {
   constexpr double log_half = -0.693147180559945309;
   const bool sized = slots[1] > 0 && std::isfinite(slots[0]) && std::isfinite(slots[1]);
@@ -20,15 +20,15 @@ double place(ResponseFamily family, double value, const double* slots, double tr
     return (std::log(value) - std::log(slots[0])) / slots[1];
   }
   const double below = log_cdf(family, value, slots, trials);
-  // The smaller tail tells.
+  // From the smaller tail, to avoid cancellation.
   if (below < log_half) return normal_score(below, 0);
   return normal_score(below, log_survival(family, value, slots, trials));
 }
 
-// Places of observations in their laws; of a count those of its ends.
+// Normal scores of observations; for a count those of its ends.
 NormalScore score(const Measured& measured, const Response& y, const double* slots) {
   const ResponseFamily family = measured.form->family;
-  // Of what would not have been seen below its entry, given that it was: log P(Y > value | Y > entry).
+  // Given that it was not truncated at its entry: log P(Y > value | Y > entry).
   const double entered = y.entry > -infinity ? log_survival(family, y.entry, slots, y.trials) : 0;
   const auto at = [&](double value) {
     if (!(y.entry > -infinity)) return place(family, value, slots, y.trials);
@@ -55,7 +55,7 @@ NormalScore score(const Measured& measured, const Response& y, const double* slo
   return {at(y.at), at(y.until)};
 }
 
-// The same lots for the same parameters, whoever asks.
+// The same random numbers for the same parameters, for every caller.
 Rng lots_at(const double* x, std::size_t count) {
   std::uint64_t stream = 14695981039346656037ULL;
   for (std::size_t i = 0; i < count; ++i) {
@@ -66,7 +66,7 @@ Rng lots_at(const double* x, std::size_t count) {
   return Rng(seed, stream);
 }
 
-// One of the nodes of each unit, by lot.
+// A random node of each unit.
 std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
   const std::size_t d = rows.model().effects.size(), units = rows.model().units.size();
   std::vector<double> z(units * d);
@@ -100,7 +100,7 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
   }
 }
 
-// The columns that any expression depends on, where all observations have them.
+// The columns that any expression depends on, if all observations have them.
 std::vector<Driver> drivers_of(const FormulaModel& model) {
   std::vector<Driver> all;
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
@@ -119,7 +119,7 @@ std::vector<Driver> drivers_of(const FormulaModel& model) {
   return all;
 }
 
-// Labels that the study names, where they tell observations apart.
+// Labels of the study that distinguish observations.
 std::vector<Label> labels_of(const FormulaModel& model) {
   std::vector<Label> all;
   for (const LabelColumn& column : model.data.labels) {
@@ -133,7 +133,8 @@ std::vector<Label> labels_of(const FormulaModel& model) {
   return all;
 }
 
-// What was measured exactly, as it was written; of processes nothing, whose readings lean on each other.
+// What was measured exactly, as written; nothing for processes, whose readings depend on each
+// other.
 MeasuredValues measured_values(const FormulaModel& model) {
   MeasuredValues values;
   for (const Measured& measured : model.measured) {
@@ -147,7 +148,7 @@ MeasuredValues measured_values(const FormulaModel& model) {
   return values;
 }
 
-// The slot that says where a family lies, or else how large its values are.
+// The location parameter of a family, or else its scale.
 std::size_t place_slot(const ResponseForm& form) {
   for (const ParameterKind kind : {ParameterKind::place, ParameterKind::size}) {
     for (std::size_t s = 0; s < form.slots.size(); ++s) {
@@ -157,7 +158,7 @@ std::size_t place_slot(const ResponseForm& form) {
   return 0;
 }
 
-// All that is told column by column, as one.
+// Results of all columns as one.
 std::vector<double> joined(const std::vector<std::vector<double>>& columns) {
   std::vector<double> all;
   for (const auto& column : columns) all.insert(all.end(), column.begin(), column.end());
@@ -195,17 +196,15 @@ Remedies remedies_of(const FormulaModel& model) {
   if (first.process || first.form->counted) return remedies;
   if (family == ResponseFamily::normal) {
     remedies.scatter =
-        "A scatter that grows with the mean: try family = \"lognormal\", or a standard deviation "
-        "that is an "
-        "expression of what it follows.";
+        "The scatter grows with the mean: try family = \"lognormal\", or an expression for the "
+        "standard deviation.";
     remedies.heavy_tails =
-        "Look at the outermost rows for mistakes; if there are none, try longer tails: family = "
+        "Check the outermost rows for mistakes; if there are none, try heavier tails: family = "
         "\"student-t\".";
   } else {
     remedies.scatter =
-        "Let the scatter (or shape) be an expression of what it follows; where it grows, look for "
-        "a second failure "
-        "mode.";
+        "Use an expression of conditions for the scatter (or shape); if the scatter grows, look "
+        "for a second failure mode.";
   }
   return remedies;
 }
@@ -251,7 +250,7 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   for (std::size_t c = 0; model.measured.size() > 1 && c < model.measured.size(); ++c)
     data.column.insert(data.column.end(), model.measured[c].observed.rows.size(), c);
   if (model.measured.size() > 1) data.noun = "observation";
-  // Readings of one column follow each other: those of another may lie off the other way.
+  // Serial correlation within one column; another column may deviate in the other direction.
   for (std::size_t c = 0; c < model.measured.size(); ++c) {
     if (model.measured.size() == 1 && !model.by_unit()) break;
     for (const std::size_t row : model.measured[c].observed.rows) {

@@ -8,10 +8,10 @@
 
 namespace wearwell::formula_model {
 
-/// The scores by which the check of fit judges a law (docs/reference/checks.md), measured column by column; none where readings of a
-/// process are truncated. Where units differ their effects are drawn from what x and their rows say of them: a draw of both
-/// together is one of the posterior, under which residuals and effects are standard normal. A reading of a
-/// process is scored in the light of those before it.
+/// The scores for the check of fit of a formula model (docs/reference/checks.md), by measured
+/// column; none if readings of a process are truncated. Random effects are drawn given x and the
+/// unit's rows: both together are a draw from the posterior, under which residuals and effects are
+/// standard normal. A reading of a process is scored given the earlier ones.
 std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows);
 
 }  // namespace wearwell::formula_model

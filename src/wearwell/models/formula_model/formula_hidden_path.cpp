@@ -7,17 +7,18 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/hidden_step.h"
 
-// Longer than others: one lattice, the passes there and back, and what is told of it.
+// Longer than others: one lattice, its forward and backward passes, and their results.
 namespace wearwell::formula_model {
 namespace {
 
-constexpr int most_nodes = 20'000;  // of a row: what looks farther is no density to compute with
+// of a row: a row that reaches farther is outside the range of this method
+constexpr int most_nodes = 20'000;
 constexpr double usual_widths = 3, log_two = 0.693147180559945309;
 
 using Line = Eigen::Map<Eigen::ArrayXd>;
 using FixedLine = Eigen::Map<const Eigen::ArrayXd>;
 
-// Of one row: the lattice from `low` to `high`, in widths, of which `begin` to `end` count.
+// Of one row: the lattice from `low` to `high`, in widths, of which `begin` to `end` are used.
 struct Row {
   int low = 0, high = 0, begin = 0, end = 0;
   double step_mean = 0, scale = 0, noise = 0, reading = 0;
@@ -29,9 +30,9 @@ struct Row {
   double share(int place) const { return filtered[static_cast<std::size_t>(place - low)]; }
 };
 
-// Places of a row that steps from one place of the row before reach.
+// Positions of a row that one position of the previous row can reach.
 struct Reached {
-  int from, count;  // of the row's places
+  int from, count;  // of the row's positions
   std::size_t lag;  // of the first
   Reached(const Row& row, int place) {
     const int first = place + row.step.first;
@@ -44,7 +45,7 @@ struct Reached {
 
 class HiddenPath {
  public:
-  // False where there is no density.
+  // False if the density is zero or not finite.
   bool filter(const ProcessForm& form, const ProcessRows& rows, double per_width = usual_widths) {
     process_ = form.process;
     return read(rows) && place(per_width) && pass();
@@ -75,7 +76,7 @@ class HiddenPath {
   bool meet_reading(Row& row) const;
 
   Process process_ = Process::gamma;
-  // What a normal path with these variances would be, given all readings.
+  // The normal path with these variances, given all readings.
   std::vector<double> at_, variance_, next_, next_variance_;
 };
 
@@ -127,8 +128,9 @@ void HiddenPath::smooth() {
   }
 }
 
-// The square of how large a step mostly is, over its mean: of a small shape that is much less than its variance. (The
-// median of a gamma law, nearly, and the shape of an inverse Gaussian one; without a leap at shape 1.)
+// The square of a typical step over its mean: for a small shape much less than its variance.
+// (Approximately the median of a gamma distribution, and the shape of an inverse Gaussian one;
+// continuous at shape 1.)
 double HiddenPath::usual_step(const Row& row) const {
   const double shape = row.step_mean / row.scale;
   if (!(shape < 1)) return row.scale;
@@ -139,11 +141,12 @@ double HiddenPath::usual_step(const Row& row) const {
   return usual * usual / row.step_mean;
 }
 
-// The lattice, and how far each row looks: by its reading, and by what all readings say of the path were it normal.
+// The lattice and the range of each row: from its reading, and from all readings as if the path
+// were normal.
 bool HiddenPath::place(double per_width) {
   constexpr double reach = 7, own_reach = 7;
   smooth();
-  // From the last row back: what is known of the path by that row and those after it.
+  // From the last row back: the likelihood of later rows.
   double finest = infinity, known = infinity;
   for (std::size_t i = count_; i-- > 0;) {
     const Row& row = rows_[i];
@@ -166,7 +169,8 @@ bool HiddenPath::place(double per_width) {
   return true;
 }
 
-// Of the reading at each place. Away from its middle by the ratio of neighbours, which itself falls by one ratio.
+// Of the reading at each position. Away from the center by the ratio of neighbors, which itself
+// changes by a constant ratio.
 void HiddenPath::fill_density(Row& row) const {
   const double width = h_ / row.noise, falls = std::exp(-width * width);
   const int middle = std::clamp(
@@ -210,7 +214,7 @@ bool HiddenPath::pass() {
   for (std::size_t i = 0; i < count_; ++i) {
     Row& row = rows_[i];
     const Row& earlier = or_start(row_before(i));
-    // Polynomials about places beside 0 reach below it.
+    // Polynomials at positions near 0 extend below it.
     if (row.low < 0) row.low = std::min(row.low, earlier.begin - HiddenStep::before);
     lay_step(row, row.low - earlier.end + 1, row.high - earlier.begin);
     row.predicted.assign(static_cast<std::size_t>(row.size()), 0.0);
@@ -265,7 +269,7 @@ HiddenPath& mine() {
 }  // namespace
 
 bool is_hidden(const ProcessForm& form, const ProcessRows& rows) {
-  // Errors of next to nothing are none: where a search comes to that bound.
+  // Negligible errors count as none, for searches that reach that bound.
   constexpr double nothing = 1e-6;
   if (form.process == Process::wiener || rows.noise.empty()) return false;
   double before = 0, least = infinity, most = 0;
@@ -312,7 +316,7 @@ Standing hidden_standing(const ProcessForm& form, const ProcessRows& rows) {
       second += last.share(k) * x * x;
     }
     first += moment;
-    // Beside 0 shares may be a little below 0, as weights of polynomials are.
+    // Near 0 weights may be slightly negative, as interpolation weights are.
     if (share > 1e-7) stands.cells.push_back({std::max(moment / share, 0.0), share});
   }
   double sum = 0;

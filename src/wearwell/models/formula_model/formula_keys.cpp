@@ -12,7 +12,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// One entry a name, with the families that have a slot of it.
+// One entry per name, with the families that have such a parameter.
 StudyKeys slot_keys() {
   std::vector<std::pair<std::string, std::vector<std::string>>> slots;
   const auto add = [&](const ResponseForm& form) {
@@ -39,63 +39,59 @@ StudyKeys slot_keys() {
 StudyKeys formula_keys() {
   StudyKeys keys = posterior_keys();
   add_keys(keys, status_keys());
-  add_keys(
-      keys,
-      {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
-        "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
-        "is "
-        "known of an observation"},
-       {"data.columns.*.detection_limit", "\"0.05 mm^3\"",
-        "what `<LOD` stands for in its cells: the value lies below"},
-       unused_columns_key(),
-       {"data.rows_of", "\"machine\"",
-        "of several labels that parameters vary with: whose levels are the units"},
-       {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain one"},
-       {"formula.*", "\"k * work / area\"",
-        "intermediate value, or a state by its rate `\"d(depth)/d(distance)\"` "
-        "([formula-language.md](formula-language.md))"},
-       {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
-        "one table a measured column"},
-       needed_key("likelihood.*.family", "\"normal\"", "law of its scatter")});
+  add_keys(keys, {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
+                   "the name in expressions; `status`, `lower`, `upper`, `count` and `entry` "
+                   "qualify an observation"},
+                  {"data.columns.*.detection_limit", "\"0.05 mm^3\"",
+                   "value of `<LOD` in its cells: the measured value lies below"},
+                  unused_columns_key(),
+                  {"data.rows_of", "\"machine\"",
+                   "the label that identifies the units, if several have random effects"},
+                  {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain number"},
+                  {"formula.*", "\"k * work / area\"",
+                   "intermediate value, or a state given by its rate `\"d(depth)/d(distance)\"` "
+                   "([formula-language.md](formula-language.md))"},
+                  {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
+                   "one table per measured column"},
+                  needed_key("likelihood.*.family", "\"normal\"", "distribution of its scatter")});
   add_keys(keys, slot_keys());
   add_keys(
       keys,
       {needed_key("likelihood.*.trials", "\"trials\"", "column of their numbers", {},
                   {".family=binomial"}),
        {"prior.*", "{ distribution = \"lognormal\", median = \"1e-6 mm^3/(N m)\", log_sd = 2 }",
-        "one a parameter; `k` or `\"k[PTFE]\"` of one of each level"},
+        "one per parameter; `k` or `\"k[PTFE]\"` for one of each level"},
        {"random_effects.*", "{ k = { distribution = \"lognormal\", log_sd = \"k_scatter\" } }",
-        "what differs from level to level of this label"},
+        "random effects over the levels of this label"},
        {"random_effects.*.*", "{ distribution = \"lognormal\", log_sd = \"k_scatter\" }",
         "of this parameter"},
        needed_key("random_effects.*.*.distribution", "\"lognormal\"",
-                  "how it lies about the one of its name"),
-       needed_key("random_effects.*.*.log_sd", "\"k_scatter\"", "expression, of a lognormal law",
-                  {}, {".distribution=lognormal"}),
-       needed_key("random_effects.*.*.sd", "\"a_scatter\"", "expression, of a normal law", {},
-                  {".distribution=normal"}),
-       {"random_effects.*.correlation", "\"rho\"", "of two that vary"},
+                  "distribution around the parameter of this name"),
+       needed_key("random_effects.*.*.log_sd", "\"k_scatter\"",
+                  "expression, for a lognormal distribution", {}, {".distribution=lognormal"}),
+       needed_key("random_effects.*.*.sd", "\"a_scatter\"", "expression, for a normal distribution",
+                  {}, {".distribution=normal"}),
+       {"random_effects.*.correlation", "\"rho\"", "of two random effects"},
        {"predict.along", "\"distance\"", "column that is the axis of wear and life"},
-       {"predict.at", "[\"10 km\", \"50 km\"]", "measurements to come there"},
+       {"predict.at", "[\"10 km\", \"50 km\"]", "positions of future measurements"},
        {"predict.units", "[\"3\", \"7\"]",
-        "of these units alone, with measurements to come: reported at predict.at"},
-       {"predict.given.*", "\"20 N\"",
-        "a condition; what is not named must be the same in all rows"},
-       {"predict.limit.*", "\"100 um\"", "when this expression reaches it: lives"},
+        "only these units, with future measurements: reported at predict.at"},
+       {"predict.given.*", "\"20 N\"", "a condition; all others must be the same in all rows"},
+       {"predict.limit.*", "\"100 um\"", "failure threshold of this expression: gives lives"},
        {"predict.lives_of", "[\"3\", \"7\"]",
-        "lives to the limit of these units alone; [] of a new one alone"},
+        "lives to the threshold of these units only; [] for a new unit only"},
        {"predict.b_lives", "[1, 10]",
-        "percentages that have failed, of a likelihood of a life or of lives to the limit"},
-       {"predict.survived", "\"1000 h\"", "lives given that so much was reached, from there on"},
+        "percentages failed, for a likelihood of a life or for lives to the threshold"},
+       {"predict.survived", "\"1000 h\"", "survived use: lives from there on"},
        {"predict.survival_to", "\"1000 h\"", "share that outlasts it, one or several"},
-       {"predict.hazard_at", "\"1000 h\"", "rate at which those fail that have come so far"},
-       {"predict.credible_level", "0.9", "of lower bounds of B-lives and survival"},
+       {"predict.hazard_at", "\"1000 h\"", "hazard rate at this life"},
+       {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives and survival"},
        {"predict.accelerated.*", "\"80 degC\"",
         "conditions of a test, for the acceleration factor"},
        {"predict.quantities.*", "\"exp(k_scatter^2/2)\"",
         "any function of the parameters; or with its unit:"},
        {"predict.quantities.*.value", "\"k * 20 [N]\"", "expression"},
-       {"predict.quantities.*.unit", "\"mm^3/m\"", "to report in"}});
+       {"predict.quantities.*.unit", "\"mm^3/m\"", "unit of the report"}});
   return keys;
 }
 

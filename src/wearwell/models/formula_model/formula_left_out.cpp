@@ -33,7 +33,7 @@ class DrawnUnits final : public latent::UnitTerms {
       if (wanted[u]) value[u] = std::isnan(all[u]) ? -INFINITY : all[u];
     }
     if (slope.empty()) return;
-    // A unit's effects are in no other unit's rows.
+    // A unit's effects affect only its own rows.
     const bool sloped = likelihood_.value_and_gradient(x_, gradient_) > -INFINITY;
     for (std::size_t u = 0; u < units_; ++u) {
       for (std::size_t e = 0; e < d && wanted[u]; ++e) {

@@ -13,7 +13,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Of items that come so far more rarely nothing is known from there on.
+// If items survive to this point more rarely, the rest is undetermined.
 constexpr double least_survival = 1e-3;
 
 constexpr std::size_t thinned_posterior = 2000;
@@ -26,7 +26,7 @@ double probability(ResponseFamily family, double life, const double* slots) {
   return std::exp(log_cdf(family, life, slots));
 }
 
-// Where a rising distribution function has the value p: by the logarithm of positive values.
+// The quantile p of a cdf; in the logarithm for positive values.
 template <class F>
 double solve(const F& cdf, double p, double middle, bool positive) {
   if (!std::isfinite(middle)) return std::nan("");
@@ -40,7 +40,7 @@ double solve(const F& cdf, double p, double middle, bool positive) {
 
 }  // namespace
 
-// The slots at one point of the parameters, over the population.
+// The distribution parameters at one point, over the population.
 class LifeDistribution::AtPoint {
  public:
   explicit AtPoint(const LifeDistribution& life)
@@ -84,7 +84,8 @@ class LifeDistribution::AtPoint {
     return sum;
   }
 
-  // Density over survival; of one law in logarithms, so that it stays a number far in the tail.
+  // Density over survival; for a single distribution in logarithms, so that it stays finite far in
+  // the tail.
   double hazard(double life) const {
     double failing = 0, left = 0, one = 0;
     for (std::size_t i = 0; i < size(); ++i) {
@@ -165,7 +166,7 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
   return next;
 }
 
-// Where every point needs an equation solved there are few.
+// If every point needs an equation solved, few are used.
 WeightedDraws LifeDistribution::points(const WeightedDraws& draws, double share_of_points) const {
   if (over_all()) return draws;
   ThinnedPosterior few(draws, some(thinned_posterior, share_of_points));
@@ -176,7 +177,7 @@ WeightedDraws LifeDistribution::points(const WeightedDraws& draws, double share_
   return result;
 }
 
-// Of a number that follows from the parameters: where that is expensive it is known at few points.
+// A quantity derived from the parameters; if it is expensive, it is evaluated at few points.
 template <class Value>
 LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const Value& value,
                                                double share_of_points) const {
@@ -229,7 +230,7 @@ LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& d
              at.move_to(x);
              const double gone = at.cdf(from);
              if (!known) return std::nan("");
-             // Where none is left it does not count; it is to be a number all the same.
+             // If none survives the value does not count, but it must be a number.
              return gone < 1 ? at.quantile(gone + p * (1 - gone)) - from : 0;
            }}};
 }

@@ -13,18 +13,19 @@ namespace wearwell::formula_model {
 /// "1/h" of "h", "1/(1e6 cycles)" of "1e6 cycles".
 std::string per_unit(const Unit& unit);
 
-/// A life as a family of a likelihood gives it, under conditions: what follows from it over a posterior.
+/// A life as a likelihood's family gives it, under conditions: its derived quantities over a
+/// posterior.
 class LifeDistribution {
  public:
   /// `slots` has the outputs of the measured column.
   LifeDistribution(std::shared_ptr<const Path> slots, const Measured& measured);
 
-  /// The next one: all that is unknown averaged in.
+  /// The predictive distribution: averaged over all uncertainty.
   class Next {
    public:
     double cdf(double life) const;
     double quantile(double p) const;
-    /// What remains to one that has come to `from`: the share p of such.
+    /// The remaining life of an item that has survived to `from`: its p-quantile.
     double quantile(double p, double from) const;
 
    private:
@@ -37,24 +38,25 @@ class LifeDistribution {
     std::vector<Component> components_;
     double middle_ = 1;
   };
-  /// Over all points of a posterior, or of few where items differ: then all functions below take a share of the points that is
-  /// below 1, to see how far what they give depends on these.
+  /// Over all points of a posterior, or over few if items vary: then all functions below take a
+  /// share of the points below 1, to estimate the dependence on the points.
   bool over_all() const;
   Next next(const WeightedDraws& draws, double share_of_points = 1) const;
 
-  /// A number over a posterior; where it is interpolated with its relative error (predict/interpolated.h).
+  /// A value over a posterior; if it is interpolated, with its relative error
+  /// (predict/interpolated.h).
   struct Known {
     QuantityDistribution distribution;
     std::optional<double> misfit = {};
   };
   /// The life by which a share p of all has failed.
   Known quantile(const WeightedDraws& draws, double p, double share_of_points = 1) const;
-  /// The same of those that have come to `from`, from there on, given that one has.
+  /// The same for those that have survived to `from`, from there on.
   Known quantile_beyond(const WeightedDraws& draws, double p, double from,
                         double share_of_points = 1) const;
   /// The share of all that outlasts a life.
   Known survival(const WeightedDraws& draws, double life, double share_of_points = 1) const;
-  /// The rate at which those fail that have come so far, per SI unit of life.
+  /// The hazard rate at this life, per SI unit of life.
   Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
   /// The median life over that of `other`.
   Known ratio(const WeightedDraws& draws, const LifeDistribution& other,

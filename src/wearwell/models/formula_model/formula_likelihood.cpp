@@ -8,13 +8,13 @@
 #include "wearwell/models/formula_model/formula_hidden_path.h"
 #include "wearwell/models/formula_model/linear_form.h"
 
-// Longer than others: one likelihood: rows, effects integrated out, gradients of both.
+// Longer than others: one likelihood: rows, integrals over effects, gradients of both.
 namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t rows_of_call = 256;
 
-// Columns and labels of these rows, kept while a program binds them.
+// Columns and labels of these rows, kept while a program uses them.
 struct RowColumns {
   std::vector<std::vector<double>> numbers;
   std::vector<std::vector<int>> labels;
@@ -71,7 +71,7 @@ BoundColumn bind_column(const FormulaModel& model, const Measured& measured, std
     bound.unit.push_back(model.unit_of_row[row]);
     bound.term.push_back(seen[row]);
     bound.count.push_back(observed ? measured.observed.counts[seen[row]] : 0);
-    // A row without an observation stands for its path alone.
+    // A row without an observation only continues the path.
     responses.push_back(observed ? measured.observed.responses[seen[row]]
                                  : measured.observed.responses.front());
   }
@@ -129,7 +129,7 @@ void UnitRows::move_to(const double* x) {
   for (std::size_t i = 0; i < inner_.size(); ++i) inner_[i] = x[model_.shared[i]];
 }
 
-// Runs of wanted units, in calls of as many rows as fit.
+// Runs of requested units, in calls of as many rows as fit.
 template <class Visit>
 void UnitRows::visit(std::span<const std::uint8_t> wanted, const Visit& visit) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -191,7 +191,7 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
       sloped ? std::span(slope_.data(), most_response_parameters * n) : std::span<double>());
 }
 
-// Unit by unit, of the rows that have a reading: `visit(rows of the chunk, ProcessRows)`.
+// Unit by unit, for rows with a reading: `visit(rows of the chunk, ProcessRows)`.
 template <class Visit>
 void UnitRows::visit_processes(const Chunk& chunk, const Visit& visit) {
   const BoundColumn& column = *chunk.column;
@@ -539,7 +539,7 @@ class FormulaLikelihood : public LogDensity {
     return sum;
   }
 
-  // Of units where they differ, else of observations, column by column.
+  // By unit if units vary, else by observation, column by column.
   std::vector<double> pointwise(std::span<const double> x) const override {
     if (!model_->draws_units()) return each_factor(x);
     return without_drawn_effects(*model_, x, *this,
@@ -557,7 +557,7 @@ class FormulaLikelihood : public LogDensity {
     if (model_->has_random_effects()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());
     if (model_->by_unit()) {
-      if (model_->units.size() < 2) return {};  // nothing else is left to predict it by
+      if (model_->units.size() < 2) return {};  // nothing else is left to predict it from
       scratch.value.resize(model_->units.size());
       scratch.rows.evaluate({}, all_, scratch.value, {});
       return scratch.value;
@@ -589,7 +589,7 @@ class FormulaLikelihood : public LogDensity {
  private:
   static double number(double value) { return value < infinity ? value : -infinity; }
 
-  // By a table or by sums over steps, each unit by a rule of its own.
+  // By a table or by sums over steps, each unit by its own rule.
   static std::optional<double> quick_sum(Scratch& scratch, std::span<const double> x,
                                          std::span<double> gradient) {
     if (!scratch.tabled && !scratch.steps) return {};
@@ -618,7 +618,7 @@ class FormulaLikelihood : public LogDensity {
   std::vector<double> ones_;
 };
 
-// Of paths under errors of their readings, row by row on a lattice.
+// Of paths observed with errors, row by row on a lattice.
 class HiddenLikelihood final : public FormulaLikelihood {
  public:
   using FormulaLikelihood::FormulaLikelihood;

@@ -26,21 +26,21 @@ struct BoundColumn {
   std::vector<std::size_t> unit;   ///< of each bound row
   std::vector<std::size_t> begin;  ///< of each unit among them; one more entry at the end
   ResponseColumn responses;        ///< of each bound row
-  std::vector<double> count;       ///< 0 where the row has no observation of this column
-  std::vector<std::size_t> term;   ///< which observation of `Observed` it is, where there is one
+  std::vector<double> count;       ///< 0 if the row has no observation of this column
+  std::vector<std::size_t> term;   ///< index of the observation in `Observed`, if there is one
   std::size_t most_rows = 0;       ///< of one call
-  std::vector<double> log_growth;  ///< of a process that only rises, by bound row: ProcessRows
+  std::vector<double> log_growth;  ///< of an increasing process, by bound row: ProcessRows
 };
 
 /// All columns of the first `rows` rows of the table.
 std::vector<BoundColumn> bind_columns(const FormulaModel& model, std::size_t rows);
 
-/// The units' likelihood at one point of the parameters: one thread's.
+/// The units' likelihood at one point of the parameters; one thread uses it at a time.
 class UnitRows final : public latent::UnitTerms {
  public:
   UnitRows(const FormulaModel& model, const std::vector<BoundColumn>& columns);
 
-  /// All that follows is at these parameters, which must stay.
+  /// All functions below are at these parameters, which must stay alive.
   void move_to(const double* x);
   const double* at() const { return x_; }
   const Population& population() const { return population_; }
@@ -55,21 +55,21 @@ class UnitRows final : public latent::UnitTerms {
   void add_gradient(std::span<const double> z, std::span<const double> weight,
                     std::span<double> gradient);
 
-  /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the standard
-  /// deviation of a normal law, row by row; of a process its mean, scale or standard deviation, and the errors of
-  /// readings.
+  /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the
+  /// standard deviation of a normal distribution, row by row; for a process its mean, scale or
+  /// standard deviation, and the errors of readings.
   void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd,
                 std::span<double> noise = {});
-  /// Means of column c alone, with the one effect of each unit at its own of `effects`.
+  /// Means of column c only, with the one effect of each unit at its value in `effects`.
   void means_of_units(std::span<const double> effects, std::size_t c, std::span<double> mean);
-  /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative, of what
-  /// `means_at` gives, with the effects held.
+  /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative of
+  /// `means_at`, at fixed effects.
   void add_mean_gradient(const double* effects, std::size_t c, std::span<const double> by_mean,
                          std::span<const double> by_sd, std::span<double> gradient,
                          std::span<const double> by_noise = {});
   const std::vector<BoundColumn>& columns() const { return columns_; }
   const FormulaModel& model() const { return model_; }
-  /// Adds what derivatives by middles, scatters and the correlation come to.
+  /// Adds the derivatives by medians, scatters and the correlation.
   void add_population_gradient(const Population& by, std::span<double> gradient) {
     population_at_.add_gradient(x_, by, gradient);
   }
@@ -77,16 +77,17 @@ class UnitRows final : public latent::UnitTerms {
   /// log density of each observation at z, by column, in the order of `Observed`.
   std::vector<std::vector<double>> each_term(std::span<const double> z);
 
-  /// Where the units' paths of column c, a process, stand after their last rows.
+  /// The state of the units' paths of column c, a process, after their last rows.
   std::vector<Standing> standings(std::span<const double> z, std::size_t c);
-  /// The scores of its readings, each in the light of those before it, in the order of `Observed`.
+  /// The scores of its readings, each given the earlier ones, in the order of `Observed`.
   std::vector<NormalScore> step_scores(std::span<const double> z, std::size_t c);
 
-  /// The most that a finer lattice makes of any unit's log density where paths are hidden; of a law without
-  /// effects.
+  /// The largest change of any unit's log density on a finer lattice, for hidden paths; for a model
+  /// without integrated effects.
   double unsettled_paths();
 
-  /// The slots of each observation at z, three each, by column in the order of `Observed`.
+  /// The distribution parameters of each observation at z, three each, by column in the order of
+  /// `Observed`.
   std::vector<std::vector<double>> each_slot(std::span<const double> z);
 
  private:
@@ -96,7 +97,7 @@ class UnitRows final : public latent::UnitTerms {
   };
   template <class Visit>
   void visit(std::span<const std::uint8_t> wanted, const Visit& visit);
-  void run(const Chunk& chunk, std::span<const double> z);  // the slots alone
+  void run(const Chunk& chunk, std::span<const double> z);  // the distribution parameters only
   void forward(const Chunk& chunk, std::span<const double> z, bool sloped);
   void fill_adjoints(const Chunk& chunk, const double* weight);
   void forward_process(const Chunk& chunk, bool sloped);
@@ -118,28 +119,29 @@ class UnitRows final : public latent::UnitTerms {
   double* by_effect_at_[2] = {};
   std::vector<ParameterValues> slots_;
   double zero_ = 0;
-  const double* held_ = nullptr;  // effects, where they are held: the same of all units, or by unit
+  const double* held_ = nullptr;  // effects, if they are fixed: the same for all units, or by unit
   bool held_by_unit_ = false;
 };
 
-/// The rows of a law, for any thread.
+/// The rows of a model, for any thread.
 class FormulaRows {
  public:
-  /// `again_and_again`: at so many points that a table of the units (formula_tabled.h) is worth its making.
+  /// `again_and_again`: at so many points that building a table of the units (formula_tabled.h) pays.
   FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
               bool again_and_again = false);
 
   struct Scratch {
     UnitRows rows;
-    std::unique_ptr<LinearUnits> linear;  ///< where means are straight in what differs
-    std::unique_ptr<StepUnits> steps;     ///< of a process whose mean is in proportion to it
-    std::unique_ptr<TabledUnits> tabled;  ///< of a curve that differs by one number
+    std::unique_ptr<LinearUnits> linear;  ///< if means are linear in the random effects
+    /// for a process whose mean is proportional to its effect
+    std::unique_ptr<StepUnits> steps;
+    std::unique_ptr<TabledUnits> tabled;  ///< for a curve with one random effect
     latent::UnitIntegrals integrals;
     std::vector<double> value;
   };
   /// This thread's own.
   Scratch& mine() const;
-  /// Of a law that varies: integrates effects out at x, into this thread's `integrals`.
+  /// For a model with random effects: integrates them out at x, into this thread's `integrals`.
   const latent::UnitIntegrals& integrate(const double* x) const;
   const FormulaModel& model() const { return *model_; }
 
@@ -153,7 +155,7 @@ class FormulaRows {
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };
 
-/// The likelihood of a study's law; effects of units are integrated out (latent/unit_integral.h).
+/// The likelihood of a formula study; effects of units are integrated out (latent/unit_integral.h).
 std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const FormulaRows> rows);
 
 }  // namespace wearwell::formula_model

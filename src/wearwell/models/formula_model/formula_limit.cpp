@@ -14,7 +14,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// At the values where searches start, from the beginning to twice the last row.
+// At the start values of searches, from the beginning to twice the last row.
 void require_monotone(const Asked& asked, const TomlReader& table, const std::string& name,
                       LimitedPath& path) {
   constexpr std::size_t points = 64;
@@ -32,22 +32,23 @@ void require_monotone(const Asked& asked, const TomlReader& table, const std::st
     if (std::isfinite(value[i])) size = std::max(size, std::abs(value[i]));
   }
   for (std::size_t i = 1; i < points; ++i) {
-    if (value[i] == value[i - 1]) continue;  // a crack that has grown without bound, too
+    if (value[i] == value[i - 1]) continue;  // also a crack that has grown without bound
     const double step = value[i] - value[i - 1];
     if ((path.rising ? step : -step) >= -1e-9 * size) continue;
-    table.fail(name, fmt::format("{} first {} and then {} with {} (near {:.4g} {}): when it "
-                                 "reaches a limit is not one life",
+    table.fail(name, fmt::format("{} first {} and then {} with {} (near {:.4g} {}): it may reach a "
+                                 "threshold more than once, so its life is ambiguous",
                                  name, path.rising ? "grows" : "falls",
                                  path.rising ? "falls" : "grows", *asked.model->along,
                                  from_si(axis.unit.unit, place[i]), axis.unit.unit.text));
   }
   if (value.back() == value.front()) {
-    table.fail(name, fmt::format("{} does not change with {}: it never reaches a limit", name,
+    table.fail(name, fmt::format("{} does not change with {}: it never reaches a threshold", name,
                                  *asked.model->along));
   }
 }
 
-// Each unit that was seen, and a new one; of predict.lives_of those alone, of none the new one alone.
+// Each unit of the study, and a new one; with predict.lives_of only those, with an empty list only
+// the new one.
 void add_units(const Asked& asked, const TomlReader& table, const std::string& name,
                const std::vector<formula::Wanted>& wanted, LimitedPath& path) {
   const std::vector<std::string>& units = asked.model->units;
@@ -86,7 +87,7 @@ void request_lives(const Asked& asked, const std::string& name, const Quantity& 
                                    }});
 }
 
-// A first passage is known where variances are in proportion to means.
+// A first passage has a known distribution if variances are proportional to means.
 void require_proportion(const Asked& asked, const TomlReader& table, const std::string& name,
                         const LimitedPath& path) {
   PathAt at(*path.next);
@@ -104,12 +105,12 @@ void require_proportion(const Asked& asked, const TomlReader& table, const std::
     return;
   }
   table.fail(name,
-             "is reached first at a time whose law is known only where the variance, sd^2, is in "
-             "proportion to the mean from the beginning on: give scale instead of sd, or the sd as "
-             "the root of what the mean is a multiple of");
+             "reaches its threshold at a time whose distribution is known only if the variance, "
+             "sd^2, is proportional to the mean from the start: give scale instead of sd, or sd as "
+             "a constant times the square root of the mean");
 }
 
-// What reaches a limit in a study of a process is the process.
+// In a study of a process the threshold must be of the process.
 void read_process_limit(const Asked& asked, const TomlReader& limits, const std::string& name,
                         PosteriorStudy& study) {
   const std::vector<Measured>& all = asked.model->measured;
@@ -123,8 +124,8 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
     for (const Measured& each : all) {
       if (each.process) columns = joined(columns, each.column);
     }
-    limits.fail(name, fmt::format("is no process: limits of this study are of {}, whose paths are "
-                                  "random about their means",
+    limits.fail(name, fmt::format("is not a process: thresholds of this study are of {}, whose "
+                                  "paths are random around their means",
                                   columns));
   }
   const Measured& measured = all[asked_for->column];
@@ -137,12 +138,12 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
   require_monotone(asked, limits, name, path);
   if (!(path.rising ? path.limit > 0 : path.limit < 0)) {
     limits.fail(name,
-                fmt::format("must lie {} 0, where paths begin, since their mean {}",
+                fmt::format("must lie {} 0, the start of paths, since their mean {}",
                             path.rising ? "above" : "below", path.rising ? "grows" : "falls"));
   }
   if (measured.process->by_sd) require_proportion(asked, limits, name, path);
   add_units(asked, limits, name, wanted, path);
-  // Each goes on from where its mean stands.
+  // Each continues from its mean.
   for (LimitedPath::SeenUnit& each : path.seen) each.behind.reset();
   const LimitWishes reported = read_limit_wishes(asked, path);
   const std::shared_ptr<const ProcessLimit> known = asked_for;
@@ -201,7 +202,7 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
   const std::vector<std::string> names = limits.keys();
   if (names.size() != 1) {
     limits.fail(names.empty() ? "" : names[1],
-                "one limit at a time: limit = { wear = \"100 um\" }");
+                "needs exactly one failure threshold: limit = { wear = \"100 um\" }");
   }
   const std::string& name = names.front();
   if (asked.model->has_process()) return read_process_limit(asked, limits, name, study);

@@ -5,16 +5,17 @@
 
 namespace wearwell::formula_model {
 
-/// What is expected of a unit under the conditions to come, and under its own until now where these
-/// differ and the path does not know of rows before: there it goes on from the place where the path ahead
-/// has the value at which it stands.
+/// The path of a unit under future conditions, and under its own conditions until now if these
+/// differ and the path does not depend on earlier rows: it then continues from the position where
+/// the future path has the unit's present value.
 LimitedPath::SeenUnit seen_unit(const Asked& asked, const TomlReader& table, const std::string& key,
                                 const std::vector<formula::Wanted>& wanted, std::size_t unit);
 
-/// Fills in where the path of a new unit begins, how far from there the data go, and whether it rises.
+/// Fills in the start of a new unit's path, the range of the data from there, and whether the path
+/// rises.
 void set_reach(const Asked& asked, LimitedPath& path);
 
-/// Reads predict.limit: lives of a new unit and of each one seen. Throws InputError.
+/// Reads predict.limit: lives of a new unit and of each unit. Throws InputError.
 void read_limit(const Asked& asked, PosteriorStudy& study);
 
 }  // namespace wearwell::formula_model

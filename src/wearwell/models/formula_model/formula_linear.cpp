@@ -58,7 +58,7 @@ void LinearUnits::move() {
       }
       const double weight = column.count[i] / (sd * sd), off = column.responses.at[i] - mean;
       const double d0 = mean_[1][c][i] - mean, d1 = effects_ > 1 ? mean_[2][c][i] - mean : 0;
-      p.best[0] += weight * d0 * off;  // the slope, until all rows are seen
+      p.best[0] += weight * d0 * off;  // the slope, until all rows are summed
       p.best[1] += weight * d1 * off;
       p.bend[0] += weight * d0 * d0;
       p.bend[1] += weight * d0 * d1;
@@ -72,7 +72,7 @@ void LinearUnits::move() {
     if (effects_ > 1 && det > 1e-12 * p.bend[0] * p.bend[2]) {
       p.best[0] = (p.bend[2] * g0 - p.bend[1] * g1) / det;
       p.best[1] = (p.bend[0] * g1 - p.bend[1] * g0) / det;
-    } else {  // along the only direction that the rows tell
+    } else {  // along the only direction that the rows determine
       p.best[0] = trace > 0 ? g0 / trace : 0;
       p.best[1] = trace > 0 ? g1 / trace : 0;
     }
@@ -262,7 +262,7 @@ double LinearUnits::sum_of_normal(std::span<double> gradient) {
     const Vector2 first = A * unit.mean;
     const Matrix2 second = A * unit.square * A.transpose();
     moments_[u] = {{first[0], first[1]}, {second(0, 0), second(0, 1), second(1, 1)}};
-    // By steps, as means: of the slope itself, and of it times z.
+    // By steps, as means: of the slope itself, and of the slope times z.
     const Vector2 slope = -H * (first - p.at());
     const Matrix2 slope_z = -H * (A * unit.square - p.at() * unit.mean.transpose());
     by.middle[0] += slope[0] / width_[0];

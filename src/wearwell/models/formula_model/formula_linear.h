@@ -15,13 +15,13 @@ namespace wearwell::formula_model {
 class UnitRows;
 struct BoundColumn;
 
-/// The same likelihood as that of `UnitRows`, from one look at the rows for each effect and one more:
-/// the log likelihood of a unit is a parabola in its effects then, whatever the number of its rows.
+/// The same likelihood as that of `UnitRows`, from one pass over the rows for each effect and one
+/// more: the log-likelihood of a unit is quadratic in its effects, for any number of rows.
 class LinearUnits final : public latent::UnitTerms {
  public:
   explicit LinearUnits(UnitRows& rows);
 
-  /// To where the rows have been moved.
+  /// To the parameters of the rows' last move.
   void move();
 
   std::size_t units() const override;
@@ -29,21 +29,21 @@ class LinearUnits final : public latent::UnitTerms {
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
 
-  /// The sum of the units' log likelihoods: in closed form where all effects are normal, else by rules that a
-  /// parabola spares the rows (lognormal_unit.h, effect_pair.h). Nothing where these do not settle. With
-  /// `gradient` that is added as well.
+  /// The sum of the units' log-likelihoods: in closed form if all effects are normal, else by
+  /// quadrature of the quadratic without the rows (lognormal_unit.h, effect_pair.h). Empty if that
+  /// does not converge. With `gradient` that is added as well.
   std::optional<double> sum(std::span<double> gradient = {});
-  /// Each unit's instead; false where `sum` gives nothing.
+  /// The value of each unit instead; false if `sum` is empty.
   bool each(std::vector<double>& log_likelihood);
-  /// With the nodes; false where the rules do not settle, and of one normal effect.
+  /// With the nodes; false if the rules do not converge, and for one normal effect.
   bool integrate(latent::UnitIntegrals& result);
 
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
 
  private:
-  // Effects are counted from the middle, in steps; about the best one, so that nothing cancels where
-  // the standard deviation is very small.
+  // Effects count from the median, in steps; relative to the best, to avoid cancellation if the
+  // standard deviation is very small.
   struct Parabola {
     double top = 0, best[2] = {}, bend[3] = {};  // 00, 01, 11
     Eigen::Vector2d at() const;

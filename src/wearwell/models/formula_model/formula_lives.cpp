@@ -15,8 +15,8 @@
 namespace wearwell::formula_model {
 namespace {
 
-// How many points of the posterior. Where they are dear fewer for units that have shown their own pace: lives of
-// new ones hang on the tail of what is known of the population.
+// Number of points of the posterior. If they are expensive, fewer for units with readings: lives of
+// new units depend on the tail of the population.
 struct Most {
   std::size_t next = 4000, seen = 1000;
 };
@@ -46,14 +46,15 @@ class Part {
 
   LimitedLives found;
 
-  // Where nothing differs from unit to unit: the one life of new units at a point.
+  // Without random effects: the one life of new units at a point.
   double life_of_next(const double* x) {
     next_->at().move_to(x);
     solve(*next_, {}, 1, place_);
     return place_[0];
   }
 
-  // What remains of that unit from its last row on, at a point; not above 0 where it is there already.
+  // The remaining life of that unit from its last row on, at a point; not positive if it has passed
+  // already.
   double remaining_of_seen(std::size_t u, const double* x) {
     ahead_[u].at().move_to(x);
     solve(ahead_[u], {}, 1, place_);
@@ -99,7 +100,7 @@ class Part {
     solve(*next_, lines->z, lines->count(), place_);
     lines->each(place_, [&](auto share, auto place) { units.add_curve(weight, share, place); });
     if (path_.shares.empty() || effects() == 0) return;
-    // The scores of lines that are turned are those before.
+    // The scores of turned lines are those before turning.
     std::size_t begin = 0;
     for (const std::size_t end : fresh_.ends) {
       double share = 0;
@@ -111,7 +112,7 @@ class Part {
     }
   }
 
-  // In which direction of two effects lives of new units change.
+  // The direction of two effects in which lives of new units change.
   std::array<double, 2> steepest() {
     constexpr double away = 0.5;
     static const std::vector<double> z = {away, 0, -away, 0, 0, away, 0, -away};
@@ -138,8 +139,8 @@ class Part {
     }
   }
 
-  // A path that goes on from the unit's last row begins there. Where it has passed the limit by then, so much
-  // before that a curve through its neighbours tells how many have.
+  // A path that continues from the unit's last row starts there. If it has passed the threshold by
+  // then, by so much that a curve through its neighbors gives the share that has passed.
   void from_last_row(std::size_t u) {
     const double now = path_.seen[u].now;
     double pace = 0;
@@ -155,8 +156,8 @@ class Part {
     }
   }
 
-  // What lies beyond the unit's last row counts. Where conditions change, its path goes on from where
-  // it stands, wherever under the new ones that is.
+  // Lives count from the unit's last row. If conditions change, its path continues from its present
+  // value, at the corresponding position under the new ones.
   void from_place(std::size_t u, const double* x, const EffectLines& lines) {
     const LimitedPath::SeenUnit& seen = path_.seen[u];
     if (behind_[u]) behind_[u]->move_to(x);
@@ -185,7 +186,7 @@ class Part {
   std::vector<double> place_, past_, level_;
 };
 
-// A posterior in terms of one number that follows from each of its points.
+// A posterior in terms of one quantity derived at each of its points.
 template <class Value>
 WeightedDraws in_terms_of(const WeightedDraws& draws,
                           tbb::enumerable_thread_specific<std::unique_ptr<Part>>& parts,
@@ -210,8 +211,8 @@ WeightedDraws in_terms_of(const WeightedDraws& draws,
   return result;
 }
 
-// Where nothing differs from unit to unit each point of the posterior has one life: all of them count, with the cells of
-// the quadrature, for points alone would leave a noise of one over the root of their number.
+// Without random effects each point of the posterior has one life: all points count, with the cells
+// of the quadrature, since few points would leave noise of one over the root of their number.
 LimitedLives lives_of_points(const FormulaRows& rows, const LimitedPath& path,
                              const WeightedDraws& draws) {
   tbb::enumerable_thread_specific<std::unique_ptr<Part>> parts;
@@ -288,7 +289,7 @@ void LimitedLives::add_shares(const LimitedPath& path, const NormalLines& units,
     const double p = gone + path.shares[i] * (1 - gone);
     const double life = p < 1 ? units.quantile(p) : std::nan("");
     at_points.push_back(all ? life : std::max(0.0, life - path.survived));
-    // What hardly any unit comes to counts no more.
+    // Points that hardly any unit reaches do not count.
     if (mass > 0 && p < 1) by_share[i].add(mass, at_points.back(), at_points.back());
   }
 }

@@ -19,7 +19,9 @@ void order_rows(FormulaModel& model, const TomlReader& root) {
   if (!label && paths && model.symbols.labels.size() == 1) {
     label = model.data.label(model.symbols.labels.front().name);
   } else if (!label && paths && model.symbols.labels.size() > 1) {
-    root.fail("data", "which rows follow each other? There are several labels, and none varies");
+    root.fail(
+        "data",
+        "has several labels without random effects; the order of rows within units needs one");
   }
   const std::size_t rows = model.data.table.rows;
   model.unit_of_row.assign(rows, 0);
@@ -32,8 +34,7 @@ void order_rows(FormulaModel& model, const TomlReader& root) {
   const NumberColumn* axis = model.along ? model.data.number(*model.along) : nullptr;
   if (paths && !axis) {
     root.required_table("predict").fail("along",
-                                        "is missing: the column along which a unit's "
-                                        "rows follow each other");
+                                        "is missing: the column that orders a unit's rows");
   }
   if (axis) model.data.require_complete(*axis);
   model.order.resize(rows);
@@ -61,16 +62,15 @@ void require_rising(const FormulaModel& model) {
       const double y = column.values[row];
       if (!noisy && !first && axis.values[*before] == axis.values[row]) {
         throw InputError(
-            fmt::format("{}: two readings at one place: one of a {} without noise "
-                        "has no error, and there is one path",
+            fmt::format("{}: two readings at one position: a reading of a {} without noise has no "
+                        "error, so two readings contradict",
                         where, each.form->name));
       }
       if (!noisy && each.process->process != Process::wiener &&
           !(y > (first ? 0 : column.values[*before]))) {
         throw InputError(
             fmt::format("{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, "
-                        "from 0 on; where "
-                        "readings have an error of their own give it noise",
+                        "from 0 on; if readings have errors, add noise",
                         where, from_si(each.unit, y), each.unit.text,
                         first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
       }
@@ -84,18 +84,17 @@ void require_failures(const FormulaModel& model) {
     if (each.form->counted || each.observed.failures > 0) continue;
     for (const Parameter& parameter : model.parameters) {
       if (parameter.prior.proper) continue;
-      throw InputError(
-          fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
-                      "prior, and that of "
-                      "{} is {}",
-                      model.data.table.source, each.column, parameter.name, parameter.distribution));
+      throw InputError(fmt::format(
+          "{}: no row of '{}' is a failure: then every parameter needs a proper prior, "
+          "but that of {} is {}",
+          model.data.table.source, each.column, parameter.name, parameter.distribution));
     }
   }
 }
 
 namespace {
 
-// Times, counts and distances that something lasts; a length below a metre is a wear depth.
+// Times, counts and distances can be lives; a length below a meter is a wear depth.
 bool is_life(const Measured& measured) {
   const ResponseForm& form = *measured.form;
   if (!form.positive && form.family != ResponseFamily::smallest_extreme_value &&

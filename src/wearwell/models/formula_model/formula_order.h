@@ -5,17 +5,18 @@
 
 namespace wearwell::formula_model {
 
-/// Sorts the rows unit by unit, along the axis where they follow each other. Throws InputError where it is not
-/// told which rows do, or along what.
+/// Sorts the rows unit by unit, along the axis if their order matters. Throws InputError if the
+/// unit or the axis is not given.
 void order_rows(FormulaModel& model, const TomlReader& root);
 
-/// A process that only rises has readings that do, along a unit's rows. Throws InputError.
+/// Checks that readings of an increasing process rise along a unit's rows. Throws InputError.
 void require_rising(const FormulaModel& model);
 
-/// Lives without one failure have no upper end but their prior's. Throws InputError.
+/// Without a failure the upper end of lives comes from the prior alone. Throws InputError for an
+/// improper one.
 void require_failures(const FormulaModel& model);
 
-/// A study of lives names the column that says how each ended, where its table has one. Throws InputError.
+/// A study of lives must name its status column, if its table has one. Throws InputError.
 void require_status(const FormulaModel& model, const TomlReader& root);
 
 }  // namespace wearwell::formula_model

@@ -8,7 +8,7 @@ namespace wearwell::formula_model {
 
 namespace {
 
-// The axis becomes a number that is given by row, so that no row is bound anew while a life is searched.
+// The axis becomes a row input, so that no row is bound again during the search for a life.
 formula::Symbols with_open_axis(formula::Symbols symbols, const std::string& along) {
   auto& columns = symbols.columns;
   const auto axis = std::find_if(columns.begin(), columns.end(),
@@ -18,7 +18,7 @@ formula::Symbols with_open_axis(formula::Symbols symbols, const std::string& alo
   return symbols;
 }
 
-// Rows that are all alike.
+// Identical rows.
 void bind_conditions(const FormulaModel& model, const TomlReader& table, const std::string& key,
                      const Conditions& conditions, Path& path) {
   formula::Rows rows;
@@ -70,9 +70,9 @@ std::shared_ptr<const Path> make_path(std::shared_ptr<const FormulaModel> model,
   if (along && !path->along) {
     path->running = continue_path(*model, table, key, path->program, conditions, unit);
   } else if (path->program.has_paths()) {
-    table.fail(key,
-               "depends on rows before its own (cum, or a state), and no place on an axis is "
-               "asked for");
+    table.fail(
+        key,
+        "depends on earlier rows (cum, or a state), but the request has no position on an axis");
   } else {
     bind_conditions(*model, table, key, conditions, *path);
   }

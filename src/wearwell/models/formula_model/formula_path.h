@@ -10,32 +10,34 @@
 
 namespace wearwell::formula_model {
 
-/// Expressions under fixed conditions, at any place along the axis and for any unit of the population.
-/// Immutable; evaluations are thread-safe with a `PathAt` each.
+/// Expressions under fixed conditions, at any position on the axis and for any unit of the
+/// population. Immutable; evaluations are thread-safe with one `PathAt` each.
 struct Path {
   std::shared_ptr<const FormulaModel> model;
   formula::Program program;
   bool along = false;  ///< whether the axis is given by row, as the last of those
   formula::Symbols symbols;
   std::vector<std::size_t> shared;  ///< the study's parameters among those of the symbols
-  formula::Data data;               ///< `most` rows, all alike
+  formula::Data data;               ///< `most` rows, all identical
   static constexpr std::size_t most = 128;
-  /// Where the law has a state, or the expressions depend on rows before their own; `data` is empty then.
+  /// If the formula has a state, or the expressions depend on earlier rows; `data` is then empty.
   std::optional<RunningPath> running = {};
-  /// Whether it depends on rows before: then that of a unit begins where its last row stands.
+  /// Whether it depends on earlier rows: then the path of a unit starts at its last row.
   bool goes_on() const { return running && running->running.count > 0; }
 };
 
-/// Compiles `wanted` under these conditions; `along` leaves the axis open. Throws InputError at `key` of
-/// `table`: where an expression is wrong, a condition is missing, or how a path goes on cannot be told
-/// (`RunningPath`). `unit`: the one that goes on from its last row, none for a new one.
+/// Compiles `wanted` under these conditions; `along` leaves the axis open. Throws InputError at
+/// `key` of `table`: for an invalid expression, a missing condition, or an undetermined
+/// continuation (`RunningPath`). `unit`: the one that continues from its last row, empty for a new
+/// one.
 std::shared_ptr<const Path> make_path(std::shared_ptr<const FormulaModel> model,
                                       const TomlReader& table, const std::string& key,
                                       const std::vector<formula::Wanted>& wanted, bool along,
                                       const Conditions& conditions,
                                       std::optional<std::size_t> unit = {});
 
-/// Expressions in each row of a unit until now (`PathAt::retrace`), whether or not they depend on rows before.
+/// Expressions in each row of a unit until now (`PathAt::retrace`), with or without dependence on
+/// earlier rows.
 std::shared_ptr<const Path> make_trace(std::shared_ptr<const FormulaModel> model,
                                        const TomlReader& table, const std::string& key,
                                        const std::vector<formula::Wanted>& wanted,
@@ -45,19 +47,20 @@ std::shared_ptr<const Path> make_trace(std::shared_ptr<const FormulaModel> model
 class PathAt {
  public:
   explicit PathAt(const Path& path);
-  /// All that follows is at these parameters, which must stay.
+  /// All functions below are at these parameters, which must stay alive.
   void move_to(const double* x);
   const Population& population() const { return population_; }
 
-  /// Of a path that goes on from a unit's last row, before `evaluate`: how `count` units at z stand there.
+  /// For a path that continues from a unit's last row, before `evaluate`: the state of `count`
+  /// units at z there.
   void stand(std::size_t count, const double* z);
 
   /// The outputs in each row of that unit until now, at z; of a running path.
   void retrace(const double* z);
   double retraced(std::size_t o, std::size_t row) const;
 
-  /// Computes the outputs for `count` units at z (effects() each; null for none) and places along
-  /// the axis (null where it is none), count <= Path::most.
+  /// Computes the outputs for `count` units at z (effects() each; null for none) and positions on
+  /// the axis (null if it is none), count <= Path::most.
   void evaluate(std::size_t count, const double* z, const double* place);
   double output(std::size_t o, std::size_t i) const;
 
@@ -70,7 +73,7 @@ class PathAt {
   std::vector<double> inner_, effect_[2];
   formula::Workspace workspace_, history_workspace_;
   formula::Data ahead_;                       // of a running path
-  std::vector<std::vector<double>> carried_;  // by what runs, then unit
+  std::vector<std::vector<double>> carried_;  // by running value, then unit
   std::vector<const double*> carried_at_;
 };
 

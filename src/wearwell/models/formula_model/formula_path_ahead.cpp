@@ -78,8 +78,8 @@ void add_measurement(const Asked& asked, const Measured& measured, std::shared_p
   }));
 }
 
-// One thread's look at a unit that was seen. Up to its last row the law is that of the likelihood; beyond,
-// where conditions change, its path goes on from where it stands.
+// One thread's forecast of a unit of the study. Up to its last row the distribution is that of the
+// likelihood; beyond, if conditions change, its path continues from its present value.
 class UnitAt {
  public:
   UnitAt(const LimitedPath& axis, const LimitedPath::SeenUnit& seen)
@@ -109,25 +109,24 @@ class UnitAt {
   std::optional<PathAt> behind_;
 };
 
-// Measurements to come of the units of predict.units.
+// Future measurements of the units of predict.units.
 void add_units(const Asked& asked, const Measured& measured, const std::vector<Quantity>& places,
                const LimitedPath& axis, PosteriorStudy& study) {
   const std::vector<std::string>& known = asked.model->units;
   for (const std::string& name : asked.predict.texts("units")) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (!asked.model->has_random_effects() || !asked.model->label) {
-      asked.predict.fail("units",
-                         "is of studies whose parameters differ from unit to unit (varies)");
+      asked.predict.fail("units", "needs a study with random effects (varies)");
     }
     if (found == known.end()) {
       asked.predict.fail("units", fmt::format("the data have no {} '{}' ({})", asked.noun, name,
                                               fmt::join(known, ", ")));
     }
     if (measured.process) {
-      asked.predict.fail("units",
-                         fmt::format("{} is a process: how it goes on in each {} is among the "
-                                     "quantities at predict.at, its readings to come are not",
-                                     measured.column, asked.noun));
+      asked.predict.fail(
+          "units", fmt::format("{} is a process: its continuation in each {} is among the "
+                               "quantities at predict.at; its future readings are not predicted",
+                               measured.column, asked.noun));
     }
     const auto unit = static_cast<std::size_t>(found - known.begin());
     const auto seen = std::make_shared<const LimitedPath::SeenUnit>(
@@ -144,10 +143,10 @@ void add_units(const Asked& asked, const Measured& measured, const std::vector<Q
       const double place = each.si();
       if (seen->ahead->goes_on() && !(place > seen->now)) {
         asked.predict.fail(
-            "at", fmt::format("{} is not beyond {:.6g} {}, the last row of {}, from where its path "
-                              "goes on",
-                              description(each), from_si(asked.axis().unit.unit, seen->now),
-                              asked.axis().unit.unit.text, asked.unit(unit)));
+            "at",
+            fmt::format("{} is not beyond {:.6g} {}, the last row of {}, where its path continues",
+                        description(each), from_si(asked.axis().unit.unit, seen->now),
+                        asked.axis().unit.unit.text, asked.unit(unit)));
       }
       PredictionRequest prediction =
           measurement(asked, measured, place, [=](const double* x, double) {
@@ -163,7 +162,7 @@ void add_units(const Asked& asked, const Measured& measured, const std::vector<Q
   }
 }
 
-// What is true of each unit, without the scatter of one measurement.
+// The value of each unit, without measurement scatter.
 void request_paths(const Asked& asked, const Measured& measured,
                    const std::vector<Quantity>& places, const LimitedPath& axis, bool of_new,
                    PosteriorStudy& study) {
@@ -254,8 +253,8 @@ void read_path(const Asked& asked, PosteriorStudy& study) {
   }
   for (const Measured& measured : asked.model->measured) {
     if (!has_path(measured) && !measured.process) {
-      predict.fail("at", fmt::format("measurements to come are predicted of the normal and the "
-                                     "lognormal family, not of {}",
+      predict.fail("at", fmt::format("future measurements are predicted for the normal and the "
+                                     "lognormal family, not for {}",
                                      measured.form->name));
     }
     LimitedPath path;
@@ -265,11 +264,11 @@ void read_path(const Asked& asked, PosteriorStudy& study) {
         if (at.si() >= path.next->running->begin) continue;
         predict.fail(
             "at",
-            fmt::format("{} lies before {:.6g} {}, where a path begins", description(at),
+            fmt::format("{} lies before {:.6g} {}, the start of a path", description(at),
                         from_si(axis.unit.unit, path.next->running->begin), axis.unit.unit.text));
       }
     }
-    // Of a process, and of two effects, there is no one number that tells a new unit from the median one.
+    // For a process, and for two effects, no single number relates a new unit to the median one.
     const bool plain = asked.model->effects.size() < 2 && !measured.process;
     for (const Quantity& at : places) {
       if (plain) add_measurement(asked, measured, path.next, at.si(), study);

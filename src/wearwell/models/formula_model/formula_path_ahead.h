@@ -4,11 +4,11 @@
 
 namespace wearwell::formula_model {
 
-/// Whether its first slot is the path of which readings scatter.
+/// Whether its first parameter is the path around which readings scatter.
 bool has_path(const Measured& measured);
 
-/// Reads predict.at: measurements to come of a new unit, and the paths ahead of all that were seen.
-/// Throws InputError.
+/// Reads predict.at: future measurements of a new unit, and the forecasts of all units of the
+/// study. Throws InputError.
 void read_path(const Asked& asked, PosteriorStudy& study);
 
 }  // namespace wearwell::formula_model

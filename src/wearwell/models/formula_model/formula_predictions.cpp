@@ -23,14 +23,14 @@
 namespace wearwell::formula_model {
 namespace {
 
-// What is asked of a life of which the likelihood is.
+// The requests if the likelihood is of a life.
 struct AskedOfLife {
   std::shared_ptr<const LifeDistribution> life, fast;  // under the conditions, and those of a test
   LifeLevels levels;
   std::optional<Quantity> survived;
   std::vector<Quantity> survival, hazard;
 
-  // Over all of the posterior, none of which waits for another.
+  // Over the whole posterior; all run in parallel.
   std::vector<std::function<LifeDistribution::Known()>> known(const WeightedDraws& draws,
                                                               double points) const {
     std::vector<std::function<LifeDistribution::Known()>> all;
@@ -52,7 +52,7 @@ struct AskedOfLife {
     return all;
   }
 
-  // The life of the next one, and what remains to it where it has survived.
+  // The predictive life, and the remaining life given survival.
   std::vector<QuantityQuantiles> of_next(const LifeDistribution::Next& next) const {
     const auto quantiles = [](const auto& q) {
       return QuantityQuantiles{q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)};
@@ -140,18 +140,19 @@ class Predictions {
     const bool asks_along = predict_.has("at") || predict_.has("limit");
     if (asks_along && !model_->along) {
       predict_.fail(predict_.has("limit") ? "limit" : "at",
-                    "needs predict.along: the column that is the axis of wear and life");
+                    "needs predict.along: the axis of wear and life");
     }
     if (predict_.has("units") && !predict_.has("at")) {
-      predict_.fail("units", "needs predict.at: where measurements of these units are to come");
+      predict_.fail("units",
+                    "needs predict.at: the positions of future measurements of these units");
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
       for (const char* key : {"survival_to", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
-                        "is for a likelihood of a life; beside predict.limit lives are "
-                        "those to the limit");
+                        "is for a likelihood of a life; with predict.limit lives are those to the "
+                        "failure threshold");
         }
       }
     } else if (!model_->along) {
@@ -159,7 +160,7 @@ class Predictions {
     } else {
       for (const char* key : {"b_lives", "credible_level", "survived", "lives_of"}) {
         if (predict_.has(key)) {
-          predict_.fail(key, "needs predict.limit: what is reached at the end of a life");
+          predict_.fail(key, "needs predict.limit: the failure threshold that ends a life");
         }
       }
     }
@@ -169,7 +170,7 @@ class Predictions {
   }
 
  private:
-  // ---- Lives of which the likelihood is.
+  // ---- Likelihoods of a life.
 
   std::shared_ptr<const LifeDistribution> life_distribution(const Measured& measured,
                                                             const char* key,

@@ -11,7 +11,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// What a row adds: means, variances, and what is known of its reading.
+// The contribution of a row: means, variances, and the information of its reading.
 struct Step {
   double mean, variance, noise_variance;
 };
@@ -24,7 +24,7 @@ Step step_of(const ProcessForm& form, const ProcessRows& rows, std::size_t i) {
   return {dm, form.by_sd ? s * s - earlier * earlier : s * dm, noise * noise};
 }
 
-// Kalman's recursion: before a row the path is normal, its reading tells the rest.
+// Kalman's recursion: before a row the path is normal; its reading updates it.
 struct Filtered {
   double off, predicted, all, at, variance;  // reading less forecast; variances; then the path
 };
@@ -46,7 +46,7 @@ void fail(std::span<double> value, std::span<double> slope) {
   std::fill(slope.begin(), slope.end(), 0.0);
 }
 
-// Gives the derivative by the mean of a step, and by its variance, to the slots.
+// Passes the derivative by the mean of a step, and by its variance, to the distribution parameters.
 class Slopes {
  public:
   Slopes(const ProcessForm& form, const ProcessRows& rows, std::span<double> slope)
@@ -74,8 +74,8 @@ class Slopes {
   std::size_t n_;
 };
 
-// A dear function of one row after the other. Steps of a unit are often all alike but for their last digit: there it
-// goes on along its slope, and what that leaves is less than a digit.
+// An expensive function of successive rows. Steps of a unit are often equal except for the last
+// digit: then it extrapolates along the slope, with an error below one digit.
 class Logarithm {
  public:
   double operator()(double x) {
@@ -147,7 +147,7 @@ void wiener_terms(const ProcessForm& form, const ProcessRows& rows, std::span<do
   }
 }
 
-// Increments that are seen as they are. Where the mean stands still, so does the path.
+// Increments observed without error. If the mean is constant, so is the path.
 void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                    std::span<double> slope) {
   const bool gamma = form.process == Process::gamma, sloped = !slope.empty();
@@ -267,7 +267,7 @@ void process_scores(const ProcessForm& form, const ProcessRows& rows,
       continue;
     }
     const double dy = rows.reading[i] - (i > 0 ? rows.reading[i - 1] : 0), u = rows.spread[i];
-    if (!(step.mean > 0)) {  // it stands still, which says nothing
+    if (!(step.mean > 0)) {  // it is constant, which adds no information
       scores.push_back({-infinity, infinity});
       continue;
     }

@@ -14,11 +14,12 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t most_points = 400, most_points_of_next = 2000;
-constexpr double least_share = 1e-6;  // of a unit's posterior: nodes with less are left out
+constexpr double least_share = 1e-6;  // of a unit's posterior: smaller nodes are left out
 
-// Where a path stands that readings do not tell exactly: nodes of the normal law below `highest`. What they are summed
-// for changes with z over 1/`ratio`: where that is far, and nothing is cut off, the rule of Gauss and Hermite has few nodes
-// (Abramowitz and Stegun 25.4.46), errors below 1e-5 of a distribution function.
+// State of a path that readings do not determine exactly: nodes of the normal distribution below
+// `highest`. The integrand changes with z over 1/`ratio`: if that is large, and nothing is cut off,
+// the Gauss-Hermite rule needs few nodes (Abramowitz and Stegun 25.4.46), with errors of a cdf
+// below 1e-5.
 struct Standings {
   static constexpr std::size_t most = 16;
   std::size_t count = most;
@@ -112,7 +113,7 @@ class Part {
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
   }
 
-  // The scale of a path at z; where its standard deviation is given, by what it is far along.
+  // The scale of a path at z; if its standard deviation is given, from its value far along.
   double scale_at(Crossing& crossing, const double* z, double from) {
     const double place = std::max(from, limit_.path.begin + limit_.path.scale);
     crossing.at().stand(1, z);
@@ -121,8 +122,8 @@ class Part {
     return form_.by_sd ? spread * spread / std::abs(mean) : spread;
   }
 
-  // From where the mean is `mean` on, until the path of this scale has gone on by `distance` (upwards; all signs are
-  // those of a path that rises).
+  // From a mean of `mean` on, until the path of this scale has grown by `distance` (upward; signs
+  // are those of a rising path).
   void add_passage(Crossing& crossing, const double* z, double mean, double distance, double scale,
                    double weight, bool counted_from, CellMixture& to) {
     constexpr int edges = ScoreTable::edges;
@@ -172,7 +173,7 @@ class Part {
     const double scale = scale_at(ahead_[u], z, now);
     if (!stands.cells.empty()) {
       for (const Standing::Cell& cell : stands.cells) {
-        // Evenly over the cell: what of it has not reached the limit, and its middle.
+        // Uniform over the cell: the part that has not reached the threshold, and its center.
         const double room = limit_.path.limit - cell.at, half = 0.5 * stands.width;
         const double below = std::clamp((room + half) / stands.width, 0.0, 1.0);
         const double share = weight * cell.share;
@@ -191,7 +192,7 @@ class Part {
       }
       return;
     }
-    const double below = normal_cdf(left / sd);  // it has not reached the limit
+    const double below = normal_cdf(left / sd);  // it has not reached the threshold
     found.passed[u] += weight * (1 - below);
     if (!(below > 1e-6)) return;
     const Standings nodes(left / sd, sd / std::sqrt(scale * std::max(left, sd)));
@@ -212,7 +213,7 @@ class Part {
   double sign_ = 1;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;
-  std::vector<double> place_;  // of each edge of the table, of the passage that was added last
+  std::vector<double> place_;  // of each edge of the table, for the last added passage
 };
 
 }  // namespace
@@ -230,7 +231,7 @@ LimitedLives process_lives(const FormulaRows& rows, const ProcessLimit& limit,
     lives = sum_over(ThinnedPosterior(draws, some(most_points)), [&] { return Part(rows, seen); });
   }
   if (!limit.path.next) return lives;
-  // Lives of new units hang on the tail of what is known of the population.
+  // Lives of new units depend on the tail of the population.
   const std::size_t most = rows.model().draws_units() ? most_points : most_points_of_next;
   const ThinnedPosterior few(draws, some(most));
   LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });

@@ -11,7 +11,7 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t most_points = 100, most_points_of_effects = 25;
-constexpr double least_share = 2e-3;  // of a unit's posterior: nodes with less are left out
+constexpr double least_share = 2e-3;  // of a unit's posterior: smaller nodes are left out
 
 // One thread's part: some points of the posterior, one after the other.
 class Part {
@@ -67,7 +67,7 @@ class Part {
   void add_seen(std::size_t p, const double* z, const std::vector<Standing>& all, double weight) {
     if (!paths_[p].unit) return;
     const Standing& stands = all[*paths_[p].unit];
-    // Under other conditions the mean goes on from the place where it is as far.
+    // Under new conditions the mean continues from the position where it has the same value.
     double place = 0;
     at_[p]->solve(1, z, &stands.mean, &place);
     look_ahead(p, z, place - paths_[p].path.now, stands, weight);
@@ -86,7 +86,7 @@ class Part {
       const double grown = mean - stands.mean;
       double step[edges] = {};
       if (form_.process == Process::wiener) {
-        // The path where it stands and its growth are both normal.
+        // The present value of the path and its growth are both normal.
         const double sd = std::sqrt(stands.variance + scale * std::abs(grown));
         for (int e = 0; e < edges; ++e)
           step[e] = grown + sd * (ScoreTable::first_score + ScoreTable::score_step * e);

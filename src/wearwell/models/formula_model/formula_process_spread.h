@@ -5,9 +5,9 @@
 
 namespace wearwell::formula_model {
 
-/// What is known of paths of a process at places ahead: of new units, and of those seen from where they
-/// stand. `mean` has the column, and as `next` the path of its mean under the conditions to come. `finer` times as many points of the
-/// posterior as are enough for a curve.
+/// Forecast band of paths at future positions: of new units, and of observed ones from their
+/// present state. `mean` has the column, and as `next` the path of its mean under future
+/// conditions. `finer` times as many points of the posterior as a curve needs.
 std::vector<Spread> process_spreads(const FormulaRows& rows, const ProcessLimit& mean,
                                     const std::vector<SpreadPath>& paths,
                                     const WeightedDraws& draws, std::size_t finer = 1);

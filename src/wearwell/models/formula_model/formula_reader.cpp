@@ -19,7 +19,8 @@
 #include "wearwell/models/formula_model/formula_order.h"
 #include "wearwell/models/formula_model/linear_form.h"
 
-// Longer than others: the sections of one study file, each of which needs the names of those before.
+// Longer than others: the sections of one study file, each of which needs the names of earlier
+// ones.
 namespace wearwell::formula_model {
 namespace {
 
@@ -40,7 +41,7 @@ struct Bounds {
   }
 };
 
-// A likelihood as it is written, before anything is compiled.
+// A likelihood as written, before anything is compiled.
 struct WrittenLikelihood {
   std::string column;
   const ResponseForm* form;
@@ -49,7 +50,7 @@ struct WrittenLikelihood {
   std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
 };
 
-// Keys of a prior whose values have the dimension of its parameter, whatever its law.
+// Keys of a prior whose values have the dimension of its parameter, for every distribution.
 const std::vector<std::string>& dimensional_keys() {
   static const auto all = [] {
     std::map<std::string, bool> slots;
@@ -70,7 +71,7 @@ const std::vector<std::string>& dimensional_keys() {
   return all;
 }
 
-// "mean and sd", of each parameter form of a name.
+// "mean and sd", for each parameterization of a name.
 std::vector<std::string> needed_slots(const std::string& family) {
   std::vector<std::string> ways;
   const auto add = [&](const ResponseForm& form) {
@@ -89,7 +90,7 @@ std::vector<std::string> needed_slots(const std::string& family) {
 
 class Reader {
  public:
-  // Of more than two effects of the units, `integrated` are integrated out.
+  // For more than two effects of the units: the `integrated` ones are integrated out.
   Reader(const TomlReader& root, const Source& source, std::size_t integrated)
       : root_(root),
         source_(source),
@@ -115,7 +116,7 @@ class Reader {
   }
 
  private:
-  // All that is written, since what a name stands for is seen by how it is used.
+  // All expressions, since the use of a name determines its meaning.
   void read_texts() {
     if (const auto lines = root_.table("formula")) {
       for (const std::string& name : lines->keys()) {
@@ -157,7 +158,7 @@ class Reader {
     }
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
-    // Not by table.has, after which a key that the form does not have counts as one that was asked for.
+    // Not by table.has, which would mark a key that the form does not have as used.
     const std::vector<std::string> keys = table.keys();
     const auto has = [&](std::string_view name) {
       return std::find(keys.begin(), keys.end(), name) != keys.end();
@@ -194,15 +195,15 @@ class Reader {
       const bool lognormal = *kind == "lognormal";
       const std::string key = lognormal ? "log_sd" : "sd";
       if (!effect.has(key)) {
-        effect.fail(key,
-                    fmt::format("is missing: of a {} law it says how far units differ", *kind));
+        effect.fail(key, fmt::format("is missing: a {} distribution of units needs it", *kind));
       }
       written.effects.push_back({name, expression(effect, key), lognormal});
       texts_.push_back(written.effects.back().scatter);
     }
-    if (written.effects.empty()) table.fail("", "names no parameter that varies");
+    if (written.effects.empty()) table.fail("", "has no parameter with a random effect");
     if (table.has("correlation")) {
-      if (written.effects.size() != 2) table.fail("correlation", "needs two parameters that vary");
+      if (written.effects.size() != 2)
+        table.fail("correlation", "needs two parameters with random effects");
       written.correlation = expression(table, "correlation");
       texts_.push_back(*written.correlation);
     }
@@ -219,7 +220,7 @@ class Reader {
     });
   }
 
-  // Which label says of which unit a row is, and which effects are drawn.
+  // The label that identifies units, and the effects that are drawn.
   void choose_units() {
     if (varies_.empty()) return;
     const std::size_t unit = label_of_units(root_, model_->data, varies_);
@@ -231,8 +232,9 @@ class Reader {
       root_.required_table("random_effects")
           .required_table(units.label)
           .fail(effects_[most_unit_effects].name,
-                fmt::format("is one too many: at most {} parameters may vary from {} to {}",
-                            most_unit_effects, units.label, units.label));
+                fmt::format(
+                    "is one too many: at most {} parameters may have random effects over {} to {}",
+                    most_unit_effects, units.label, units.label));
     }
     for (std::size_t v = 0; v < varies_.size(); ++v) {
       if (v != unit) drawn_.push_back(varies_[v]);
@@ -249,8 +251,8 @@ class Reader {
     drawn_.push_back(std::move(rest));
   }
 
-  // Where rows follow each other, the one column without a unit that no expression names says which
-  // of them belong together: otherwise it would be there for nothing.
+  // If rows follow each other, the one column without a unit that no expression uses identifies the
+  // units; it would have no purpose otherwise.
   std::optional<std::string> idle_column() const {
     static const std::regex path(R"(\bcum\s*\(|\bd\s*\(\s*\w+\s*\)\s*/)");
     bool follows = std::any_of(written_.begin(), written_.end(),
@@ -302,13 +304,13 @@ class Reader {
     return names;
   }
 
-  // The axis of wear and life; the rows of a unit lie along it.
+  // The axis of wear and life, along which the rows of a unit are sorted.
   void read_along() {
     if (const auto predict = root_.table("predict")) model_->along = predict->text("along");
     if (model_->along && !model_->data.number(*model_->along)) {
       const std::vector<std::string> names = number_names();
       root_.required_table("predict").fail(
-          "along", fmt::format("'{}' is no column of numbers under data.columns{}", *model_->along,
+          "along", fmt::format("'{}' is not a numeric column under data.columns{}", *model_->along,
                                names.empty() ? ""
                                              : fmt::format(" (nearest: '{}')",
                                                            nearest_name(*model_->along, names))));
@@ -361,7 +363,7 @@ class Reader {
     }
   }
 
-  // What the places where a parameter stands alone say of its sign.
+  // The sign of a parameter, from the places where it stands alone.
   std::map<std::string, Bounds> natural_bounds() const {
     std::map<std::string, Bounds> bounds;
     for (const WrittenLikelihood& each : written_) {
@@ -430,9 +432,10 @@ class Reader {
       const auto at = indexed_.find(base);
       if (at == indexed_.end()) {
         if (base != key) {
-          priors.fail(key, fmt::format("no expression writes {}[...]; a parameter of each level is "
-                                       "written as {}[material] where 'material' is a label",
-                                       base, base));
+          priors.fail(key,
+                      fmt::format("no expression uses {}[...]; write a parameter with one value "
+                                  "per level as {}[material], where 'material' is a label",
+                                  base, base));
         }
         const formula::Powers powers = powers_of_prior(priors, key);
         model_->parameters.push_back(read_one(priors, key, key, powers, bounds_of(key)));
@@ -449,15 +452,15 @@ class Reader {
                    const Bounds& bounds) {
     const LabelColumn* column = model_->data.label(label);
     if (!column) {
-      priors.fail(base, fmt::format("stands before [{}], and '{}' is no label under data.columns",
-                                    label, label));
+      priors.fail(
+          base, fmt::format("is indexed by [{}], but '{}' is not a label under data.columns", label,
+                            label));
     }
     if (std::any_of(drawn_.begin(), drawn_.end(),
                     [&](const WrittenEffects& each) { return each.label == label; })) {
-      priors.fail(base,
-                  fmt::format("is one of each {} by itself, and [random_effects.{}] draws others "
-                              "from one law: one of the two",
-                              label, label));
+      priors.fail(base, fmt::format("has an independent value for each {}, and a random effect in "
+                                    "[random_effects.{}]; remove one of the two",
+                                    label, label));
     }
     std::optional<formula::Powers> powers;
     const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
@@ -470,7 +473,7 @@ class Reader {
       }
       const formula::Powers own = powers_of_prior(priors, key);
       if (powers && *powers != own) {
-        priors.fail(key, fmt::format("is in {}, and of another level in {}",
+        priors.fail(key, fmt::format("is in {}, but in {} at another level",
                                      formula::description(own), formula::description(*powers)));
       }
       powers = own;
@@ -489,9 +492,9 @@ class Reader {
     const TomlReader random_effects = root_.required_table("random_effects");
     const TomlReader table = random_effects.required_table(*model_->label);
     if (!model_->data.label(*model_->label)) {
-      random_effects.fail(*model_->label,
-                          "is no column under data.columns; what varies does so from label "
-                          "to label");
+      random_effects.fail(
+          *model_->label,
+          "is not a column under data.columns; random effects vary over the levels of a label");
     }
     const std::vector<std::size_t> begin = formula::slots(model_->symbols);
     std::set<std::size_t> own;
@@ -501,7 +504,9 @@ class Reader {
                                        [&](const auto& each) { return each.name == symbol.name; });
       if (effect == effects_.end()) continue;
       if (symbol.scope != formula::Scope::one) {
-        table.fail(symbol.name, "is one for each level of a label already; it cannot vary as well");
+        table.fail(
+            symbol.name,
+            "has one value for each level of a label; it cannot have a random effect as well");
       }
       model_->effects.push_back({symbol.name, s, begin[s], effect->lognormal});
       model_->row_symbols.parameters[s].scope = formula::Scope::per_row;
@@ -510,17 +515,17 @@ class Reader {
     for (const WrittenEffect& effect : effects_) {
       const bool known = std::any_of(model_->effects.begin(), model_->effects.end(),
                                      [&](const Effect& each) { return each.name == effect.name; });
-      if (!known) table.fail(effect.name, "is no parameter: it has no prior");
+      if (!known) table.fail(effect.name, "is not a parameter: it has no prior");
     }
     for (std::size_t i = 0; i < model_->parameters.size(); ++i) {
       if (!own.count(i)) model_->shared.push_back(i);
     }
     model_->units = model_->data.label(*model_->label)->levels;
     if (model_->units.size() < 2) {
-      random_effects.fail(*model_->label,
-                          fmt::format("all rows of {} are of one {}; how it varies needs at "
-                                      "least 2",
-                                      model_->data.table.source, *model_->label));
+      random_effects.fail(
+          *model_->label,
+          fmt::format("all rows of {} are of one {}; its variation needs at least 2",
+                      model_->data.table.source, *model_->label));
     }
     put_drawn_effects_in_rows(*model_);
   }
@@ -538,7 +543,7 @@ class Reader {
       wanted.push_back({fmt::format("[random_effects.{}] {} {}", *model_->label, effect.name,
                                     effect.lognormal ? "log_sd" : "sd"),
                         written->scatter, powers,
-                        effect.lognormal ? "a logarithm's scatter" : effect.name, true});
+                        effect.lognormal ? "the sd of a logarithm" : effect.name, true});
     }
     if (correlation_) {
       wanted.push_back({fmt::format("[random_effects.{}] correlation", *model_->label),
@@ -561,7 +566,7 @@ class Reader {
            {special.status, special.lower, special.upper, special.entry, special.count}) {
         if (!each) continue;
         root_.required_table("data").required_table("columns").fail(
-            *each, fmt::format("is not for a {}: each of its readings is one exact number",
+            *each, fmt::format("is not possible for a {}: each of its readings is one exact number",
                                process->form->name));
       }
     }
@@ -572,7 +577,7 @@ class Reader {
                    : special.lower ? "lower"
                    : special.upper ? "upper"
                                    : "entry",
-                   "is not for a study of several measured columns: of which would it speak?");
+                   "is ambiguous in a study of several measured columns");
     }
     return special;
   }
@@ -588,7 +593,7 @@ class Reader {
         std::vector<std::string> names = number_names();
         likelihoods.fail(
             written.column,
-            fmt::format("is no column of numbers under data.columns{}",
+            fmt::format("is not a numeric column under data.columns{}",
                         names.empty() ? ""
                                       : fmt::format(" (nearest: '{}')",
                                                     nearest_name(written.column, names))));
@@ -609,7 +614,7 @@ class Reader {
                                written.column, column->unit.unit.text));
       }
       if (written.trials && !model_->data.number(*written.trials)) {
-        table.fail("trials", "must name a column of numbers under data.columns");
+        table.fail("trials", "must name a numeric column under data.columns");
       }
       for (const auto& [slot, text] : written.slots) {
         const ParameterForm& form = written.form->slots[slot];
@@ -646,7 +651,7 @@ class Reader {
     require_used_parameters();
   }
 
-  // A parameter that nothing depends on is a mistake: its posterior would be its prior.
+  // A parameter without effect on any output is a mistake: its posterior would be its prior.
   void require_used_parameters() const {
     const TomlReader priors = root_.required_table("prior");
     for (std::size_t s = 0; s < model_->symbols.parameters.size(); ++s) {
@@ -655,7 +660,7 @@ class Reader {
                       [&](const Measured& m) { return m.program.uses_parameter(s); });
       if (measured || (model_->label && model_->population.uses_parameter(s))) continue;
       const std::string& name = model_->symbols.parameters[s].name;
-      priors.fail(name, "has no part in any likelihood: nothing would be learnt of it");
+      priors.fail(name, "is in no likelihood: the data would not inform it");
     }
   }
 
@@ -667,7 +672,7 @@ class Reader {
   std::vector<std::string> texts_;
   std::vector<WrittenLikelihood> written_;
   std::vector<WrittenEffects> varies_;
-  std::vector<WrittenEffect> effects_;  // of the units, that are integrated out
+  std::vector<WrittenEffect> effects_;  // of the units, which are integrated out
   std::vector<WrittenEffects> drawn_;
   std::optional<std::string> correlation_;
   std::map<std::string, std::string> indexed_;  // parameter -> label
@@ -692,7 +697,8 @@ formula::Program compile_at(const TomlReader& table, const std::string& key,
 
 std::shared_ptr<FormulaModel> read_formula_model(const TomlReader& root, const Source& source) {
   std::shared_ptr<FormulaModel> model = Reader(root, source, 2).read();
-  // Two effects in which paths are straight cost no more than one; else, of three, one alone is integrated out.
+  // Two effects in which paths are linear cost no more than one; otherwise, of three, only one is
+  // integrated out.
   const auto drawn = std::ranges::count_if(
       model->drawn, [&](const DrawnEffect& each) { return model->label == each.label; });
   if (drawn != 1 || model->effects.empty() ||

@@ -6,11 +6,11 @@
 
 namespace wearwell::formula_model {
 
-/// Reads all of a study but [predict]: columns, constants, law, likelihoods, priors, what varies.
-/// Throws InputError.
+/// Reads a study except [predict]: columns, constants, formula, likelihoods, priors, random
+/// effects. Throws InputError.
 std::shared_ptr<FormulaModel> read_formula_model(const TomlReader& root, const Source& source);
 
-/// An expression of the study's parameters alone, or of anything, compiled with errors at its key.
+/// An expression of the study's parameters only, or of anything, compiled with errors at its key.
 formula::Program compile_at(const TomlReader& table, const std::string& key,
                             const std::vector<formula::Line>& lines, const formula::Wanted& wanted,
                             const formula::Symbols& symbols);

@@ -12,7 +12,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr double same = 1e-6;  // of the largest place on the axis: what a file rounds
+constexpr double same = 1e-6;  // of the largest position on the axis: rounding in files
 
 // The rows of each unit along the axis.
 std::vector<std::vector<std::size_t>> rows_of_units(const FormulaModel& model,
@@ -48,8 +48,8 @@ class Continuation {
   RunningPath run(std::optional<std::size_t> unit) {
     if (path_.running.nested) {
       table_.fail(key_,
-                  "has a running sum or a state of what itself depends on rows before: how it "
-                  "goes on is not predicted");
+                  "has a running sum or a state of something that depends on earlier rows; its "
+                  "continuation is not predicted");
     }
     for (std::size_t c = 0; c < columns().size(); ++c) read_column(c);
     for (std::size_t l = 0; l < model_.row_symbols.labels.size(); ++l) read_label(l);
@@ -67,7 +67,7 @@ class Continuation {
   const std::vector<formula::ColumnSymbol>& columns() const { return model_.row_symbols.columns; }
   double shown(double si) const { return from_si(axis_.unit.unit, si); }
 
-  // In all rows but the first of a unit, of which nothing is before.
+  // In all rows but the first of a unit, which has no previous row.
   bool is_step(const NumberColumn& column) const {
     if (column.unit.powers != axis_.unit.powers || column.name == axis_.name) return false;
     bool any = false;
@@ -130,17 +130,17 @@ class Continuation {
     table_.fail(
         key_,
         most == 0
-            ? fmt::format("sums up rows (cum), and no unit has two of them: how far apart "
-                          "those ahead lie along {} is not known",
+            ? fmt::format("sums over rows (cum), but no unit has two rows: the spacing of future "
+                          "rows along {} is unknown",
                           axis_.name)
-            : fmt::format("sums up rows (cum) that lie from {:.6g} to {:.6g} {} apart: how "
-                          "many there are ahead is not known. Sum up what is in proportion "
-                          "to the step of each row, a column of {} since the row before; "
-                          "or write a state, \"d(x)/d({})\"",
-                          shown(least), shown(most), axis_.unit.unit.text, axis_.name, axis_.name));
+            : fmt::format(
+                  "sums over rows (cum) that are {:.6g} to {:.6g} {} apart: the number of future "
+                  "rows is unknown. Sum a quantity proportional to the step of each row, a column "
+                  "of {} since the previous row; or write a state, \"d(x)/d({})\"",
+                  shown(least), shown(most), axis_.unit.unit.text, axis_.name, axis_.name));
   }
 
-  // Where the first row of every unit is, less `before` of it.
+  // The common position of the first rows of units, less `before` of it.
   template <class Before>
   double common_place(const Before& before, const char* what) const {
     double first = std::nan("");
@@ -148,8 +148,8 @@ class Continuation {
       const double place = axis_.values[rows.front()] - before(rows.front());
       if (std::isnan(first)) first = place;
       if (std::abs(place - first) <= same * size_) continue;
-      table_.fail(key_, fmt::format("{} where the data do, and units begin at {:.6g} and at {:.6g} "
-                                    "{}: where does a new one?",
+      table_.fail(key_, fmt::format("{} where the data do, but units begin at {:.6g} and at {:.6g} "
+                                    "{}: the start of a new unit is ambiguous",
                                     what, shown(first), shown(place), axis_.unit.unit.text));
     }
     return first;
@@ -199,7 +199,7 @@ class Continuation {
     path_.history = std::make_unique<const formula::Data>(program_.bind(bound));
   }
 
-  // One step of twice the length is two steps, at the values where searches start.
+  // One step of twice the length must equal two steps, at the start values of searches.
   void require_additive() const {
     const double reach = size_ > 0 ? size_ : 1;
     const double h = path_.row_length > 0 ? path_.row_length : 0.25 * reach;
@@ -220,7 +220,7 @@ class Continuation {
     std::vector<double> at_once(runs), half(runs), twice(runs);
     program_.carry(workspace, 0, at_once);
     program_.carry(workspace, 1, half);
-    // On from half of the way.
+    // Continues from half of the way.
     RunningPath rest;
     rest.running = path_.running;
     rest.axis = path_.axis;
@@ -237,15 +237,14 @@ class Continuation {
     for (std::size_t i = 0; i < runs; ++i) {
       const double size = std::max(std::abs(at_once[i]), std::abs(half[i]));
       if (!(std::abs(at_once[i] - twice[i]) > 1e-8 * size)) continue;
-      table_.fail(
-          key_,
-          step_ && path_.row_length == 0
-              ? fmt::format("sums up (cum) what is not in proportion to the step '{}': say how "
-                            "long the steps ahead are with predict.given.{}",
-                            step_->name, step_->name)
-              : "sums up (cum) what is not the same in all rows ahead: how it goes on is not "
-                "predicted; write a state, \"d(x)/d(" +
-                    axis_.name + ")\"");
+      table_.fail(key_,
+                  step_ && path_.row_length == 0
+                      ? fmt::format("sums (cum) a quantity that is not proportional to the step "
+                                    "'{}': give the length of future steps in predict.given.{}",
+                                    step_->name, step_->name)
+                      : "sums (cum) a quantity that varies over future rows; its continuation is "
+                        "not predicted; write a state, \"d(x)/d(" +
+                            axis_.name + ")\"");
     }
   }
 

@@ -73,7 +73,7 @@ class Part {
     effects.each(values, [&](auto share, auto value) { to.add_curve(weight, share, value); });
   }
 
-  // In which direction of two effects the path of a new unit changes, at the farthest place.
+  // The direction of two effects in which the path of a new unit changes, at the farthest position.
   std::array<double, 2> steepest(std::size_t p) {
     constexpr double away = 0.5, z[] = {away, 0, -away, 0, 0, away, 0, -away};
     const double farthest = paths_[p].places.empty() ? 0 : paths_[p].places.back();
@@ -84,8 +84,8 @@ class Part {
     return {at.output(0, 0) - at.output(0, 1), at.output(0, 2) - at.output(0, 3)};
   }
 
-  // Where conditions change, the path of a unit goes on from where it stands, wherever under the new
-  // ones that is.
+  // If conditions change, the path of a unit continues from its present value, at the corresponding
+  // position under the new ones.
   void find_shifts(std::size_t p, const double* x, const EffectLines& effects) {
     shift_.assign(effects.count(), 0);
     if (!behind_[p]) return;

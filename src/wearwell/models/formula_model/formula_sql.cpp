@@ -15,7 +15,7 @@ using fleet::Dialect;
 using formula::Node;
 using formula::Op;
 
-/// Longer texts become a step, however seldom they are used.
+/// Longer texts become a step of their own, even if they are used once.
 constexpr std::size_t longest = 2000;
 
 class Printer {
@@ -51,7 +51,7 @@ class Printer {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const std::string& of(int i) const { return text_[at(i)]; }
 
-  /// Operations whose text holds an operand more than once.
+  /// Operations whose SQL repeats an operand.
   static bool repeats(Op op) {
     switch (op) {
       case Op::power:
@@ -83,7 +83,7 @@ class Printer {
     return fmt::format("case when {} then {} else {} end", condition, yes, no);
   }
   std::string nothing() const { return clickhouse() ? "nan" : "null"; }
-  /// Of engines that end a statement where there is no number.
+  /// For engines that abort a statement where a result is not a number.
   std::string where(const std::string& condition, const std::string& yes) const {
     return clickhouse() ? yes : choose(condition, yes, nothing());
   }
@@ -95,7 +95,7 @@ class Printer {
 
   std::string exp(const std::string& x) const {
     if (dialect_ != Dialect::postgresql) return fmt::format("exp({})", x);
-    // Which ends a statement where a result is too small or too large for a double.
+    // Such an engine aborts a statement where a result underflows or overflows a double.
     return fmt::format("case when {0} < -745e0 then 0e0 when {0} < 709.7e0 then exp({0}) end", x);
   }
 
@@ -133,7 +133,7 @@ class Printer {
       default:
         break;
     }
-    // pick: the slot of the row's label.
+    // pick: the value for the row's label.
     const std::size_t l = at(node.level);
     std::string text = nothing();
     for (std::size_t k = symbols_.labels[l].levels.size(); k-- > 0;)
@@ -166,7 +166,7 @@ class Printer {
       case Op::abs:
         return call("abs");
       case Op::tanh:
-        // ClickHouse 18.16 has none.
+        // ClickHouse 18.16 lacks the function.
         return !clickhouse() ? call("tanh")
                              : choose(fmt::format("abs({}) < 1e-4", a),
                                       fmt::format("{0} * (1e0 - {0} * {0} / 3e0)", a),
@@ -180,13 +180,14 @@ class Printer {
       case Op::erf:
         if (clickhouse()) return call("erf");
         throw InputError(
-            fmt::format("the law holds erf, which {} does not know", fleet::name_of(dialect_)));
-      // Kahan's form, which keeps all digits near 0 (Goldberg, ACM Computing Surveys 23, 1991, theorem 4).
+            fmt::format("the formula uses erf, which {} does not have", fleet::name_of(dialect_)));
+      // Kahan's form, which keeps full precision near 0 (Goldberg, ACM Computing Surveys 23, 1991,
+      // theorem 4).
       case Op::log1p:
         return where(a + " > -1e0",
                      choose(fmt::format("1e0 + {} = 1e0", a), a,
                             fmt::format("ln(1e0 + {0}) * {0} / ((1e0 + {0}) - 1e0)", a)));
-      // Elsewhere at least eleven digits are left of the difference.
+      // Otherwise the difference keeps at least eleven digits.
       case Op::expm1:
         return choose(fmt::format("abs({}) < 1e-5", a),
                       fmt::format("{0} * (1e0 + {0} * (0.5e0 + {0} / 6e0))", a), exp(a) + " - 1e0");
@@ -201,8 +202,8 @@ class Printer {
 
   [[noreturn]] static void refuse_rows_before() {
     throw InputError(
-        "the law depends on rows before its own (cum, step, a state by its rate): such a path is "
-        "not printed as SQL");
+        "the formula depends on earlier rows (cum, step, a state given by its rate); SQL export "
+        "does not support such paths");
   }
 
   std::string binary(const Node& node) const {

@@ -13,13 +13,13 @@
 namespace wearwell::formula_model {
 namespace {
 
-// The likelihood, seen from a posterior that does not own it.
+// A non-owning view of the likelihood.
 std::shared_ptr<const LogDensity> borrowed(const LogDensity& density) {
   return {std::shared_ptr<const LogDensity>(), &density};
 }
 
-// Values of one parameter from u in (0, 1): quantiles of its prior, or where that is no distribution
-// any order of magnitude about one of its unit.
+// Values of one parameter from u in (0, 1): quantiles of its prior, or if that is improper, orders
+// of magnitude around one of its unit.
 class Spread {
  public:
   explicit Spread(const Parameter& parameter)
@@ -90,7 +90,7 @@ std::vector<Candidate> candidates(const LogDensity& likelihood,
   return all;
 }
 
-// With the size of what has no proper prior taken from where it is.
+// Where the prior is improper, the size comes from the current value.
 std::vector<Parameter> started_at(std::vector<Parameter> parameters, const std::vector<double>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     Parameter& each = parameters[i];
@@ -105,8 +105,9 @@ std::vector<Parameter> started_at(std::vector<Parameter> parameters, const std::
   return parameters;
 }
 
-// Prior times likelihood on the real line, without the Jacobian: where priors are flat the likelihood, which has a maximum though
-// the density of the real line may grow without end (an improper posterior).
+// Prior times likelihood on the real line, without the Jacobian: under flat priors the likelihood,
+// which has a maximum even if the density on the real line grows without bound (an improper
+// posterior).
 class WithoutJacobian final : public LogDensity {
  public:
   explicit WithoutJacobian(const Posterior& posterior) : posterior_(posterior) {}
@@ -129,7 +130,7 @@ class WithoutJacobian final : public LogDensity {
   const Posterior& posterior_;
 };
 
-// From the likeliest candidates to a maximum of the likelihood; nothing where no climb ends at one.
+// From the best candidates to a maximum of the likelihood; empty if no climb converges.
 std::optional<std::vector<double>> likeliest(const LogDensity& likelihood,
                                              const std::vector<Parameter>& parameters,
                                              const std::vector<Candidate>& from) {
@@ -159,7 +160,7 @@ std::optional<std::vector<double>> likeliest(const LogDensity& likelihood,
 void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters) {
   constexpr std::size_t climbs = 4;
   const std::vector<Candidate> from = candidates(likelihood, parameters);
-  if (!(from.front().log_density > -infinity)) return;  // the posterior will say where
+  if (!(from.front().log_density > -infinity)) return;  // the posterior decides
   std::vector<Parameter> best = started_at(parameters, from.front().x);
   double highest = -infinity;
   const auto n = static_cast<Eigen::Index>(parameters.size());
@@ -187,8 +188,8 @@ void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameter
       if (std::isfinite(width) && width > 0) each.scale = width;
     }
   }
-  // Under flat priors the real line's density may grow for ever; a climb that follows it ends at the end of doubles, where the
-  // likelihood is low.
+  // Under flat priors the density on the real line may grow without bound; a climb that follows it
+  // ends at overflow, where the likelihood is low.
   constexpr double far_below = 5;
   const bool flat = std::any_of(parameters.begin(), parameters.end(),
                                 [](const Parameter& each) { return !each.prior.proper; });

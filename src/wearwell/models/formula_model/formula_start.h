@@ -8,9 +8,9 @@
 
 namespace wearwell::formula_model {
 
-/// Where searches start, and how wide parameters without a proper prior are: nobody has said what is
-/// plausible of a law that is not known beforehand. From the middle of the priors and points spread
-/// over them, the best climb to a mode. Leaves what it finds no better.
+/// Start values of searches, and the width of parameters without a proper prior, since plausible
+/// values of a user's formula are not known in advance. From the middle of the priors and points
+/// spread over them, the best climb to a mode. Changes nothing if it finds nothing better.
 void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters);
 
 }  // namespace wearwell::formula_model

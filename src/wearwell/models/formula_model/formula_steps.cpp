@@ -11,7 +11,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// No smaller factor of the mean has a slope that a double holds.
+// For a smaller factor of the mean the slope overflows.
 constexpr double least_factor = 1e-290;
 
 bool has_noise(const Measured& measured) {
@@ -125,7 +125,7 @@ void StepUnits::add_noisy_steps(std::size_t u) {
   unit.by_square = all.by_square;
 }
 
-// What a step says, dy where its mean is q w.
+// The term of a step dy with mean q w.
 void StepUnits::add_step(std::size_t row, double w, double dy, double spread, double before,
                          Unit& unit) {
   const ProcessForm& form = *column_.measured->process;
@@ -162,9 +162,10 @@ void StepUnits::add_step(std::size_t row, double w, double dy, double spread, do
     return;
   }
   const double shape = w / spread;
-  unit.constant -= log_dy + dy / spread;  // log u and what the density has of it cancel
+  unit.constant -= log_dy + dy / spread;  // log u cancels against a term of the density
   unit.by_one += shape * (log_dy - log_u);
-  // Steps that differ in their last digits stand for their mean: what that leaves is of second order.
+  // Steps that differ only in their last digits are replaced by their mean: the error is of second
+  // order.
   const auto same = std::find_if(unit.alike.begin(), unit.alike.end(), [&](const Alike& each) {
     return std::abs(each.shape - shape) < 1e-9 * shape;
   });
@@ -221,7 +222,7 @@ void StepUnits::evaluate(std::span<const double> z, std::span<const std::uint8_t
   }
 }
 
-// What a node says of the slopes of the unit's log likelihood.
+// The contribution of a node to the slopes of the unit's log-likelihood.
 void StepUnits::take(Unit& unit, double z, double weight, Moments& m, Population& by) const {
   const Population& population = rows_.population();
   const bool lognormal = model_.effects[0].lognormal;
@@ -244,7 +245,7 @@ void StepUnits::give(std::size_t u, const Moments& m) {
   if (noisy_) return give_noisy(u, m);
   const Unit& unit = unit_[u];
   const ProcessForm& form = *column_.measured->process;
-  std::size_t last = column_.unit.size();  // the row before
+  std::size_t last = column_.unit.size();  // the previous row
   for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
     if (!(column_.count[i] > 0)) continue;
     const bool first = last == column_.unit.size();

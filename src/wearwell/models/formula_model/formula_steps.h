@@ -14,39 +14,42 @@ namespace wearwell::formula_model {
 class UnitRows;
 struct BoundColumn;
 
-/// Whether the one column is a process, its mean in proportion to the one effect of a unit, and its scale or standard
-/// deviation without it; errors of readings, of a Wiener process alone, too. Tried with numbers, as `is_linear` does.
+/// Whether the single column is a process, its mean proportional to the unit's one effect, and its
+/// scale or standard deviation independent of it; errors of readings only for a Wiener process.
+/// Tested numerically, as in `is_linear`.
 bool is_proportional(const FormulaModel& model, const std::vector<BoundColumn>& columns);
 
-/// The same likelihood as that of `UnitRows`, from one look at the rows: with q the unit's effect over the middle,
+/// The same likelihood as that of `UnitRows`, from one pass over the rows: with q the unit's effect
+/// over the median,
 ///
-///   log L(q) = constant + powers of q + a logarithm of q - log Gamma(q alpha) of steps that are alike,
+///   log L(q) = constant + powers of q + a logarithm of q - log Gamma(q alpha) of equal steps,
 ///
-/// whatever the number of its rows. Where readings have errors and the variance of steps is in proportion to q as well (a
-/// Wiener process by `scale`), Kalman's recursion over the rows at several q together (noisy_steps.h).
+/// for any number of rows. If readings have errors and the variance of steps is proportional to q
+/// as well (a Wiener process with `scale`), Kalman's recursion over the rows at several q together
+/// (noisy_steps.h).
 class StepUnits final : public latent::UnitTerms {
  public:
   explicit StepUnits(UnitRows& rows);
 
-  /// To where the rows have been moved.
+  /// To the parameters of the rows' last move.
   void move();
 
   std::size_t units() const override;
   int effects() const override { return 1; }
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
-  /// The sum of the units' log likelihoods by a rule with wider steps than latent::integrate takes; nothing
-  /// where that does not settle. With `gradient` that is added as well.
+  /// The sum of the units' log-likelihoods by a rule with wider steps than latent::integrate; empty
+  /// if it does not converge. With `gradient` that is added as well.
   std::optional<double> sum(std::span<double> gradient = {});
-  /// Each unit's instead; false where `sum` gives nothing.
+  /// The value of each unit instead; false if `sum` is empty.
   bool each(std::vector<double>& log_likelihood);
-  /// With the nodes, closer to each other; false where `sum` gives nothing, and without errors of readings.
+  /// With the nodes, more closely spaced; false if `sum` is empty, and without errors of readings.
   bool integrate(latent::UnitIntegrals& result);
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
 
  private:
-  // Steps of a gamma process with about the same mean over scale.
+  // Steps of a gamma process with nearly equal mean over scale.
   struct Alike {
     double count, shape;
     double slope = 0;  // the mean of q digamma(q shape) over the unit's posterior
@@ -65,7 +68,7 @@ class StepUnits final : public latent::UnitTerms {
   struct Nodes {
     static constexpr std::size_t most = 400, together = 8;
     std::size_t count = 0;
-    std::array<double, most> z, f;  // f: shares of the integral
+    std::array<double, most> z, f;  // f: weights of the integral
     std::array<bool, most> odd;
   };
   void add_step(std::size_t row, double w, double dy, double spread, double before, Unit& unit);
@@ -90,7 +93,7 @@ class StepUnits final : public latent::UnitTerms {
   UnitRows& rows_;
   const FormulaModel& model_;
   const BoundColumn& column_;
-  bool noisy_, scaled_;  // readings have errors; and the variance of steps is in proportion to q
+  bool noisy_, scaled_;  // readings have errors; and the variance of steps is proportional to q
   double base_ = 1;
   std::vector<double> mean_, spread_, noise_, by_mean_, by_spread_, by_noise_;
   NoisySteps::Slopes slopes_;

@@ -15,7 +15,7 @@ double StepUnits::slope_by_z(const Unit& unit, double z) const {
   return slope_of(unit, q) * by_z - z;
 }
 
-// Where a unit's integrand is highest, about: the secant's method within a bracket.
+// The approximate maximum of a unit's integrand: the secant method within a bracket.
 std::optional<StepUnits::LaplaceApproximation> StepUnits::approximation(const Unit& unit) const {
   constexpr double close = 0.1, longest = 3, probe = 0.02;
   constexpr int most_rounds = 40;
@@ -37,7 +37,7 @@ std::optional<StepUnits::LaplaceApproximation> StepUnits::approximation(const Un
   return {};
 }
 
-// At some z together.
+// At several z together.
 void StepUnits::log_densities(const Unit& unit, const double* z, double* log_f) const {
   constexpr std::size_t n = Nodes::together;
   const Population& population = rows_.population();
@@ -68,7 +68,8 @@ void StepUnits::log_densities(const Unit& unit, const double* z, double* log_f) 
   }
 }
 
-// Nodes on both sides of the middle, until the integrand is e^-30 of its highest; false where there are too many.
+// Nodes on both sides of the mode, until the integrand is e^-30 of its maximum; false if there are
+// too many.
 bool StepUnits::lay(const Unit& unit, const LaplaceApproximation& about, double width) {
   constexpr std::size_t n = Nodes::together;
   nodes_.count = 0;
@@ -92,7 +93,7 @@ bool StepUnits::lay(const Unit& unit, const LaplaceApproximation& about, double 
   return highest > -infinity;
 }
 
-// The nodes and their shares are kept.
+// Keeps the nodes and their weights.
 std::optional<double> StepUnits::integral(const Unit& unit, std::span<const double> gaps) {
   const auto about = approximation(unit);
   if (!about) return {};
@@ -122,9 +123,9 @@ std::optional<double> StepUnits::sum(std::span<double> gradient) {
   return sum;
 }
 
-// The derivatives of a unit's steps, to its rows.
+// Passes the derivatives of a unit's steps to its rows.
 void StepUnits::give_slopes(std::size_t u) {
-  std::size_t last = column_.unit.size(), step = 0;  // the row before
+  std::size_t last = column_.unit.size(), step = 0;  // the previous row
   for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
     if (!(column_.count[i] > 0)) continue;
     const bool first = last == column_.unit.size();
@@ -145,7 +146,8 @@ void StepUnits::give_slopes(std::size_t u) {
   }
 }
 
-// The mean of a quadratic function is that of its values one standard deviation on both sides of the middle.
+// The mean of a quadratic function is that of its values one standard deviation to both sides of
+// the center.
 void StepUnits::give_noisy(std::size_t u, const Moments& m) {
   const double away = std::sqrt(std::max(0.0, m.square - m.one * m.one));
   double q[NoisySteps::together] = {m.one + away, m.one - away}, by_q[NoisySteps::together];
@@ -195,7 +197,7 @@ bool StepUnits::each(std::vector<double>& log_likelihood) {
   return true;
 }
 
-// Lives are mixed over the nodes: these lie closer than sums need.
+// Lives are mixed over the nodes, which are denser than sums need.
 bool StepUnits::integrate(latent::UnitIntegrals& result) {
   constexpr double gaps[] = {0.25, 0.125};
   if (!noisy_) return false;

@@ -75,15 +75,16 @@ std::vector<std::string> meanings(const FormulaModel& model) {
       all[each.middle] = fmt::format("{} {}'s", each.lognormal ? "median" : "mean", each.label);
     }
     for (std::size_t i = 0; i <= each.seen; ++i) {
-      all[each.first + i] = fmt::format("{} of this {}, from the middle", each.name, each.label);
+      all[each.first + i] =
+          fmt::format("{} of this {}, relative to the median", each.name, each.label);
     }
   }
   return all;
 }
 
 std::vector<std::string> notes(const FormulaModel& model) {
-  static constexpr const char* words[] = {"exact", "censored to the right", "censored to the left",
-                                          "known to an interval"};
+  static constexpr const char* words[] = {"exact", "right-censored", "left-censored",
+                                          "interval-censored"};
   std::vector<std::string> all;
   for (const Measured& each : model.measured) {
     long long counts[4] = {}, sum = 0, truncated = 0;
@@ -100,22 +101,21 @@ std::vector<std::string> notes(const FormulaModel& model) {
     std::string note =
         fmt::format("{}: {} observation{}{}", each.column, sum, sum == 1 ? "" : "s",
                     counts[0] == sum ? "" : fmt::format(": {}", fmt::join(parts, ", ")));
-    if (truncated > 0) note += fmt::format("; {} seen only from an entry on", truncated);
+    if (truncated > 0) note += fmt::format("; {} with delayed entry", truncated);
     all.push_back(note);
     if (!each.form->counted && each.observed.failures == 0) {
-      all.push_back(
-          fmt::format("no row of {} is a failure: how long a life may be is said by the "
-                      "priors alone",
-                      each.column));
+      all.push_back(fmt::format(
+          "no row of {} is a failure: the priors alone determine the upper end of a life",
+          each.column));
     }
   }
   if (model.has_random_effects())
     all.push_back(fmt::format("{} {}s", model.units.size(), *model.label));
   for (const formula_model::DrawnEffect& each : model.drawn) {
     all.push_back(
-        fmt::format("{} of each of {} {}s is drawn, not integrated out: by NUTS, without "
-                    "quadrature beside it. The mode is then one of all that is drawn together: "
-                    "its scatters are no estimates",
+        fmt::format("{} of each of {} {}s is drawn, not integrated out: by NUTS, without a "
+                    "quadrature for comparison. The mode is then the joint mode of all drawn "
+                    "values: its scatters are not estimates",
                     each.name, each.seen, each.label));
   }
   return all;
@@ -127,7 +127,7 @@ bool saw_no_wear(const Observed& observed) {
   });
 }
 
-// Of lives no failure, of wear along an axis no reading above zero.
+// Lives without a failure, or wear along an axis without a reading above zero.
 NothingSeen nothing_seen(const FormulaModel& model) {
   const auto all = [&](auto property) {
     return std::all_of(model.measured.begin(), model.measured.end(), property);
@@ -137,8 +137,8 @@ NothingSeen nothing_seen(const FormulaModel& model) {
   const Measured& first = model.measured.front();
   const int count = std::accumulate(first.observed.counts.begin(), first.observed.counts.end(), 0);
   const std::string give_prior =
-      "State what is known of the parameters before the data; until something is observed, read "
-      "every upper end as a statement of the prior.";
+      "State what you know of the parameters; until a failure or wear is observed, read every "
+      "upper end as a statement of the prior.";
   if (!model.along && all([](const Measured& each) { return each.observed.failures == 0; })) {
     return {"no-failures",
             fmt::format("no failure was observed among {} observation{} of {}: the data only "
@@ -157,7 +157,7 @@ NothingSeen nothing_seen(const FormulaModel& model) {
   return {};
 }
 
-// What the likelihood is a density of, and what it stands on.
+// What the likelihood is a density of, and its parameters.
 void tell_data(const FormulaModel& model, PosteriorStudy& study) {
   std::vector<std::string> names;
   for (const Measured& each : model.measured) {
@@ -180,8 +180,8 @@ void tell_data(const FormulaModel& model, PosteriorStudy& study) {
         std::all_of(column.unit.powers.begin(), column.unit.powers.end(),
                     [](const auto& power) { return power.second.denominator() == 1; });
     if (!whole || !integers) continue;
-    // Of lengths a law does not say which are sizes and which are ways, that of a car's life, say. What is
-    // measured along something else is a size.
+    // A formula does not tell lengths that are sizes from lengths that are distances, such as a
+    // car's mileage. A length measured along another axis is a size.
     const bool size = model.along &&
                       std::any_of(model.measured.begin(), model.measured.end(),
                                   [&](const Measured& each) { return each.column == column.name; });
@@ -193,8 +193,8 @@ void tell_data(const FormulaModel& model, PosteriorStudy& study) {
   }
 }
 
-// The first expression that is no number where the search starts, with its row: a clearer word than that
-// the posterior is not finite there.
+// Names the first expression that is not a number at the start of the search, with its row: clearer
+// than reporting that the posterior is not finite there.
 void require_numbers(const FormulaModel& model) {
   if (model.has_random_effects()) return;
   std::vector<double> x;
@@ -205,10 +205,10 @@ void require_numbers(const FormulaModel& model) {
         bound.measured->program.first_fault(bound.data, 0, bound.data.rows(), {x, {}});
     if (!fault) continue;
     const std::size_t row = bound.measured->observed.rows[bound.term[fault->row]];
-    throw InputError(
-        fmt::format("{}{}: {} in '{}' ({}), at values of the parameters where the search starts",
-                    model.data.table.source, fault->uniform ? "" : fmt::format(", row {}", row + 1),
-                    fault->why, fault->expression, fault->where));
+    throw InputError(fmt::format("{}{}: {} in '{}' ({}), at the start values of the parameters",
+                                 model.data.table.source,
+                                 fault->uniform ? "" : fmt::format(", row {}", row + 1), fault->why,
+                                 fault->expression, fault->where));
   }
 }
 
@@ -219,8 +219,8 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   if (study.stages) {
     root.required_table("update").fail(
         "stages",
-        "is not for model \"formula\"; fit the first rows as a study of their own (data.sql "
-        "= \"select ... limit 6\")");
+        "is not possible for model \"formula\"; fit the first rows as a "
+        "separate study (data.sql = \"select ... limit 6\")");
   }
   study.data_rows = model->data.table.rows;
   study.data_layout = model->data.table.layout;

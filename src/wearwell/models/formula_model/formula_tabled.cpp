@@ -13,7 +13,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Slots of the study's parameters that an expression of the rows leans on, other than effects.
+// Indices of the study's parameters that an expression of the rows depends on, other than effects.
 std::vector<std::size_t> leans_on(const FormulaModel& model, const formula::Wanted& wanted) {
   const formula::Program program = formula::compile(model.lines, {wanted}, model.row_symbols);
   const std::vector<std::size_t> slots = formula::slots(model.row_symbols);
@@ -25,7 +25,7 @@ std::vector<std::size_t> leans_on(const FormulaModel& model, const formula::Want
   return found;
 }
 
-// Corners and jumps, which polynomials may miss.
+// Kinks and jumps, which polynomials may miss.
 bool is_smooth(const FormulaModel& model) {
   static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
   const auto found = [](const auto& each) { return std::regex_search(each.text, cases); };
@@ -33,7 +33,7 @@ bool is_smooth(const FormulaModel& model) {
          std::none_of(model.measured[0].wanted.begin(), model.measured[0].wanted.end(), found);
 }
 
-// Sums of squares by the rows themselves.
+// Sums of squares computed from the rows.
 class RowMismatch final : public Mismatch {
  public:
   RowMismatch(UnitRows& rows, const TabledForm& form)
@@ -73,14 +73,14 @@ class RowMismatch final : public Mismatch {
   std::vector<double> at_, effects_, mean_;
 };
 
-// Where a parameter lies at all, by its prior.
+// The range of a parameter by its prior.
 std::optional<std::pair<double, double>> range_of(const Parameter& parameter) {
   constexpr double rare = 1e-9;
   if (!parameter.prior.proper) return {};
   return std::pair(quantile(parameter.prior, rare), quantile(parameter.prior, 1 - rare));
 }
 
-// Of the logarithm of a unit's effect: that of the middle, and some more.
+// The logarithm of a unit's effect: the range of the median, with a margin.
 std::optional<std::pair<double, double>> range_of_effect(const FormulaModel& model) {
   constexpr double farthest = 25, beyond = 3;
   const Effect& effect = model.effects[0];
@@ -245,7 +245,8 @@ bool TabledUnits::each(std::vector<double>& log_likelihood) {
   return true;
 }
 
-// Where a unit's integrand is highest, about, and how wide it is there, in x; nothing where that is not in the table.
+// The approximate mode of a unit's integrand and its width there, in x; empty if it is outside the
+// table.
 std::optional<TabledUnits::LaplaceApproximation> TabledUnits::approximation(std::size_t unit) {
   constexpr double close = 0.1;
   const double per_square = 0.5 / (size_ * size_), prior = 1 / (scatter_ * scatter_);
@@ -268,7 +269,7 @@ std::optional<TabledUnits::LaplaceApproximation> TabledUnits::approximation(std:
   return {};
 }
 
-// By nodes on both sides of the middle; nothing where they are too many or leave the table.
+// By nodes on both sides of the mode; empty if they are too many or leave the table.
 std::optional<double> TabledUnits::integral(std::size_t unit, Moments* moments) {
   if (!(readings_[unit] > 0)) return 0.0;
   if (!(scatter_ > 0 && std::isfinite(scatter_))) return {};
@@ -299,7 +300,7 @@ std::optional<double> TabledUnits::integral(std::size_t unit, Moments* moments) 
   return {};
 }
 
-// Means under the unit's posterior, of derivatives by what its integrand depends on.
+// Means of derivatives of the integrand under the unit's posterior.
 void TabledUnits::add_moments(std::size_t unit, Moments& moments) {
   constexpr double negligible = 1e-12;
   const double per_square = 0.5 / (size_ * size_);

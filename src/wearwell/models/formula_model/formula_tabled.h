@@ -17,29 +17,29 @@ namespace wearwell::formula_model {
 class UnitRows;
 struct BoundColumn;
 
-/// A law whose units can be tabled: one column of exact readings, normal or lognormal about a curve
-/// of one effect and at most one parameter that all share (Paris: C of each plate, m), with one
+/// A model whose units can be tabulated: one column of exact readings, normal or lognormal around a
+/// curve of one effect and at most one shared parameter (Paris: C of each plate, m), with one
 /// standard deviation for all.
 struct TabledForm {
   std::optional<std::size_t> shared;  ///< the parameter, among the study's
   bool logarithms = false;            ///< of the readings
-  formula::Program size;  ///< the slot of their standard deviation, of the study's parameters
+  formula::Program size;  ///< the index of their standard deviation, in the study's parameters
   double per_slot = 1;    ///< their standard deviation over that
 };
 
 std::optional<TabledForm> tabled_form(const FormulaModel& model,
                                       const std::vector<BoundColumn>& columns);
 
-/// None where the table does not come out (mismatch_table.h).
+/// Empty if the table is not accurate enough (mismatch_table.h).
 std::shared_ptr<const MismatchTable> make_table(UnitRows& rows, const TabledForm& form);
 
-/// The same likelihood as that of `UnitRows`, read off a table of the units' sums of squares; by the rows where that
-/// does not reach.
+/// The same likelihood as that of `UnitRows`, from a table of the units' sums of squares; from the
+/// rows outside the table.
 class TabledUnits final : public latent::UnitTerms {
  public:
   TabledUnits(UnitRows& rows, const TabledForm& form, std::shared_ptr<const MismatchTable> table);
 
-  /// To where the rows have been moved.
+  /// To the parameters of the rows' last move.
   void move();
 
   std::size_t units() const override;
@@ -47,10 +47,10 @@ class TabledUnits final : public latent::UnitTerms {
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
 
-  /// The sum of the units' log likelihoods by a rule with wider steps than latent::integrate takes; nothing where that
-  /// does not settle, or leaves the table. With `gradient` that is added as well.
+  /// The sum of the units' log-likelihoods by a rule with wider steps than latent::integrate; empty
+  /// if it does not converge, or leaves the table. With `gradient` that is added as well.
   std::optional<double> sum(std::span<double> gradient = {});
-  /// Each unit's instead; false where `sum` gives nothing.
+  /// The value of each unit instead; false if `sum` is empty.
   bool each(std::vector<double>& log_likelihood);
 
  private:
@@ -78,7 +78,7 @@ class TabledUnits final : public latent::UnitTerms {
   MismatchSlice slice_;
   formula::Data size_data_;
   formula::Workspace size_workspace_;
-  std::vector<double> readings_, constant_;  // by unit: their number, what their logarithms add
+  std::vector<double> readings_, constant_;  // by unit: number of readings, sum of their logarithms
   bool inside_ = false;
   double middle_ = 0, scatter_ = 0, size_ = 1, log_size_ = 0;  // of x; of a reading
   const double* x_ = nullptr;

@@ -55,7 +55,7 @@ class FormulaTracker final : public prognosis::Tracker {
   }
 
  private:
-  // What a unit showed in the study, along the axis.
+  // The readings of a unit in the study, along the axis.
   std::vector<UnitReading> rows_of(const std::string& unit) const {
     const auto at = std::find(seen_.begin(), seen_.end(), unit);
     if (at == seen_.end()) return {};
@@ -74,12 +74,12 @@ class FormulaTracker final : public prognosis::Tracker {
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
   const TomlReader root = TomlReader::parse(state.source.study);
   const std::shared_ptr<const FormulaModel> model = read_formula_model(root, state.source);
-  refuse_drawn_effects(*model, "followed on line");
+  refuse_drawn_effects(*model, "tracked");
   for (const Measured& each : model->measured) {
     if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)
       continue;
     throw InputError(
-        fmt::format("{}: a {} with noise is not followed on line; a wiener-process with noise is",
+        fmt::format("{}: a {} with noise cannot be tracked; a wiener-process with noise can",
                     each.column, each.form->name));
   }
   std::vector<std::string> names;

@@ -7,8 +7,8 @@
 
 namespace wearwell::formula_model {
 
-/// Follows units of a law in the user's own words (docs/explanation/tracking.md). Throws InputError where the study asks for
-/// no limit, or its units cannot be followed.
+/// Tracks units of a formula model (docs/explanation/tracking.md). Throws InputError if the study
+/// has no threshold, or its units cannot be tracked.
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state);
 
 }  // namespace wearwell::formula_model

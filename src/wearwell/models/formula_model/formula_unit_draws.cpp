@@ -8,10 +8,10 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t most_points = 500;
-constexpr double negligible = 1e-7;  // of the unit's posterior: nodes with less are left out
+constexpr double negligible = 1e-7;  // of the unit's posterior: smaller nodes are left out
 
 struct Nodes {
-  std::vector<double> values, lower, upper;  // parameters, then effects; where the node's cell ends
+  std::vector<double> values, lower, upper;  // parameters, then effects; end of the node's cell
   std::vector<double> weights;
 
   void add(const Nodes& other) {
@@ -44,7 +44,8 @@ struct Part {
     std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return *a.z < *b.z; });
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const double* const z = nodes[i].z;
-      // Of one effect a cell ends midway to the next node; of two the nodes are many, and stand for themselves.
+      // With one effect a cell ends midway to the next node; with two the nodes are many, and each
+      // is a point.
       double below = *z, above = *z;
       if (d == 1 && nodes.size() > 1) {
         const double before = i > 0 ? *z - *nodes[i - 1].z : *nodes[1].z - *z;

@@ -5,8 +5,8 @@
 
 namespace wearwell::formula_model {
 
-/// A posterior with the effects of a unit that was seen: points of the parameters, and after them the
-/// unit's effects on the nodes on which they were integrated out, over at most 500 points of the posterior.
+/// A posterior with the effects of a unit of the study: points of the parameters, followed by the
+/// unit's effects at the nodes of their integral, over at most 500 points of the posterior.
 WeightedDraws with_unit(const FormulaRows& rows, std::size_t unit, const WeightedDraws& draws);
 
 }  // namespace wearwell::formula_model

@@ -14,7 +14,7 @@ namespace {
 constexpr int of_panel = 12, of_pole = 16, panel_width = 8, known_panels = 256, known_lags = 2048,
               most_halves = 48;
 constexpr int stencil = HiddenStep::stencil, before = HiddenStep::before;
-constexpr double smooth_shape = 6;  // from there on a gamma density is smooth enough at 0
+constexpr double smooth_shape = 6;  // above this shape a gamma density is smooth enough at 0
 
 // Weights of the polynomial through places -5 .. 6, at t in [0, 1).
 void interpolate(double t, double* weight) {
@@ -39,7 +39,7 @@ void interpolate(double t, double* weight) {
   }
 }
 
-// Nodes in widths of the lattice.
+// Nodes in units of the lattice width.
 struct Places {
   std::vector<double> at, log_at, weight;
   std::vector<std::array<double, stencil>> by;  // polynomials there
@@ -70,7 +70,8 @@ struct Tables {
   std::vector<Places> halves;
   std::vector<double> log_at;   // of the nodes of each panel
   std::vector<double> log_lag;  // of whole numbers
-  // Of the pole's nodes: weight times (2n + 1) times Legendre's polynomial on [0, 1], by node, then n.
+  // Of the nodes at the pole: weight times (2n + 1) times Legendre's polynomial on [0, 1], by node,
+  // then n.
   std::array<std::array<double, of_pole>, of_pole> legendre{};
 
   Tables() {
@@ -118,7 +119,7 @@ struct HiddenStep::Distribution {
       rest = std::log(dm) - 0.5 * (log_two_pi + log_scale);
     }
   }
-  // Then by Stirling's series, which does not lose the digits of large logarithms.
+  // For large arguments by Stirling's series, to avoid cancellation.
   bool large() const { return shape > 1e4; }
   double density(double x, double log_x) const {
     if (gamma && large()) {
@@ -152,7 +153,7 @@ const double* HiddenStep::own_stencil(double place, int& from) {
   return weight;
 }
 
-// `place` is in widths.
+// `place` is in lattice widths.
 void HiddenStep::add(const Distribution& increments, double place, double log_place, double weight,
                      double shrink, int from, const double* by) {
   const double x = place * h_, log_x = log_place + log_h_;
@@ -211,7 +212,7 @@ void HiddenStep::add_pole(const Distribution& increments, double shrink) {
   }
 }
 
-// Of an inverse Gaussian step, down to where nothing is left of it.
+// Of an inverse Gaussian step, down to where its density is negligible.
 void HiddenStep::add_halves(const Distribution& increments, double shrink) {
   const double nothing = increments.mean * increments.shape / 90, log_shrink = std::log(shrink);
   double low = panel_width * shrink * h_;
@@ -233,7 +234,7 @@ void HiddenStep::lay_nothing() {
 }
 
 void HiddenStep::lay(Process process, double mean, double scale, double h, int least, int most) {
-  // A step that is surer than that is as good as sure.
+  // A step with less variance counts as certain.
   const Distribution increments(process == Process::gamma, mean, std::max(scale, 1e-16 * mean));
   scale = increments.scale;
   none_ = false;

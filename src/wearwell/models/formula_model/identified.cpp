@@ -10,7 +10,8 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Every slot of every observation, with units at three places of their population.
+// Every distribution parameter of every observation, with units at three quantiles of their
+// population.
 std::vector<double> all_slots(const FormulaRows& rows, const std::vector<double>& x) {
   UnitRows& units = rows.mine().rows;
   units.move_to(x.data());
@@ -31,7 +32,8 @@ double size_of(const Parameter& parameter, double x) {
   return x != 0 ? std::abs(x) : parameter.scale;
 }
 
-// Derivatives of the slots, relative to their size, by relative changes of the parameters.
+// Derivatives of the distribution parameters, relative to their size, by relative changes of the
+// parameters.
 Eigen::MatrixXd derivatives(const FormulaRows& rows, const std::vector<Parameter>& parameters,
                             std::vector<double> x) {
   constexpr double step = 1e-4;
@@ -55,7 +57,7 @@ Eigen::MatrixXd derivatives(const FormulaRows& rows, const std::vector<Parameter
   return result;
 }
 
-// The direction along which nothing moves, as relative changes; empty where there is none.
+// The direction in which no output changes, as relative changes; empty if there is none.
 Eigen::VectorXd still(Eigen::MatrixXd slopes) {
   constexpr double least = 1e-6;
   Eigen::VectorXd length = slopes.colwise().norm();
@@ -106,7 +108,7 @@ Check identified(const FormulaRows& rows, const std::vector<Parameter>& paramete
   for (Eigen::Index i = 0; i < points; ++i) {
     const Eigen::VectorXd at =
         fit.pooled.values.row((2 * i + 1) * fit.pooled.values.rows() / (2 * points));
-    // Drawn effects are held by the law that they are drawn from; they stand behind all other parameters.
+    // Drawn effects are identified by their distribution; they follow all other parameters.
     const std::vector<DrawnEffect>& drawn = rows.model().drawn;
     const auto others = drawn.empty() ? at.size() : static_cast<Eigen::Index>(drawn.front().first);
     direction = still(derivatives(rows, parameters, {at.begin(), at.end()}).leftCols(others));
@@ -117,17 +119,17 @@ Check identified(const FormulaRows& rows, const std::vector<Parameter>& paramete
     const bool one = (direction.cwiseAbs().array() >= 0.01).count() == 1;
     findings.add(
         Verdict::fail,
-        one ? fmt::format("the data tell nothing of {}: nothing that is observed changes with it",
+        one ? fmt::format("the data do not inform {}: no observed quantity depends on it", all)
+            : fmt::format(
+                  "the data do not identify {} separately: with {} no observed quantity changes",
+                  all, description(parameters, direction)),
+        one ? fmt::format("Leave {} out, or measure conditions where it matters; its posterior is "
+                          "its prior.",
                           all)
-            : fmt::format("the data cannot tell {} apart: with {} nothing that is observed changes",
-                          all, description(parameters, direction)),
-        one ? fmt::format("Leave {} out, or measure where it matters; what is said of it is its "
-                          "prior's.",
-                          all)
-            : "Keep one parameter for what they do together, or set the others under [constants]; "
-              "each of them alone is its prior's.");
+            : "Keep one parameter for their combined effect, or move the others to [constants]; "
+              "the data inform only the combination.");
   }
-  return findings.result("every combination of the parameters changes what is observed");
+  return findings.result("every combination of the parameters changes an observed quantity");
 }
 
 }  // namespace wearwell::formula_model

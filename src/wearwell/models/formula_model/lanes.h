@@ -7,9 +7,10 @@
 
 namespace wearwell::formula_model {
 
-// Sums in four lanes, always in the same order: added one after the other each would wait for the one before.
+// Sums in four lanes, always in the same order: a single sum would wait for the result of each
+// addition.
 
-/// The largest; -infinity of none.
+/// The largest; -infinity if empty.
 inline double highest_of(std::span<const double> values) {
   double top[4] = {-infinity, -infinity, -infinity, -infinity};
   std::size_t i = 0;

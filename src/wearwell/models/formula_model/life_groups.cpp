@@ -8,7 +8,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// What the law depends on, of a row.
+// The conditions of a row that the formula depends on.
 Conditions conditions_of_row(const FormulaModel& model, std::size_t row) {
   const formula::Program& program = model.measured.front().program;
   Conditions found;

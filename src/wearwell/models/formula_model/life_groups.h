@@ -11,19 +11,20 @@ namespace wearwell::formula_model {
 
 /// Observations of a life under one condition.
 struct LifeGroup {
-  Conditions conditions;  ///< of what the likelihood depends on
+  Conditions conditions;  ///< of the conditions that the likelihood depends on
   std::vector<Response> responses;
   std::vector<int> counts = {};
-  std::shared_ptr<const LifeDistribution> life = {};  ///< the law there; null until it is asked for
+  std::shared_ptr<const LifeDistribution> life =
+      {};  ///< the distribution there; null until it is requested
 
   double failures() const;
 };
 
-/// The observations of the first measured column by their conditions, in the order in which these
-/// come. Empty where there are more than `most` conditions.
+/// The observations of the first measured column by their conditions, in the order of their first
+/// occurrence. Empty if there are more than `most` conditions.
 std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most);
 
-/// The law of the first measured column under conditions.
+/// The distribution of the first measured column under conditions.
 std::shared_ptr<const LifeDistribution> life_distribution(
     const TomlReader& root, const std::shared_ptr<const FormulaModel>& model,
     const Conditions& conditions);

@@ -20,13 +20,13 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-// So many conditions share a plot, and so many are drawn at all.
+// Number of conditions per plot, and number of conditions drawn in all.
 constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000;
 constexpr std::size_t curve_points = 40;
 constexpr Eigen::Index few_draws = 1000;
 
-// The observations by condition with the law of each; of many conditions those with the most failures, in the
-// order of their numbers.
+// The observations by condition with the distribution of each; of many conditions those with the
+// most failures, in order of their values.
 std::vector<LifeGroup> drawn_groups(const TomlReader& root,
                                     const std::shared_ptr<const FormulaModel>& model,
                                     std::vector<LifeGroup> groups) {
@@ -97,7 +97,7 @@ class Drawing {
     return figures;
   }
 
-  // None where no curve is finite anywhere.
+  // Empty if no curve is finite anywhere.
   std::optional<html::Figure> hazard() const {
     std::vector<plot::Json> marks;
     const double per = measured_.unit.scale;
@@ -143,8 +143,8 @@ class Drawing {
     std::vector<plot::Json> marks;
     for (std::size_t g = first; g < end; ++g) add_law(g, g - first, marks);
     for (std::size_t g = first; g < end; ++g) add_points(g, g - first, marks);
-    plot::Axis shares{"Share that has failed [%]", false, height(least_), height(most_)};
-    // As a paper has them.
+    plot::Axis shares{"Failed [%]", false, height(least_), height(most_)};
+    // Axis ticks as on printed probability paper.
     for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 90., 99., 99.9}) {
       const double p = percent / 100;
       if (p >= least_ && p <= most_)
@@ -155,9 +155,9 @@ class Drawing {
     if (first > 0) id += fmt::format("-{}", first);
     if (end - first < groups_.size()) title += ": " + label(first) + " to " + label(end - 1);
     return {id, title, first == 0 ? caption() : "",
-            plot::plot(fmt::format("Share that has failed against {}, on {} paper",
-                                   measured_.column, paper_.name),
-                       axis(), shares, marks, 340, true)};
+            plot::plot(
+                fmt::format("Share failed against {}, on {} paper", measured_.column, paper_.name),
+                axis(), shares, marks, 340, true)};
   }
 
   double height(double p) const { return quantile(paper_.distribution, p); }
@@ -175,7 +175,7 @@ class Drawing {
   }
   std::string label(std::size_t g) const {
     const std::string& words = groups_[g].conditions.words;
-    return words.empty() ? "fitted law" : words;
+    return words.empty() ? "fitted distribution" : words;
   }
 
   template <class F>
@@ -231,23 +231,24 @@ class Drawing {
       }
       none |= positions_[g].empty();
     }
-    std::string words = paper_.straight
-                            ? "A law of this family is a straight line here"
-                            : fmt::format("The {} law bends on this paper", measured_.form->name);
+    std::string words = paper_.straight ? "A distribution of this family is a straight line here"
+                                        : fmt::format("The {} distribution is curved on this paper",
+                                                      measured_.form->name);
+    words += ". Lines are posterior medians of the share failed by then, bands hold 90 %. ";
     words +=
-        ". Lines are posterior medians of the share that has failed by then, bands hold 90 %. ";
-    words += intervals
-                 ? "Points are Turnbull's estimate, at the upper ends of the intervals where it "
-                   "has a step."
-             : censored ? "Points are Kaplan and Meier's estimate, each half way up its step; "
-                          "run-outs have no point, but count in the steps of others."
-                        : "Points stand at (i - 1/2)/n.";
-    if (none) words += " Where nothing failed, or entries come with intervals, there is no point.";
+        intervals
+            ? "Points are Turnbull's estimate, at the upper ends of the intervals where it steps."
+        : censored ? "Points are the Kaplan-Meier estimate, halfway up its steps; run-outs have no "
+                     "point, but count in the steps of others."
+                   : "Points have the plotting positions (i - 1/2)/n.";
+    if (none)
+      words +=
+          " Conditions without failures, or with delayed entries and intervals, have no points.";
     if (left_out_ > 0) {
       words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
                            left_out_ + groups_.size(), groups_.size());
     }
-    if (varies_) words += " Units differ, and the line is that of all units together.";
+    if (varies_) words += " Units vary; the line is for all units together.";
     return words;
   }
 

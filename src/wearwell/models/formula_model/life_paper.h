@@ -8,9 +8,9 @@
 
 namespace wearwell::formula_model {
 
-/// Of a study whose likelihood is of a life: its observations on probability paper of their family with the
-/// fitted law and its band under each condition, six to a plot, life against each numeric column that it depends on,
-/// and the hazard. Adds to what the study shows.
+/// For a study whose likelihood is of a life: its observations on probability paper of their family
+/// with the fitted distribution and its band under each condition, six to a plot; life against each
+/// numeric column that it depends on; and the hazard. Adds to the figures of the study.
 void show_life_paper(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
                      PosteriorStudy& study);
 

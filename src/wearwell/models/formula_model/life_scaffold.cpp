@@ -22,8 +22,8 @@ struct Lives {
   std::string columns;     ///< lines of [data.columns]
   std::string unit;        ///< of a life
   double largest = 1;      ///< in it
-  double middle = 1;       ///< the median of what is written
-  bool stated = false;     ///< words or a status say that these are lives
+  double middle = 1;       ///< the median of the written values
+  bool stated = false;     ///< text or a status marks these as lives
 };
 
 bool is_interval(const ColumnRoles& roles) {
@@ -51,7 +51,7 @@ double middle_of(const Table& table, const Column& column) {
   return *middle > 0 ? *middle : 1;
 }
 
-// A path that is read again and again is no list of lives.
+// A path with repeated readings is not a list of lives.
 bool is_path(const ColumnRoles& roles) {
   return roles.has({"depth", "volume", "mass", "crack", "measured"}) ||
          (has_units(roles) && !roles.has({"life"}));
@@ -71,7 +71,8 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.middle = middle_of(roles.table(), *lower.column);
     lives.stated = true;
     roles.guesses.push_back(
-        "an empty upper end is taken for a run-out, an empty lower one for failed before");
+        "an empty upper end is read as a run-out, an empty lower end as a failure before the upper "
+        "end");
     if (a.unit == "1")
       roles.guesses.push_back(fmt::format(
           "column '{}' has no unit: a life is a plain number, such as cycles", lower.column->name));
@@ -98,7 +99,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.stated = true;
   } else if (!lives.open_ends && lives.columns.starts_with("life")) {
     roles.guesses.emplace_back(
-        "no column says which parts were stopped unbroken: all count as failures");
+        "no column tells which parts were stopped unbroken: all count as failures");
   }
   if (const auto count = roles.take("count", {"count"}))
     lives.columns += ColumnRoles::line("count", *count);
@@ -112,16 +113,15 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
 
 std::string life_priors(const Lives& lives, const char* scale, double size) {
   return fmt::format(
-      "# What was known before the data, as weak as it goes: PROPOSED from the size of the data. "
-      "What you know of such\n"
-      "# parts makes a better answer.\n"
+      "# Prior knowledge: PROPOSED as weak priors from the size of the data. Replace them with "
+      "what you know of such\n"
+      "# parts.\n"
       "[prior]\n"
       "{} = {{ distribution = \"lognormal\", median = {}, log_sd = 2 }}    # a factor of 27 to "
       "either side\n"
       "slope = {{ distribution = \"lognormal\", median = 1.5, log_sd = 0.7 }}    # below 1: early "
       "failures, "
-      "1: accidents, "
-      "above: wear-out\n",
+      "1: random failures, above: wear-out\n",
       scale, toml_text(quantity_text(rounded_up(size), lives.unit)));
 }
 
@@ -133,7 +133,7 @@ std::string head(const ColumnRoles& roles, const std::string& title) {
 }
 
 const char* const answers =
-    "b_lives        = [1, 10, 50]             # when 1, 10 and 50 % have failed\n"
+    "b_lives        = [1, 10, 50]             # lives at which 1, 10 and 50 % have failed\n"
     "credible_level = 0.9                     # of their lower bounds\n";
 
 constexpr const char* family =
@@ -159,7 +159,7 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
   for (const Column* each : roles.other_labels()) conditions.push_back("'" + each->name + "'");
   if (!conditions.empty())
     roles.guesses.push_back(
-        fmt::format("all lives are taken to be of one population, whatever {} says",
+        fmt::format("all lives are assumed to come from one population; {} is ignored",
                     fmt::join(conditions, ", ")));
   const std::string survival =
       toml_text(quantity_text(rounded_up(lives->largest) / 10, lives->unit));
@@ -168,7 +168,7 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
       lives->stated ? ReadingFit::general : ReadingFit::possible,
       head(roles, "Lives") + lives->columns + "\n" + family + "\n" +
           life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
-          fmt::format("# survival_to = {}                  # which share outlasts that?\n",
+          fmt::format("# survival_to = {}                  # share that survives this life\n",
                       survival) +
           (conditions.empty()
                ? ""
@@ -200,15 +200,15 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
     const auto values = values_of(roles.table(), *found.column);
     const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
     constants += fmt::format(
-        "boltzmann = \"8.617333262e-5 eV/K\"\nreference = {}    # where life_ref is the "
-        "characteristic life\n",
+        "boltzmann = \"8.617333262e-5 eV/K\"\n"
+        "reference = {}    # conditions at which life_ref is the characteristic life\n",
         toml_text(quantity_text(*harsh, found.unit)));
     formula += " * exp(energy/boltzmann * (1/temperature - 1/reference))";
     given += fmt::format("temperature = {}", toml_text(quantity_text(*mild, found.unit)));
     priors +=
-        "energy = { distribution = \"normal\", mean = \"0.7 eV\", sd = \"0.3 eV\" }    # of the "
-        "process "
-        "that ages them\n";
+        "energy = { distribution = \"normal\", mean = \"0.7 eV\", sd = \"0.3 eV\" }    # "
+        "activation energy "
+        "of the aging process\n";
     said.emplace_back("Arrhenius' law of temperature");
   }
   for (const std::string_view each : powers) {
@@ -219,14 +219,15 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
     const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
     if (!(*mild > 0)) return {};
     const std::string quantity = toml_text(quantity_text(*mild, found.unit));
-    constants += fmt::format("{}_ref = {}    # where life_ref is the characteristic life\n", name,
-                             toml_text(quantity_text(*harsh, found.unit)));
+    constants +=
+        fmt::format("{}_ref = {}    # conditions at which life_ref is the characteristic life\n",
+                    name, toml_text(quantity_text(*harsh, found.unit)));
     formula += fmt::format(" * ({0}/{0}_ref)^-{0}_power", name);
     given += fmt::format("{}{} = {}", given.empty() ? "" : ", ", name, quantity);
     priors += fmt::format(
-        "{}_power = {{ distribution = \"normal\", mean = 5, sd = 5 }}    # by which power more of "
-        "it "
-        "shortens a life\n",
+        "{}_power = {{ distribution = \"normal\", mean = 5, sd = 5 }}    # exponent: a higher "
+        "value "
+        "shortens the life\n",
         name);
     said.push_back("a power of " + name);
   }
@@ -235,13 +236,14 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
   roles.pass_over("unit");
   const std::string how = fmt::format("{}", fmt::join(said, " and "));
   roles.guesses.push_back(
-      "answers are asked for at the mildest conditions tested; state those of use in [predict] "
+      "predictions are for the mildest conditions tested; state the conditions of use in [predict] "
       "given");
   return roles.study(
-      "lives under conditions that differ: " + how, ReadingFit::specific,
+      "lives under several conditions: " + how, ReadingFit::specific,
       head(roles, "Lives under conditions") + lives->columns + columns + "\n[constants]\n" +
           constants +
-          "\n[formula]                                    # the simplest law of such lives: " +
+          "\n"
+          "[formula]                                    # the simplest formula for such lives: " +
           how + "\ncharacteristic = \"" + formula + "\"\n\n" + family + "\n" +
           life_priors(*lives, "life_ref", lives->middle) + priors + "\n[predict]\n" +
           fmt::format(

@@ -6,10 +6,11 @@
 
 namespace wearwell::formula_model {
 
-/// A Weibull study of lives, or of intervals in which they ended; nothing where the table has none.
+/// A Weibull study of lives, or of intervals that contain them; empty if the table has none.
 std::optional<Scaffold> first_life_study(ColumnRoles& roles);
 
-/// The same of lives under conditions that differ: Arrhenius' law of temperature, powers of all others.
+/// The same for lives under several conditions: Arrhenius' law for temperature, power laws for the
+/// others.
 std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles);
 
 }  // namespace wearwell::formula_model

@@ -16,10 +16,10 @@ namespace {
 using Numbers = std::vector<double>;
 
 constexpr std::size_t stress_points = 24, most_stress_columns = 3;
-// Where units differ a quantile is a root of a mixture.
+// If units vary, a quantile is the root of a mixture.
 constexpr Eigen::Index stress_draws = 400, stress_draws_of_units = 80;
 
-// Whether all but one column are as they are in `held`.
+// Whether all but one column have the values of `held`.
 bool is_held(const Conditions& own, const Conditions& held, const std::string& column) {
   return own.labels == held.labels &&
          std::all_of(held.numbers.begin(), held.numbers.end(), [&](const auto& each) {
@@ -42,7 +42,7 @@ std::string words_of_held(const FormulaModel& model, const Conditions& held,
   return words;
 }
 
-// By decades where it spans one.
+// By decades if it spans one.
 bool is_logarithmic(const Numbers& at) {
   return at.front() > 0 && at.back() >= 10 * at.front();
 }
@@ -179,7 +179,7 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
   const double room = by_decades ? 0 : 0.03 * std::abs(other - one);
   const double factor = by_decades ? 1.1 : 1;
   return {"life-stress-" + stress.column, fmt::format("Life against {}", stress.column),
-          fmt::format("Posterior medians of the life that half of all outlast and of B10{}.{}",
+          fmt::format("Posterior medians of the life that half of all outlast, and of B10{}.{}",
                       stress.held.words.empty() ? "" : ", at " + stress.held.words,
                       went_on.x.empty() ? "" : " Arrows: not failed by then."),
           plot::plot(fmt::format("{} against {}", html::capital(measured.column), stress.column),

@@ -6,17 +6,18 @@
 
 namespace wearwell::formula_model {
 
-/// The law of a life along one numeric column, all else held.
+/// The distribution of a life along one numeric column, all else fixed.
 struct LifeStress {
   std::string column;
-  Conditions held;         ///< words of what is held; may be empty
-  std::vector<double> at;  ///< SI
+  /// description of the fixed conditions; may be empty
+  Conditions held;
+  std::vector<double> at;                                      ///< SI
   std::vector<std::shared_ptr<const LifeDistribution>> lives;  ///< at each of them
-  std::vector<LifeGroup> tested;                               ///< observations under what is held
+  std::vector<LifeGroup> tested;  ///< observations under the fixed conditions
 };
 
 /// One for each numeric column on which the life depends and that has more than one value among the
-/// observations; all else is held as most observations have it. Reaches to `given` conditions.
+/// observations; all else has its most frequent values. Extends to `given` conditions.
 std::vector<LifeStress> life_stresses(const TomlReader& root,
                                       const std::shared_ptr<const FormulaModel>& model,
                                       const std::vector<LifeGroup>& groups);

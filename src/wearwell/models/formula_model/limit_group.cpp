@@ -16,7 +16,7 @@ LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path) {
       asked.predict.quantity("survived", formula::si_text(asked.axis().unit.powers));
   if (survived) {
     if (!(survived->si() > path.begin)) {
-      asked.predict.fail("survived", fmt::format("must lie beyond {:.6g} {}, where paths begin",
+      asked.predict.fail("survived", fmt::format("must lie beyond {:.6g} {}, the start of paths",
                                                  from_si(asked.axis().unit.unit, path.begin),
                                                  asked.axis().unit.unit.text));
     }
@@ -27,14 +27,14 @@ LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path) {
   return wishes;
 }
 
-// Lives from somewhere on.
+// Lives conditional on survival to a given point.
 struct LimitGroup::Remaining {
   CellMixture lives;
-  double survival = 1;  // the probability that the unit came so far
+  double survival = 1;  // the probability that the unit survives to this point
 
   bool any() const { return lives.mass() > 1e-6; }
-  // Of units that hardly ever come so far nothing is known; of those that are certainly there nothing
-  // remains.
+  // If units hardly ever survive to this point, the rest is undetermined; if it is certainly
+  // passed, nothing remains.
   double quantile(double p) const {
     if (any() && survival < 1e-3) return std::nan("");
     return any() ? lives.quantile(p) : 0;
@@ -137,13 +137,13 @@ std::vector<PredictiveLife> LimitGroup::predictive(
     all.push_back(
         {{[one](double x) { return one->cdf(x); }, [one](double p) { return one->quantile(p); }},
          one->survival});
-    // Lives are the first of all that is asked.
+    // Lives come first in the list of requests.
     if (coarse) all.back().numerical_error = errors[all.size() - 1].numerical_error;
   }
   return all;
 }
 
-// Where the remaining useful life of a unit begins: its last row, or later.
+// Start of the remaining useful life of a unit: its last row, or later.
 double LimitGroup::begin_of(std::size_t u) const {
   return wishes_.survived ? std::max(path_->seen[u].now, path_->survived) : path_->seen[u].now;
 }

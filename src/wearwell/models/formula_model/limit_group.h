@@ -12,23 +12,26 @@
 
 namespace wearwell::formula_model {
 
-/// What is asked of lives to a limit beside the life of a new unit and the remaining useful life of each one seen.
+/// Requests on lives to a threshold, in addition to the life of a new unit and the remaining useful
+/// life of each unit.
 struct LimitWishes {
   LifeLevels levels;
-  std::optional<Quantity> survived;  ///< then lives count from there, given that it was reached
+  std::optional<Quantity> survived;  ///< lives then count from this point, given survival to it
 };
 
-/// Reads them, and sets the shares and the place survived of `path`. Throws InputError.
+/// Reads them, and sets the shares and the survived point of `path`. Throws InputError.
 LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path);
 
-/// The quantities that follow from lives to a limit: lives, survival and B-lives of a new unit and of each one seen.
+/// The quantities that follow from lives to a threshold: lives, survival and B-lives of a new unit
+/// and of each unit of the study.
 class LimitGroup {
  public:
   LimitGroup(const Asked& asked, const std::string& name, const Quantity& limit,
              std::shared_ptr<const LimitedPath> path, LimitWishes wishes);
 
   const std::vector<QuantityRequest>& requests() const { return requests_; }
-  /// Of each request, SI. `coarse`: the same lives over fewer points of the posterior, by which the error is estimated.
+  /// Of each request, SI. `coarse`: the same lives over fewer points of the posterior, to estimate
+  /// the error.
   std::vector<QuantityQuantiles> answers(const LimitedLives& lives,
                                          const std::optional<LimitedLives>& coarse) const;
   /// Of each life among the requests.

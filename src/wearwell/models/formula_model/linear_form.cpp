@@ -9,7 +9,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Means of the rows at three places on a line through the effects: the middle one halfway?
+// Means of the rows at three points on a line through the effects: is the middle one halfway?
 bool straight(UnitRows& rows, std::size_t c, const double* from, const double* to,
               std::size_t effects) {
   constexpr double shares[] = {0, 0.25, 0.5, 1, 1e-3};
@@ -60,7 +60,7 @@ std::vector<std::vector<double>> trial_points(const FormulaModel& model) {
 
 namespace {
 
-// Whether the form of its expressions says that a column's mean is straight in the effects.
+// Whether the form of its expressions proves that a column's mean is linear in the effects.
 bool straight_by_form(const Measured& measured) {
   for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
     const formula::ByRowDegree most =

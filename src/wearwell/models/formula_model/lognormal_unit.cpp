@@ -9,10 +9,10 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr double negligible = -36;  // of log f below its highest
+constexpr double negligible = -36;  // of log f below its maximum
 constexpr double most_difference = 3e-6;
 
-// Nodes of the finest rule in t: sinh(t) and log cosh(t); the coarser one takes every second.
+// Nodes of the finest rule in t: sinh(t) and log cosh(t); the coarser rule takes every second.
 struct SinhNodes {
   static constexpr int most = 600;
   static constexpr double step = 0.05;
@@ -26,7 +26,7 @@ struct SinhNodes {
   }
 };
 
-// Of the n-th node to the right (above 0) or to the left.
+// The n-th node to the right (above 0) or to the left.
 std::size_t place_of(int n) {
   return static_cast<std::size_t>(n > 0 ? 2 * n - 1 : -2 * n);
 }
@@ -37,7 +37,7 @@ double LognormalUnit::at(double z) const {
   return at(z, std::exp(s * z) - 1);
 }
 
-// Where it is highest, about, and the width there.
+// Approximate position of the maximum, and the width there.
 LognormalUnit::LaplaceApproximation LognormalUnit::approximation() const {
   const double top = 1 + best, informed = s * s * top * top * h;
   double z = top > 0 ? std::log(top) / s * informed / (1 + informed) : 0, bend = 1;
@@ -54,25 +54,25 @@ LognormalUnit::LaplaceApproximation LognormalUnit::approximation() const {
 
 std::optional<double> LognormalUnit::log_integral(std::vector<Node>* kept, double gap) const {
   const LaplaceApproximation about = approximation();
-  // The last ones where the population scatters far beyond what the rows know: there the integrand is the normal law up to a
-  // place, and falls off within 1/s.
+  // The last rules are for populations that scatter much more than the rows determine: the
+  // integrand follows the normal density up to a point, and falls off within 1/s.
   for (const double share : {1.0, 0.5, 0.15, 0.05}) {
     if (const auto integral = by_even_steps(about, share * gap, kept)) return integral;
   }
-  // Steps of 0.1: with those of 0.2 even of a bell every second node is off by more than is asked.
+  // Steps of 0.1: with 0.2 every second node would miss the tolerance even for a normal density.
   for (const int stride : {2, 1}) {
     if (const auto integral = by_rule(about, stride, kept)) return integral;
   }
   return {};
 }
 
-// The trapezoidal rule in z itself, all nodes at once, between the ends that it cannot lie beyond: where
-// log f is no less than its highest less `fallen`, both the rows' share of that and z^2/2 are bounded.
+// The trapezoidal rule in z, all nodes at once, between bounds of the relevant range: where log f
+// is within `fallen` of its maximum, both the likelihood's part and z^2/2 are bounded.
 std::optional<double> LognormalUnit::by_even_steps(const LaplaceApproximation& approximation,
                                                    double gap, std::vector<Node>* kept) const {
   constexpr int most = 600;
   constexpr double fallen = 30;
-  // The rule errs by about the square of what every second node of it does.
+  // The error is about the square of the difference that every second node makes.
   constexpr double most_of_half = 3e-5;
   const double room = 2 * (fallen - at(approximation.center)), far = std::sqrt(room);
   const double reach = std::sqrt(room / h), least = 1 + best - reach;
@@ -113,8 +113,7 @@ std::optional<double> LognormalUnit::by_even_steps(const LaplaceApproximation& a
   return highest + std::log(sum * width);
 }
 
-// In t, where z is sinh(t) widths from the middle: for what falls off more slowly on one side than a
-// bell.
+// In t, where z is sinh(t) widths from the middle: for integrands with one heavy tail.
 std::optional<double> LognormalUnit::by_rule(const LaplaceApproximation& approximation, int stride,
                                              std::vector<Node>* kept) const {
   static const SinhNodes nodes;

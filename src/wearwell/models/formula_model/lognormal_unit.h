@@ -6,16 +6,16 @@
 
 namespace wearwell::formula_model {
 
-/// A unit whose log likelihood is a parabola in a lognormal effect: with z standard normal, e^(s z) - 1 is the
-/// step from the middle, -h/2 (step - best)^2 what the unit's rows say of it.
+/// A unit whose log-likelihood is quadratic in a lognormal effect: with z standard normal, e^(s z)
+/// - 1 is the step from the median, and -h/2 (step - best)^2 the log-likelihood of the unit's rows.
 struct LognormalUnit {
   double best, h, s;
 
-  /// One of the nodes about the mode: 0, the first to the right (1, 3, ...) and to the left (2, 4, ...).
+  /// A node around the mode: 0, the first to the right (1, 3, ...) and to the left (2, 4, ...).
   struct Node {
     std::size_t place;
     double z, step;
-    double weight;  ///< its share of the integral
+    double weight;  ///< its weight in the integral
   };
 
   /// -h/2 (e^sz - 1 - best)^2 - z^2/2.
@@ -24,11 +24,11 @@ struct LognormalUnit {
     return -0.5 * h * (step - best) * (step - best) - 0.5 * z * z;
   }
 
-  /// Between nodes, in widths at the mode: enough for the integral, and what lives are spread over.
+  /// Distance of nodes, in widths at the mode: fine enough for the integral and for lives.
   static constexpr double coarse = 0.6, fine = 0.25;
 
-  /// log of the integral of exp(at(z)) dz, without the constant of the normal law; nothing where a rule and
-  /// every second node of it do not tell the same. `kept` takes the nodes.
+  /// log of the integral of exp(at(z)) dz, without the constant of the normal density; empty if a
+  /// rule and every second of its nodes disagree. `kept` takes the nodes.
   std::optional<double> log_integral(std::vector<Node>* kept, double gap = coarse) const;
 
  private:

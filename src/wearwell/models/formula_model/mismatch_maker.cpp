@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t terms = MismatchTable::terms;
 constexpr double least_posterior =
-    22;  // log of the posterior below its highest that a fit goes down to
-constexpr double least_integrand = 36;  // log of a unit's integrand below its highest
+    22;  // log of the posterior relative to its maximum, the lowest that a fit visits
+constexpr double least_integrand = 36;  // log of a unit's integrand relative to its maximum
 
 // From coefficients of Chebyshev polynomials to those of powers.
 void make_powers(double* c) {
@@ -34,8 +34,8 @@ void make_powers(double* c) {
   std::copy(sum.begin(), sum.end(), c);
 }
 
-// How many times the errors of readings may be what they seem to be: where the posterior of their size has fallen by
-// `least_posterior`.
+// Factor by which the errors of readings may exceed their estimate: where the posterior of their
+// size has fallen by `least_posterior`.
 double most_size(double freedom) {
   double r = 1.2;
   while (r < 30 && freedom * (std::log(r) - 0.5 * (1 - 1 / (r * r))) < least_posterior) r *= 1.1;
@@ -81,7 +81,7 @@ class MismatchMaker {
     std::vector<double> x, sums;  // by unit
   };
 
-  // The best x of each unit: the lowest of a row of places, and from its neighbours on.
+  // The best x of each unit: the lowest of a grid, refined between its neighbors.
   Best best_at(double theta) {
     constexpr int places = 120, rounds = 30;
     constexpr double golden = 0.381966011250105;
@@ -149,7 +149,7 @@ class MismatchMaker {
     return best;
   }
 
-  // Towards a bound, about where the total reaches a level.
+  // Towards a bound, the approximate point where the total reaches a level.
   double end_of_theta(double from, double bound, double level) {
     double inside = from, share = 1.0 / 1024;
     while (share <= 1 && best_at(from + share * (bound - from)).total < level) {
@@ -165,7 +165,7 @@ class MismatchMaker {
     return outside;
   }
 
-  // The x between the best and a bound at which S has risen by so much; the bound where it has not.
+  // The x between the best and a bound at which S has risen by this much; the bound if it has not.
   std::vector<double> risen_by(const Best& best, const std::vector<double>& bound, double by) {
     std::vector<double> inside = best.x, outside = bound;
     x_ = bound;
@@ -185,8 +185,8 @@ class MismatchMaker {
     return inside;
   }
 
-  // The x on one side of the best at which S reaches the level, or so many widths away: of a slow unit S rises no
-  // more at some distance.
+  // The x on one side of the best at which S reaches the level, or a maximum number of widths away:
+  // for a slow unit S flattens at some distance.
   std::vector<double> end_of_x(const Best& best, double bound) {
     constexpr double most_widths = 14;
     std::vector<double> ends = risen_by(best, std::vector<double>(units_, bound), variance_);
@@ -197,7 +197,7 @@ class MismatchMaker {
     return risen_by(best, ends, level_);
   }
 
-  // Middles and widths of x over theta.
+  // Centers and widths of x over theta.
   bool map(MismatchTable& table, bool shared) {
     const std::size_t n = shared ? MismatchTable::map_orders : 1;
     std::vector<double> center(units_ * n), half(units_ * n), lowest(units_ * n);
@@ -299,7 +299,7 @@ class MismatchMaker {
     return worst_in_theta < tolerance ? Outcome::fits : Outcome::rough_in_theta;
   }
 
-  // Between the nodes.
+  // Checks between the nodes.
   bool tried(const std::shared_ptr<const MismatchTable>& table) {
     MismatchSlice slice(table);
     Rng rng(20261123, 0);

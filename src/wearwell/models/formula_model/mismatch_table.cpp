@@ -55,7 +55,7 @@ MismatchSlice::Spot MismatchSlice::spot(std::size_t unit, double x) const {
 
 namespace {
 
-// The polynomials of all orders in theta, each times its own number.
+// The polynomials of all orders in theta, each times its coefficient.
 void collapse(const double* from, const double* order, std::size_t orders, double* to) {
   std::fill_n(to, terms, 0.0);
   for (std::size_t k = 0; k < orders; ++k) {

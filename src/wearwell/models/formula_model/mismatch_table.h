@@ -9,35 +9,37 @@
 
 namespace wearwell::formula_model {
 
-/// How far the readings of each unit lie from its path: S_u, the sum over its rows of (reading - path)^2.
+/// Distance of each unit's readings from its path: S_u, the sum over its rows of (reading -
+/// path)^2.
 class Mismatch {
  public:
   virtual ~Mismatch() = default;
   virtual std::size_t units() const = 0;
-  /// Of each unit with its own x (its effect, or the logarithm of it) and what all share at theta; infinite where
-  /// there is no path.
+  /// Of each unit with its own x (its effect, or the logarithm of it) and the shared theta;
+  /// infinite if there is no path.
   virtual void operator()(double theta, std::span<const double> x, std::span<double> sums) = 0;
 };
 
-/// Where a table is looked for: x and theta that are plausible at all.
+/// Range of the search: plausible x and theta.
 struct MismatchDomain {
   double x_low, x_high;
-  double theta_low, theta_high;  ///< both the same where nothing is shared
-  double freedom;                ///< readings less what is fitted to them
+  double theta_low, theta_high;  ///< equal if nothing is shared
+  double freedom;                ///< readings less number of fitted values
 };
 
-/// S_u as polynomials in x on panels, and in theta, wherever readings whose errors have about the size that they tell
-/// leave some likelihood: within widths of 20 and more of the best x of each unit, which moves with theta. Immutable.
+/// S_u as polynomials in x on panels, and in theta, wherever the likelihood is non-negligible for
+/// errors of about the estimated size: within 20 and more widths of the best x of each unit, which
+/// moves with theta. Immutable.
 class MismatchTable {
  public:
-  /// None where S is not smooth enough, nothing scatters, or theta or x are not held by the readings. Errors are below
-  /// 1e-8 of twice the variance of a reading; tried between the nodes as well.
+  /// Empty if S is not smooth enough, nothing scatters, or the readings do not determine theta or
+  /// x. Errors are below 1e-8 of twice the variance of a reading, also between the nodes.
   static std::shared_ptr<const MismatchTable> make(Mismatch& mismatch,
                                                    const MismatchDomain& domain);
 
   static constexpr std::size_t terms = 14;  // of a polynomial on a panel
   static constexpr std::size_t map_orders =
-      7;  // of the middle and the width of a unit's x, in theta
+      7;  // of the center and the width of a unit's x, in theta
 
   std::size_t units() const { return units_; }
   bool holds(double theta) const { return theta >= theta_low_ && theta <= theta_high_; }
@@ -55,27 +57,27 @@ class MismatchTable {
   std::vector<double> coefficients_;        // unit, panel, order in theta, term
 };
 
-/// A table at one theta: one thread's.
+/// A table at one theta; one thread uses it at a time.
 class MismatchSlice {
  public:
   explicit MismatchSlice(std::shared_ptr<const MismatchTable> table);
 
-  /// False where the table does not reach theta; nothing that follows may be asked then.
+  /// False if the table does not cover theta; the functions below are then invalid.
   bool move(double theta);
 
   double low(std::size_t unit) const { return at_[unit].center - at_[unit].half; }
   double high(std::size_t unit) const { return at_[unit].center + at_[unit].half; }
-  /// Where S is lowest, about.
+  /// Approximate position of the minimum of S.
   double best(std::size_t unit) const { return at_[unit].best; }
   bool holds(std::size_t unit, double x) const { return x >= low(unit) && x <= high(unit); }
 
-  /// S, and its derivatives by x, at an x that it holds.
+  /// S, and its derivatives by x, at an x inside the table.
   struct Place {
     double value, slope, bend;
   };
   double value(std::size_t unit, double x);
   Place place(std::size_t unit, double x);
-  /// Its derivative by theta, x held.
+  /// Its derivative by theta, at fixed x.
   double by_theta(std::size_t unit, double x);
 
  private:
@@ -84,7 +86,7 @@ class MismatchSlice {
   };
   struct Spot {
     std::size_t panel;
-    double t, s;  // in the panel and in the whole, -1 .. 1
+    double t, s;  // in the panel and in the whole range, -1 .. 1
   };
   Spot spot(std::size_t unit, double x) const;
   const double* polynomial(std::size_t unit, std::size_t panel);

@@ -44,7 +44,7 @@ Model preset_with(std::string_view preset, std::span<const ExampleFile> example,
           .track = track_units};
 }
 
-// Made when they are wanted: the same whenever that is.
+// Computed on demand, with the same result at any time.
 const SimulatedFleet& fleet_of_example() {
   static const SimulatedFleet fleet = simulate_fleet(1, 200);
   return fleet;

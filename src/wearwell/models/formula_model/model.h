@@ -4,11 +4,11 @@
 
 namespace wearwell::formula_model {
 
-/// Laws in the user's own words, and what `wearwell new formula` writes.
+/// Formula models, and the template of `wearwell new formula`.
 Model model();
 
-/// The same model, with what `wearwell new life`, `new accelerated`, `new degradation` and
-/// `new fleet` write.
+/// The same model, with the templates of `wearwell new life`, `new accelerated`, `new degradation`
+/// and `new fleet`.
 Model life();
 Model accelerated();
 Model degradation();

@@ -19,8 +19,8 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel>
   const auto predict = root.table("predict");
   if (!predict || !predict->has("limit") || !model_->along) {
     root.fail("predict",
-              "has no limit: units are followed towards one; give along = \"distance\" and limit = "
-              "{ wear = \"100 um\" }");
+              "has no limit: units are tracked towards a failure threshold; add along = "
+              "\"distance\" and limit = { wear = \"100 um\" }");
   }
   const Asked asked(*predict, model_, nullptr);
   given_ = asked.given;
@@ -33,7 +33,7 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel>
            !(model_->measured[column_].process && model_->measured[column_].column == name_)) {
       ++column_;
     }
-    if (column_ == model_->measured.size()) limits.fail(name_, "is no process");
+    if (column_ == model_->measured.size()) limits.fail(name_, "is not a process");
     process_ = model_->measured[column_].process;
     const auto& slots = model_->measured[column_].wanted;
     wanted_.assign(slots.begin(), slots.begin() + 2);
@@ -55,7 +55,7 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel>
 std::string NodeLives::before_begin(double place, bool follows) const {
   if (!(place < path_.begin) || (path_.begin < 0 && !follows)) return {};
   const Unit& unit = model_->data.number(*model_->along)->unit.unit;
-  return fmt::format("{} = {:.6g} {} lies before {:.6g}, where paths begin", *model_->along,
+  return fmt::format("{} = {:.6g} {} lies before {:.6g}, the start of paths", *model_->along,
                      from_si(unit, place), unit.text, from_si(unit, path_.begin));
 }
 
@@ -88,7 +88,7 @@ NodeRow NodeLives::conditions(const NodeRow& last) const {
 
 namespace {
 
-// What nodes of a unit come to, all of them together.
+// Lives over all nodes of a unit together.
 struct OfAll {
   std::vector<double> levels, level_weight, lives, life_weight;
   double left_over = 0, all = 0;
@@ -105,7 +105,7 @@ struct OfAll {
   }
 };
 
-// The same line by line, lives alone.
+// The same line by line, lives only.
 struct OfLines {
   struct Line {
     std::vector<double> lives, weight;
@@ -130,7 +130,8 @@ double passed_of(double left_over, double all) {
 
 }  // namespace
 
-// Paths whose increments are random: where each stands, and the law of its first passage from there.
+// Paths with random increments: the position of each, and the distribution of its first passage
+// from there.
 template <class Sums>
 void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* start,
                      const NodePath& path, std::size_t points, Sums& sums) const {
@@ -160,7 +161,7 @@ void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* st
       share[i] = one * below;
       target[i] = path.measured ? path.mean[node] : 0;
       if (!(share[i] > 1e-14)) continue;
-      if (sd > 0) {  // where it stands, given that it is not there
+      if (sd > 0) {  // its position, given that it has not passed
         const double q = fraction(points * node + k, 0.7548776662466927);
         left -= sd * normal_quantile(std::max(q * below, 1e-300));
       }
@@ -170,14 +171,14 @@ void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* st
     }
     ahead.cross(target, place);
     for (std::size_t i = 0; i < ahead.count; ++i) {
-      // Passed since its last reading, where the last row has none.
+      // Passed since its last reading, if the last row has none.
       if (!(share[i] > 1e-14) || place[i] < start[i]) continue;
       sums.lasts(ahead.begin + i, share[i], place[i] - start[i]);
     }
   }
 }
 
-// `points`: of the law of a first passage, of each node.
+// `points`: of the distribution of a first passage, for each node.
 template <class Sums>
 void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight,
                            const UnitReading& last, const std::vector<NodePath>& paths,
@@ -237,7 +238,8 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
 prognosis::InPopulations NodeLives::by_line(const Nodes& nodes, const std::vector<double>& weight,
                                             const UnitReading& last,
                                             const std::vector<NodePath>& paths) const {
-  constexpr std::size_t most_points = 160;  // of one line: they make a law of life of its own
+  // of one line, which have their own distribution of life
+  constexpr std::size_t most_points = 160;
   OfLines sums{nodes.per_line, std::vector<OfLines::Line>(nodes.lines())};
   look_ahead(nodes, weight, last, paths, std::max(points_of_node, most_points / nodes.per_line),
              sums);

@@ -12,38 +12,42 @@
 
 namespace wearwell::formula_model {
 
-/// What a study limits, and under which conditions units go on: of predict.limit.
+/// The quantity with the failure threshold, and the future conditions of units: from predict.limit.
 class NodeLives {
  public:
-  /// Throws InputError where the study asks for no limit along an axis.
+  /// Throws InputError if the study has no threshold along an axis.
   NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel> model);
 
   const std::string& name() const { return name_; }
   const Quantity& limit() const { return limit_; }
   bool rising() const { return path_.rising; }
   const std::string& noun() const { return noun_; }
-  /// What is limited, as expressions; of a process its mean and its spread.
+  /// The quantity with the threshold, as expressions; for a process its mean and its spread.
   const std::vector<formula::Wanted>& wanted() const { return wanted_; }
 
-  const Conditions& given() const { return given_; }  ///< what is said of the conditions to come
-  double begin() const { return path_.begin; }        ///< of paths, along the axis, SI
+  const Conditions& given() const { return given_; }  ///< description of the future conditions
+  double begin() const { return path_.begin; }        ///< start of paths on the axis, SI
   double scale() const { return path_.scale; }        ///< of the axis, SI
 
-  /// Why there can be no reading at this place, if it lies before the beginning; `follows`: NodeRows. Where the axis of
-  /// the study begins below 0 its 0 means nothing, and a law whose rows stand alone is as good a little before.
+  /// Why a reading at this position is invalid, if it lies before the start; `follows`: NodeRows.
+  /// If the axis of the study begins below 0 its 0 has no meaning, and a formula with independent
+  /// rows is valid a little before.
   std::string before_begin(double place, bool follows) const;
 
-  /// A unit without rows: where paths begin.
+  /// A unit without rows: at the start of paths.
   UnitReading before_rows() const;
 
-  /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
+  /// Of nodes with weights that sum to 1, whose paths are at `paths` (NodeRows) after their last
+  /// row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
-  /// The same of each line by itself; `weight` sums to 1 over each line, or is 0 all along it. `log_likelihood` is not filled.
+  /// The same for each line separately; `weight` sums to 1 over each line, or is 0 on all of it.
+  /// `log_likelihood` is not filled.
   prognosis::InPopulations by_line(const Nodes& nodes, const std::vector<double>& weight,
                                    const UnitReading& last,
                                    const std::vector<NodePath>& paths) const;
-  /// Of the same nodes: what is limited at these places, ascending and none before the last row.
+  /// Of the same nodes: the quantity with the threshold at these positions, ascending and none
+  /// before the last row.
   std::vector<prognosis::ForecastBand> ahead(const Nodes& nodes, const std::vector<double>& weight,
                                              const UnitReading& last,
                                              const std::vector<NodePath>& paths,
@@ -63,8 +67,8 @@ class NodeLives {
   Conditions given_;
   std::string name_, noun_;
   Quantity limit_;
-  std::size_t column_ = 0;                // of FormulaModel::measured, of a process
-  const ProcessForm* process_ = nullptr;  // which is limited itself
+  std::size_t column_ = 0;                // of FormulaModel::measured, if it is a process
+  const ProcessForm* process_ = nullptr;  // which has the threshold itself
   std::vector<formula::Wanted> wanted_;
   LimitedPath path_;  // limit, rising, begin, scale
   std::unique_ptr<const NodeProgram> program_;

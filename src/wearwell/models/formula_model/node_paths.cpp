@@ -8,14 +8,14 @@
 #include "wearwell/models/formula_model/nodes_ahead.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
 
-// How units go on, as their lives are found: from the same nodes, at places instead of at a limit.
+// The forecast of units from the same nodes as their lives, at given positions.
 namespace wearwell::formula_model {
 namespace {
 
 constexpr double unknown =
-    1e-3;  // of the weight: with so much that is no number, quantiles are none
+    1e-3;  // of the weight: with a larger share that is not a number, quantiles are NaN
 
-// What the limit is of at one place.
+// The quantity with the threshold at one position.
 struct Levels {
   std::vector<double> value, weight;
   double all = 0, lost = 0;
@@ -40,7 +40,8 @@ struct Levels {
   }
 };
 
-// A path whose mean has grown by `grown` since its last reading, where it stood at normal(at, variance).
+// A path whose mean has grown by `grown` since its last reading, where its value was normal(at,
+// variance).
 struct RandomStep {
   Process process;
   double at, variance, grown, scale;
@@ -53,7 +54,7 @@ struct RandomStep {
     double values[ScoreTable::edges];
     ScoreTable::increments(process).look_up(grown, scale, values);
     for (double& each : values) each = std::max(each, 1e-300);
-    // Of steps that are short beside their scale most are next to nothing: there a cubic swings.
+    // Most steps that are small relative to their scale are near zero: there a cubic overshoots.
     const double score = normal_quantile(p);
     const double place = (score - ScoreTable::first_score) / ScoreTable::score_step;
     const auto edge =
@@ -82,7 +83,8 @@ std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double start[most_crossings], place[most_crossings], level[most_crossings];
     std::fill_n(start, ahead.count, last.place);
-    if (ahead.changes) {  // under other conditions from where the path ahead has come as far
+    // under new conditions, from the position where the future path has the same value
+    if (ahead.changes) {
       ahead.now(0, level);
       ahead.cross(level, start);
     }

@@ -11,19 +11,19 @@
 namespace wearwell::formula_model {
 
 inline constexpr std::size_t points_of_node =
-    4;  ///< of the law of a first passage, or of a path ahead
+    4;  ///< of the distribution of a first passage, or of a forecast
 
 inline double normal_quantile(double p) {
   return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p, Quiet());
 }
 
-/// The fractions of multiples of an irrational number lie evenly.
+/// The fractional parts of multiples of an irrational number are evenly distributed.
 inline double fraction(std::size_t i, double of) {
   const double x = (static_cast<double>(i) + 0.5) * of;
   return x - std::floor(x);
 }
 
-/// On the logarithms of neighbours in a ScoreTable, by the cubic through four of them.
+/// On the logarithms of neighbors in a ScoreTable, by the cubic through four of them.
 inline double at_score(const double* values, double score) {
   constexpr double last = ScoreTable::edges - 1;
   const double x =
@@ -37,18 +37,19 @@ inline double at_score(const double* values, double score) {
   return std::exp(sum);
 }
 
-inline constexpr std::size_t parts = 4;     ///< of a node's place on its line
-inline constexpr double negligible = 1e-8;  ///< nodes with less are left out
+inline constexpr std::size_t parts = 4;     ///< of a node's position on its line
+inline constexpr double negligible = 1e-8;  ///< smaller nodes are left out
 
-/// What nodes of lines have, drawn out between those of a line: a parabola through each and its neighbours, of the logarithm
-/// of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
+/// Refines the nodes of a line by interpolation: parabolas through each node and its neighbors, of
+/// the logarithm of the weight and of the value. The sum of the weights is that of the trapezoidal
+/// rule with the finer step.
 class DrawnLines {
  public:
   static constexpr std::size_t most = 128;  ///< nodes
-  /// Whole lines of so many nodes. `weight` outlives it.
+  /// Whole lines of this number of nodes. `weight` must outlive it.
   DrawnLines(std::span<const double> weight, std::size_t line);
 
-  /// Of one number of each node: calls back with the node, a share of its weight and the number there.
+  /// For one value per node: calls back with the node, a share of its weight and the value there.
   template <class Put>
   void put(std::span<const double> number, const Put& put) const {
     for (std::size_t k = 0; k < weight_.size(); ++k) {

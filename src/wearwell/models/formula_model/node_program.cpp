@@ -12,7 +12,7 @@ namespace wearwell::formula_model {
 NodeProgram::NodeProgram(const FormulaModel& model, const std::vector<formula::Wanted>& wanted,
                          bool open)
     : symbols_(model.row_symbols) {
-  // As the study has it: what it depends on.
+  // The inputs as the study has them.
   const formula::Program known = formula::compile(model.lines, wanted, symbols_, true);
   for (std::size_t c = 0; c < symbols_.columns.size(); ++c) {
     uses_column_.push_back(known.uses_column(c));
@@ -45,7 +45,8 @@ NodeProgram::NodeProgram(const FormulaModel& model, const std::vector<formula::W
   for (std::size_t l = 0; l < symbols_.labels.size(); ++l) labelled_ |= program_.uses_label(l);
 }
 
-// `k[material]` becomes `k`, whose number is that of the row's level, and `k["PTFE"]` a number of its own.
+// `k[material]` becomes `k`, with the value for the row's level, and `k["PTFE"]` a parameter of its
+// own.
 void NodeProgram::write_by_row(std::vector<formula::Line>& lines,
                                std::vector<formula::Wanted>& wanted) {
   const auto write = [&](const std::string& pattern, const std::string& by) {

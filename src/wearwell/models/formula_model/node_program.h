@@ -12,29 +12,30 @@
 
 namespace wearwell::formula_model {
 
-/// What a unit's readings depend on, at many points: the parameters of the study, and the unit's own effects. Nodes
-/// of one line stand side by side and share their parameters.
+/// The inputs of a unit's readings at many points: the parameters of the study, and the unit's
+/// effects. Nodes of one line are contiguous and share their parameters.
 struct Nodes {
   std::size_t per_line = 1;
   std::shared_ptr<const Points> parameters;  ///< lines x parameters, natural, SI
-  std::vector<double> effect[2];             ///< of each node; empty where nothing varies
+  std::vector<double> effect[2];             ///< of each node; empty if there are no random effects
 
   std::size_t lines() const { return static_cast<std::size_t>(parameters->rows()); }
   std::size_t count() const { return lines() * per_line; }
 };
 
-/// Conditions of one row, SI: numbers as FormulaModel::row_symbols has columns, labels as it has labels.
+/// Conditions of one row, SI: numbers in the order of the columns of FormulaModel::row_symbols, labels in
+/// that of its labels.
 struct NodeRow {
   std::vector<double> numbers;
   std::vector<int> labels;
 };
 
-/// Expressions of a study in one row at many nodes at once: every parameter is given by row, so that one pass
-/// runs over nodes. Where no expression depends on rows before or on a state, columns are plain numbers, and
-/// what depends on them alone is computed once. Immutable.
+/// Expressions of a study in one row at many nodes at once: every parameter is given by row, so
+/// that one pass covers all nodes. If no expression depends on earlier rows or on a state, columns
+/// are plain numbers, and what depends only on them is computed once. Immutable.
 class NodeProgram {
  public:
-  /// `open`: the axis is given node by node. Throws InputError where an expression is wrong.
+  /// `open`: the axis is given per node. Throws InputError for an invalid expression.
   NodeProgram(const FormulaModel& model, const std::vector<formula::Wanted>& wanted,
               bool open = false);
 
@@ -42,20 +43,23 @@ class NodeProgram {
 
   bool uses_column(std::size_t c) const { return uses_column_[c]; }
   bool uses_label(std::size_t l) const { return uses_label_[l]; }
-  /// What runs along a unit's path: numbers that are carried from row to row, node by node.
+  /// The running values of a unit's path, which pass from row to row, node by node.
   std::size_t running() const { return running_; }
   const std::vector<formula::Output>& outputs() const { return program_.outputs(); }
 
-  /// How rows go on from one before, and rows ahead of which one step stands for all (RunningPath).
+  /// How rows continue from an earlier one, and future rows that are replaced by one step
+  /// (RunningPath).
   struct GoesOn {
-    std::optional<double> from = {};  ///< the place of the row before, or where the path begins, SI
+    /// the position of the previous row, or the start of the path, SI
+    std::optional<double> from = {};
     const std::vector<std::vector<double>>* carried =
-        nullptr;  ///< by what runs, then node; null of a path that begins
-    const std::vector<std::size_t>* steps = nullptr;  ///< columns that are the way from `from`
+        nullptr;  ///< by running value, then node; null for a path that starts
+    /// columns that hold the distance from `from`
+    const std::vector<std::size_t>* steps = nullptr;
     double row_length = 0;
   };
 
-  /// One thread's.
+  /// One thread uses it at a time.
   class Scratch {
    public:
     explicit Scratch(const NodeProgram& program);
@@ -72,15 +76,15 @@ class NodeProgram {
     std::vector<std::vector<int>> labels_;
   };
 
-  /// Nodes begin .. begin + count - 1, count <= most. `place`: of each of them, where the axis is open (may
-  /// be null else); `on` matters where the law has a path or a state.
+  /// Nodes begin .. begin + count - 1, count <= most. `place`: of each of them, if the axis is open
+  /// (else may be null); `on` matters if the formula has a path or a state.
   void evaluate(const Nodes& nodes, std::size_t begin, std::size_t count, const NodeRow& row,
                 const double* place, const GoesOn& on, Scratch& scratch) const;
-  /// Output o of the last evaluation; a single number where it is uniform.
+  /// Output o of the last evaluation; a single value if it is uniform.
   std::span<const double> values(std::size_t o, const Scratch& scratch) const {
     return scratch.workspace_.values(o);
   }
-  /// What runs, after the row of the last evaluation: of node i of it.
+  /// The running values after the row of the last evaluation, of its node i.
   void carry(const Scratch& scratch, std::size_t i, std::span<double> carried) const {
     program_.carry(scratch.workspace_, i, carried);
   }
@@ -105,7 +109,7 @@ class NodeProgram {
   bool plain_ = false;                // columns are numbers
   std::vector<std::size_t> columns_;  // of those numbers
   std::vector<bool> uses_column_, uses_label_;
-  bool labelled_ = false;  // some label is compared, not only picked by
+  bool labelled_ = false;  // some label is compared, not only used as an index
   std::size_t axis_ = 0, running_ = 0;
 };
 

@@ -9,12 +9,13 @@
 namespace wearwell::formula_model {
 namespace {
 
-// P(Y <= y) and P(Y >= y), given that it was seen at all; of what is known to lie somewhere, its probability.
+// P(Y <= y) and P(Y >= y), given that it was observed at all; for a censored observation its
+// probability.
 struct Place {
   double below, above;
 };
 
-// Exact, seen whatever it was, and normal: most readings are.
+// Exact, not truncated, and normal, as most readings are.
 bool is_plain_normal(const Measured& measured, const Response& y) {
   return !measured.process && measured.form->family == ResponseFamily::normal &&
          y.seen == Censoring::none && !(y.entry > -infinity);
@@ -48,7 +49,7 @@ double Predicted::p_value() const {
   return std::min(1.0, 2 * std::min(below_, above_));
 }
 
-// The nodes of one pass with their slots.
+// The nodes of one pass with their distribution parameters.
 struct NodeRows::Block {
   std::size_t begin, count;
   ParameterValues slots[most_response_parameters];
@@ -91,7 +92,7 @@ bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const 
 void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
                            int count, const ResponseColumn& column, double* to) const {
   if (is_plain_normal(measured, y)) {
-    // Nodes of a line share what does not vary: what depends on that alone is computed once.
+    // Nodes of a line share the fixed parameters: what depends only on these is computed once.
     for (std::size_t begin = 0; begin < block.count;) {
       const double sd = block.slots[1][begin];
       std::size_t end = begin + 1;
@@ -114,7 +115,7 @@ void NodeRows::plain_block(const Block& block, const Measured& measured, const R
   }
 }
 
-// What a step of node i does, as process_terms has it for whole units.
+// The term of a step of node i, as process_terms has it for whole units.
 void NodeRows::process_block(const Block& block, const Measured& measured, double y,
                              const NodePath& before, NodePath* after, double* to) const {
   const ProcessForm& form = *measured.process;
@@ -151,7 +152,7 @@ void NodeRows::process_block(const Block& block, const Measured& measured, doubl
 
 namespace {
 
-// The same step as a place in what was expected.
+// The same step as a quantile of its predictive distribution.
 Place place_of_step(const ProcessForm& form, double y, double mean, double spread, double noise,
                     const NodePath& before, std::size_t node) {
   const double dm = mean - (before.measured ? before.mean[node] : 0);
@@ -174,7 +175,7 @@ Place place_of_step(const ProcessForm& form, double y, double mean, double sprea
   return {std::exp(log_cdf(family, dy, slots)), std::exp(log_survival(family, dy, slots))};
 }
 
-// Makes room for where nodes will stand.
+// Allocates the positions of the nodes.
 void prepare(const NodeProgram& program, bool process, std::size_t count, bool noisy,
              const NodePath& before, NodePath& after) {
   after = before;
@@ -202,7 +203,7 @@ NodeProgram::GoesOn from(const NodePath& path) {
   return {path.place, &path.carried, nullptr, 0};
 }
 
-// What is limited has no readings of its own.
+// The quantity with the threshold has no readings of its own.
 void walk(const NodeProgram& program, NodeProgram::Scratch& scratch, const Nodes& nodes,
           const UnitReading& reading, const NodePath& before, NodePath& after) {
   prepare(program, false, nodes.count(), false, before, after);

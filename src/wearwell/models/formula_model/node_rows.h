@@ -11,25 +11,26 @@
 
 namespace wearwell::formula_model {
 
-/// Where a unit's paths stand after its farthest row, node by node, of one measured column.
+/// The state of a unit's paths after its farthest row, node by node, for one measured column.
 struct NodePath {
-  bool begun = false, measured = false;      ///< a row came; one with a reading of this column
-  double place = 0;                          ///< of the last row, SI
-  double reading = 0;                        ///< the last one
-  std::vector<std::vector<double>> carried;  ///< what runs along the path (NodeProgram::running)
-  /// Of a process: slots `mean` and spread where the last reading was, and the path there: its mean, and
-  /// where readings have an error its variance (else both empty).
+  bool begun = false, measured = false;  ///< a row exists; one with a reading of this column
+  double place = 0;                      ///< of the last row, SI
+  double reading = 0;                    ///< the last one
+  /// the running values of the path (NodeProgram::running)
+  std::vector<std::vector<double>> carried;
+  /// Of a process: the parameters `mean` and spread at the last reading, and the path there: its
+  /// mean, and if readings have an error its variance (else both empty).
   std::vector<double> mean, spread, at, variance;
 };
 
-/// Where a reading lies in what nodes let expect.
+/// The predictive tail probabilities of a reading over the nodes.
 class Predicted {
  public:
   void add(double weight, double up_to, double from) {
     below_ += weight * up_to;
     above_ += weight * from;
   }
-  /// The two-sided probability of so far or farther; of an event its own.
+  /// The two-sided predictive p-value; for a censored reading the probability of the event.
   double p_value() const;
   bool any() const { return below_ > 0 || above_ > 0; }
 
@@ -40,25 +41,27 @@ class Predicted {
 /// The likelihood of readings at many nodes at once. Immutable.
 class NodeRows {
  public:
-  /// `limited`: what is asked for beside measured columns; it may depend on rows before, too. Its path is the
-  /// last of `paths`.
+  /// `limited`: an expression in addition to measured columns; it may depend on earlier rows, too.
+  /// Its path is the last of `paths`.
   NodeRows(std::shared_ptr<const FormulaModel> model, const std::vector<formula::Wanted>& limited);
 
   const FormulaModel& model() const { return *model_; }
-  /// Whether a reading's likelihood depends on those before: then rows are taken along the axis.
+  /// Whether a reading's likelihood depends on earlier ones: then rows must be in order along the
+  /// axis.
   bool follows() const { return follows_; }
   std::vector<NodePath> paths() const { return std::vector<NodePath>(programs_.size()); }
-  /// Whether these are paths of so many nodes of this law: of bytes that came from elsewhere.
+  /// Whether these are paths of this many nodes of this formula: validates bytes from outside.
   bool fit(const std::vector<NodePath>& paths, std::size_t nodes) const;
 
-  /// Some nodes with their weights, ascending: over which a prediction is summed.
+  /// Some nodes with their weights, ascending, over which a prediction is summed.
   struct Sample {
     std::vector<std::size_t> node;
     std::vector<double> weight;
   };
 
-  /// Fills `log_likelihood`, node by node, of a reading whose paths stand at `before`, and moves `after` there
-  /// (may be null). With a sample `surprise` is the smallest over measured columns, times their number.
+  /// Fills `log_likelihood`, node by node, for a reading whose paths are at `before`, and updates
+  /// `after` (may be null). With a sample, `surprise` is the smallest p-value over measured
+  /// columns, times their number.
   void look(const Nodes& nodes, const UnitReading& reading, const std::vector<NodePath>& before,
             std::vector<NodePath>* after, std::span<double> log_likelihood, const Sample* sample,
             double* p_value) const;
@@ -74,7 +77,7 @@ class NodeRows {
                      NodePath* after, double* to) const;
 
   std::shared_ptr<const FormulaModel> model_;
-  std::vector<NodeProgram> programs_;  // by measured column, then what is limited
+  std::vector<NodeProgram> programs_;  // by measured column, then the quantity with the threshold
   bool follows_ = false;
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };

@@ -8,12 +8,12 @@
 
 namespace wearwell::formula_model {
 
-/// Nodes of one pass on their way, from where their unit stands.
+/// Nodes of one pass as they continue from the present state of their unit.
 struct NodeLives::Ahead {
   const NodeLives& lives;
   const Nodes& nodes;
   const UnitReading& last;
-  const NodePath* path;  // of what is limited, where it runs
+  const NodePath* path;  // of the quantity with the threshold, if it is running
   NodeRow own, ahead;
   bool runs, changes = false;
   NodeProgram::Scratch scratch;
@@ -39,7 +39,7 @@ struct NodeLives::Ahead {
     changes &= !runs;
   }
 
-  // Where paths are looked at from.
+  // The start of the forecast.
   double from() const { return runs && path->begun ? path->place : lives.path_.begin; }
 
   void evaluate(const NodeRow& row, const double* place) {
@@ -54,7 +54,7 @@ struct NodeLives::Ahead {
     return values[values.size() == 1 ? 0 : i];
   }
 
-  // Output o of all nodes where the unit is now, under its own conditions.
+  // Output o of all nodes at the unit's present position, under its own conditions.
   void now(std::size_t o, double* value) {
     double place[most_crossings];
     std::fill_n(place, count, last.place);
@@ -63,8 +63,9 @@ struct NodeLives::Ahead {
     for (std::size_t i = 0; i < count; ++i) value[i] = values[values.size() == 1 ? 0 : i];
   }
 
-  // Makes of places what remains: negative where the limit is behind. A path that goes on knows no place before
-  // its last row: there as far as it has passed the limit, at the pace of the fastest of its neighbours.
+  // Turns positions into remaining lives: negative if the threshold is passed. A path that
+  // continues has no positions before its last row: the excess over the threshold is divided by the
+  // rate of the fastest neighbor.
   void count_from(const double* start, double* place) const {
     double pace = 0;
     for (std::size_t i = 0; i < count; ++i) {

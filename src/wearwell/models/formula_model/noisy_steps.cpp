@@ -26,7 +26,7 @@ void NoisySteps::add(double growth, double variance, double noise, double readin
 
 void NoisySteps::log_densities(const double* q, double* value) const {
   constexpr std::size_t n = together;
-  // Variances over those at q = 1, multiplied before their logarithm is taken.
+  // Variances relative to those at q = 1, multiplied before taking the logarithm.
   constexpr std::size_t factors_of_log = 4;
   double at[n] = {}, variance[n] = {}, squares[n] = {}, logs[n] = {}, product[n];
   std::fill_n(product, n, 1.0);

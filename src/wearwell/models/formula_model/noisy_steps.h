@@ -6,12 +6,12 @@
 
 namespace wearwell::formula_model {
 
-/// Readings of one Wiener path with errors, as a function of a factor q: the mean of each step is q times its growth, its
-/// variance q times its variance (`scaled`) or that itself, and each reading has an error of its own. By Kalman's
-/// recursion, at several q together.
+/// Readings of one Wiener path with errors, as a function of a factor q: the mean of each step is q
+/// times its growth, its variance q times its variance (`scaled`) or the variance itself, and each
+/// reading has an independent error. By Kalman's recursion, at several q together.
 class NoisySteps {
  public:
-  /// Between readings; the path begins at 0. All SI.
+  /// Between readings; the path starts at 0. All SI.
   struct Step {
     double growth, variance,
         noise;  ///< of mean and variance at q = 1; variance of the reading's error
@@ -21,7 +21,7 @@ class NoisySteps {
   static constexpr std::size_t together = 8;
 
   void clear(bool scaled);
-  /// Variances are not below 0, and one of them is above.
+  /// Variances must be non-negative, and at least one positive.
   void add(double growth, double variance, double noise, double reading);
   std::size_t count() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
@@ -34,7 +34,7 @@ class NoisySteps {
   };
   Place at(double q) const;
 
-  /// Where variances are not scaled: constant + by_one q + by_square q^2.
+  /// If variances are not scaled: constant + by_one q + by_square q^2.
   struct Quadratic {
     double constant = 0, by_one = 0, by_square = 0;
   };
@@ -45,7 +45,7 @@ class NoisySteps {
     std::vector<double> growth, variance, noise;  ///< of each step
     void restart(std::size_t steps);
   };
-  /// Adds those of the log density at `together` factors to `slopes`; fills `by_q` of each.
+  /// Adds those of the log density at `together` factors to `slopes`; fills `by_q` for each.
   void add_slopes(const double* q, const double* weight, Slopes& slopes, double* by_q) const;
 
  private:

@@ -10,8 +10,8 @@ using Matrix2 = Eigen::Matrix2d;
 using Vector2 = Eigen::Vector2d;
 
 NormalUnit::NormalUnit(const Vector2& best, const Matrix2& H, const Matrix2& A) {
-  // (H^-1 + S)^-1 = (H + det(H) adj(S)) / det(I + A' H A), S = A A': sums of what is not negative, so
-  // that H may be singular and nothing cancels where it is large.
+  // (H^-1 + S)^-1 = (H + det(H) adj(S)) / det(I + A' H A), S = A A': sums of non-negative terms, so
+  // that H may be singular and large H causes no cancellation.
   const Matrix2 S = A * A.transpose(), B = Matrix2::Identity() + A.transpose() * H * A;
   Matrix2 adjugate;
   adjugate << S(1, 1), -S(0, 1), -S(0, 1), S(0, 0);

@@ -4,7 +4,7 @@
 
 namespace wearwell::formula_model {
 
-/// A unit whose log likelihood is a parabola in the steps s of its effects,
+/// A unit whose log-likelihood is quadratic in the steps s of its effects,
 ///
 ///   log p(data | s) = top - (s - best)' H (s - best)/2,
 ///

@@ -22,7 +22,7 @@ bool has_named_measure(const ColumnRoles& roles) {
   return roles.has({"depth", "volume", "mass", "crack", "measured"});
 }
 
-// A path as it is read off a table, and what its study needs.
+// A degradation path found in a table, and what its study needs.
 struct Path {
   Found axis, measured;
   std::optional<Found> unit;
@@ -30,12 +30,12 @@ struct Path {
   std::string axis_unit, measured_unit;
 };
 
-// What is measured, where no heading says it: the one column of numbers that is left.
+// The measured column, if no heading marks it: the only remaining numeric column.
 bool has_lone_measure(ColumnRoles& roles) {
   return has_units(roles) && !has_named_measure(roles);
 }
 
-// A limit of another dimension than what is measured is none.
+// A threshold of another dimension than the measured quantity is ignored.
 void require_limit(const ColumnRoles& roles, const Found& measured) {
   if (roles.choices().limit.empty()) return;
   try {
@@ -70,7 +70,7 @@ std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
     if (others.empty()) return {};
     measured = roles.take_column("measured", *others.front(), role_form("measured"));
     if (others.size() > 1) {
-      TableQuestion question{fmt::format("Which column of {} is what was measured?", roles.file()),
+      TableQuestion question{fmt::format("Which column of {} is the measured one?", roles.file()),
                              {}};
       for (const Column* each : others) {
         question.readings.push_back({fmt::format("'{}'", each->name),
@@ -79,7 +79,7 @@ std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
       roles.questions.push_back(std::move(question));
     } else {
       roles.guesses.push_back(
-          fmt::format("column '{}' is taken for what was measured: it is the one that is left",
+          fmt::format("column '{}' is assumed to be the measured one: it is the only one left",
                       measured->column->name));
     }
   }
@@ -94,7 +94,7 @@ std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
   path.columns =
       column_line(path.axis_name, path.axis) + ColumnRoles::line(path.measured_name, path.measured);
   if (path.unit)
-    path.columns += fmt::format("{} = {}    # whose readings these are\n", path.unit_name,
+    path.columns += fmt::format("{} = {}    # the unit of each reading\n", path.unit_name,
                                 toml_text(path.unit->column->name));
   return path;
 }
@@ -105,7 +105,7 @@ double largest(const Table& table, const Column& column) {
   return result > 0 ? result : 1;
 }
 
-// Sections that all such studies have, of a parameter that differs from unit to unit.
+// Sections of all such studies with a random effect.
 std::string study_text(const ColumnRoles& roles, const Path& path, const std::string& title,
                        const std::string& columns, const std::string& model,
                        const std::string& parameter, const std::string& priors) {
@@ -114,55 +114,55 @@ std::string study_text(const ColumnRoles& roles, const Path& path, const std::st
   const double last = largest(table, *path.axis.column);
   const std::string limit =
       roles.choices().limit.empty()
-          ? fmt::format(
-                "# limit = {{ {} = {} }}    # STATE IT to get lives: where has a part failed?\n",
-                path.line_name, toml_text(quantity_text(2 * sigma, path.measured_unit)))
+          ? fmt::format("# limit = {{ {} = {} }}    # STATE THE FAILURE THRESHOLD to get lives\n",
+                        path.line_name, toml_text(quantity_text(2 * sigma, path.measured_unit)))
           : fmt::format(
                 "limit = {{ {} = {} }}    # lives, and remaining useful lives of each unit\n",
                 path.line_name, toml_text(roles.choices().limit));
   const std::string random_effects =
       !path.unit ? ""
                  : fmt::format(
-                       "\n[random_effects.{0}]    # units differ: each has its own {1} about the "
-                       "median unit's\n"
+                       "\n"
+                       "[random_effects.{0}]    # random effects: {1} varies from unit to unit\n"
                        "{1} = {{ distribution = \"lognormal\", log_sd = \"scatter\" }}\n",
                        path.unit_name, parameter);
   return fmt::format(
       "title = {}\n"
-      "model = \"formula\"\n\n{}[data.columns]\n{}\n"
+      "model = \"formula\"\n\n"
+      "{}[data.columns]\n"
+      "{}\n"
       "{}\n"
       "[likelihood.{}]\n"
-      "family = \"normal\"                        # readings scatter about the path; paths that "
-      "are random "
-      "themselves: docs/reference/degradation.md\n"
+      "family = \"normal\"                        # readings scatter about the path; for random "
+      "increments see docs/reference/degradation.md\n"
       "mean   = \"{}\"\n"
       "sd     = \"sigma\"\n\n"
-      "# What was known before the data, as weak as it goes: PROPOSED from the size of the data. "
-      "What you know makes a\n"
-      "# better answer.\n"
-      "[prior]\n{}"
-      "sigma = {{ distribution = \"half-normal\", scale = {} }}    # a reading scatters by no more "
-      "than "
-      "what it measures\n{}{}\n"
+      "# Prior knowledge: PROPOSED as weak priors from the size of the data. Replace them with "
+      "what you know.\n"
+      "[prior]\n"
+      "{}sigma = {{ distribution = \"half-normal\", scale = {} }}    # scatter of a reading, up to "
+      "the size "
+      "of the measured values\n"
+      "{}{}\n"
       "[predict]\n"
       "along = \"{}\"\n"
-      "at = [{}]    # twice what was run\n{}",
+      "at = [{}]    # twice the largest value in the data\n"
+      "{}",
       toml_text(title + ", from " + roles.file()), roles.data_section(), columns, model,
       path.measured_name, path.line_name, priors,
       toml_text(quantity_text(sigma, path.measured_unit)),
-      path.unit ? "scatter = { distribution = \"half-normal\", scale = 1 }    # units differ by "
-                  "less than a "
-                  "factor of ten, mostly\n"
-                : "",
+      path.unit
+          ? "scatter = { distribution = \"half-normal\", scale = 1 }    # most units are within a "
+            "factor of ten\n"
+          : "",
       random_effects, path.axis_name, toml_text(quantity_text(2 * last, path.axis_unit)), limit);
 }
 
 void say_limit(ColumnRoles& roles) {
   if (roles.choices().limit.empty())
     roles.guesses.emplace_back(
-        "no limit is stated: wear is fitted, and no life is predicted; state it with --limit, or "
-        "as "
-        "[predict] limit");
+        "no failure threshold is given: wear is fitted, and no life is predicted; give it with "
+        "--limit, or as [predict] limit");
 }
 
 void say_others(ColumnRoles& roles) {
@@ -170,8 +170,8 @@ void say_others(ColumnRoles& roles) {
   for (const Column* each : roles.other_numbers()) names.push_back("'" + each->name + "'");
   if (names.empty()) return;
   roles.guesses.push_back(
-      fmt::format("the rate is taken not to depend on {}; that it does is a formula of your own "
-                  "(docs/reference/formula-models.md)",
+      fmt::format("the rate is assumed not to depend on {}; to model that dependence write your "
+                  "own formula (docs/reference/formula-models.md)",
                   fmt::join(names, ", ")));
 }
 
@@ -216,8 +216,8 @@ std::optional<Scaffold> wear_scaffold(ColumnRoles& roles) {
   const std::string unit = unit_of_ratio(path->measured_unit, under);
   std::string text = study_text(
       roles, *path, "Wear law", columns,
-      fmt::format("[formula]                                    # the simplest: Archard's "
-                  "law, in proportion to {0} and {1}\n"
+      fmt::format("[formula]                                    # the simplest formula: "
+                  "Archard's law, proportional to {0} and {1}\n"
                   "{2} = \"{3}\"\n"
                   "# {2} = \"k * {0}^a * {1}^b\" and the like: divide by a unit first, "
                   "(force/1 [N])^a (docs/reference/formula-language.md)\n",
@@ -228,9 +228,9 @@ std::optional<Scaffold> wear_scaffold(ColumnRoles& roles) {
                   toml_text(quantity_text(k, unit))));
   if (differs(roles.table(), *force.column))
     text += fmt::format(
-        "given = {{ {} = {} }}    # GUESS: the largest tested; state that of use\n", name,
+        "given = {{ {} = {} }}    # GUESS: the largest tested; state the value in use\n", name,
         toml_text(quantity_text(largest(roles.table(), *force.column), force.unit)));
-  return roles.study("wear law: wear in proportion to " + name + " and " + path->axis_name,
+  return roles.study("wear law: wear proportional to " + name + " and " + path->axis_name,
                      ReadingFit::general, std::move(text));
 }
 
@@ -255,21 +255,22 @@ std::optional<Scaffold> first_degradation_study(ColumnRoles& roles) {
   if (!line.begins_at_zero) {
     const double size = rounded_up(largest(roles.table(), *path->measured.column));
     priors += fmt::format(
-        "start = {{ distribution = \"normal\", mean = {}, sd = {} }}    # where a path begins\n",
+        "start = {{ distribution = \"normal\", mean = {}, sd = {} }}    # initial value of a "
+        "path\n",
         toml_text(quantity_text(size / 2, path->measured_unit)),
         toml_text(quantity_text(size, path->measured_unit)));
     roles.guesses.push_back(
-        fmt::format("readings of '{}' do not begin at 0: a path is start {} rate * {}",
+        fmt::format("readings of '{}' do not start at 0: the path is start {} rate * {}",
                     path->measured.column->name, line.falls ? "-" : "+", path->axis_name));
   }
   const std::string model = fmt::format(
       "[formula]                                    # the simplest path: a straight line\n"
       "{0} = \"{1}\"\n"
-      "# {0} = \"rate * ({2}/1 [{3}])^p\"    # wear that slows down or speeds up; rate in {4}, and "
-      "a prior of p\n",
+      "# {0} = \"rate * ({2}/1 [{3}])^p\"    # for wear that slows down or speeds up; rate in {4}; "
+      "p needs a prior\n",
       path->line_name, formula, path->axis_name, path->axis_unit, path->measured_unit);
   return roles.study(fmt::format("degradation: {} along {}{}", path->measured_name, path->axis_name,
-                                 path->unit ? " of units that differ" : ""),
+                                 path->unit ? " with unit-to-unit variation" : ""),
                      roles.has({"force", "pressure"}) ? ReadingFit::possible : ReadingFit::general,
                      study_text(roles, *path, "Degradation", path->columns, model, "rate", priors));
 }

@@ -6,11 +6,12 @@
 
 namespace wearwell::formula_model {
 
-/// Wear in proportion to force (or pressure) and distance, Archard's law; nothing where the table has no force.
+/// Wear proportional to force (or pressure) and distance, Archard's law; empty if the table has no
+/// force.
 std::optional<Scaffold> wear_scaffold(ColumnRoles& roles);
 
-/// What is measured, as a straight line along cycles, time or distance, of units whose rates differ; nothing
-/// where nothing is measured along anything.
+/// The measured quantity as a straight line along cycles, time or distance, for units whose rates
+/// vary; empty if there is no measured quantity or no axis.
 std::optional<Scaffold> first_degradation_study(ColumnRoles& roles);
 
 }  // namespace wearwell::formula_model

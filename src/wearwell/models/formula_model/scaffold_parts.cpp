@@ -28,7 +28,7 @@ std::string factor(const std::string& unit) {
   return is_plain_unit(unit) ? unit : "(" + unit + ")";
 }
 
-// Several rows of each, and none without a name: no remarks.
+// Several rows of each unit, and none without a name: remarks are excluded.
 bool may_be_units(const Table& table, const Column& column) {
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (cell_word(column, i).empty()) return false;
@@ -81,7 +81,7 @@ std::optional<ColumnRoles::Found> take_axis(ColumnRoles& roles, const std::strin
   if (found.empty()) return {};
   if (found.size() > 1) {
     TableQuestion question{
-        fmt::format("Along which column of {} does it wear or live?", roles.file()), {}};
+        fmt::format("Which column of {} is the axis of wear or life?", roles.file()), {}};
     for (const auto& each : found) {
       question.readings.push_back(
           {fmt::format("{}: '{}'", each.role->name, each.column->name),
@@ -147,17 +147,17 @@ std::optional<ColumnRoles::Found> take_units(ColumnRoles& roles, const Column& a
   std::erase_if(labels, [&](const Column* each) { return !may_be_units(roles.table(), *each); });
   if (labels.empty()) return {};
   if (rises_throughout(roles.table(), axis)) {
-    roles.guesses.emplace_back("all rows are taken to be of one unit");
+    roles.guesses.emplace_back("all rows are assumed to be of one unit");
     return {};
   }
   TableQuestion question{
-      fmt::format("Which column of {} says of which unit a row is?", roles.file()), {}};
+      fmt::format("Which column of {} identifies the unit of a row?", roles.file()), {}};
   for (const Column* each : labels) {
     question.readings.push_back(
         {fmt::format("'{}'", each->name), {"--column", fmt::format("unit={}", each->name)}});
   }
   question.readings.push_back(
-      {"none: all rows are of one unit, or each is of its own", {"--column", "unit="}});
+      {"none: all rows are of one unit, or each is of its own unit", {"--column", "unit="}});
   roles.questions.push_back(std::move(question));
   return {};
 }

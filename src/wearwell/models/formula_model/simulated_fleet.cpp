@@ -36,11 +36,11 @@ std::string time_text(std::int64_t time) {
                      clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
-// One machine's year: a reading a week, of what it had run by then.
+// One machine's year: a weekly reading at its use by then.
 void report(std::size_t index, const SimulatedMachine& one, Rng& rng,
             std::vector<std::pair<std::int64_t, SimulatedReading>>& arrivals) {
   const auto first = static_cast<std::int64_t>(rng.uniform() * 26 * static_cast<double>(week));
-  const double share = rng.uniform(0.6, 0.95);  // of a week that it runs
+  const double share = rng.uniform(0.6, 0.95);  // the share of a week that it runs
   double use = 0;
   for (std::int64_t time = begin + first; time < begin + weeks * week; time += week) {
     use += 168 * share * rng.uniform(0.8, 1.2);

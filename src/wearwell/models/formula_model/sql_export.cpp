@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t most_numbers = 2'000'000;
 
-/// The nodes at even steps of the weight. Along the effect, where there is one: then what rises with it has nearly the quantiles that all
-/// nodes together have.
+/// The nodes at even steps of the cumulative weight. Sorted along the effect, if there is one: then
+/// quantities monotone in it have nearly the same quantiles as over all nodes.
 Nodes draws_of(const Nodes& nodes, const std::vector<double>& weight, std::size_t count) {
   Nodes drawn;
   auto values =
@@ -50,7 +50,7 @@ Nodes draws_of(const Nodes& nodes, const std::vector<double>& weight, std::size_
   return drawn;
 }
 
-/// Of a unit that the study has seen with rows `seen`, or of a new one.
+/// Of a unit of the study with rows `seen`, or of a new one.
 Nodes draws_of(const NodePopulation& population, const NodeRows& rows,
                const std::vector<UnitReading>& seen, std::size_t count) {
   const UnitNodes laid = lay_nodes(population, seen, seen, {});
@@ -74,12 +74,12 @@ std::map<std::string, std::string> named_columns(const std::vector<std::string>&
     const std::size_t equals = option.find('=');
     const std::string name = option.substr(0, equals);
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("--columns: the value stands on no '{}', but on {}",
+      throw InputError(fmt::format("--columns: the value does not depend on '{}', but on {}",
                                    printable(name), fmt::join(names, ", ")));
     if (equals == option.npos || equals + 1 == option.size())
-      throw InputError(fmt::format("--columns: '{0}' names no column: write '{0}=COLUMN'", name));
+      throw InputError(fmt::format("--columns: '{0}' has no column: write '{0}=COLUMN'", name));
     if (!given.emplace(name, option.substr(equals + 1)).second)
-      throw InputError(fmt::format("--columns: '{}' is named twice", name));
+      throw InputError(fmt::format("--columns: '{}' occurs twice", name));
   }
   return given;
 }
@@ -92,22 +92,21 @@ class Exporter {
         model_(read_formula_model(root_, state.source)),
         population_(model_, state.posterior) {
     refuse_drawn_effects(*model_, "exported");
-    // Nothing is in a hurry here.
+    // Speed does not matter here.
     population_.few = population_.many;
     if (model_->has_process())
       throw InputError(
-          "the study's readings grow in random steps: where a unit will be is no function of a "
-          "row, and not "
-          "printed as SQL");
+          "the study's readings have random increments: the position of a unit is not a function "
+          "of a row; SQL export does not support it");
     if (choice.draws < 20 || choice.draws % 20 != 0 || choice.draws > 100'000)
-      throw InputError("--draws: a multiple of 20, 20 to 100000");
+      throw InputError("--draws: must be a multiple of 20, from 20 to 100000");
   }
 
   SqlExport make() {
     read_value();
     sql_ = formula_sql(model_->lines, out_.wanted, model_->row_symbols, choice_.dialect);
     if (sql_.steps.back().drawn.empty())
-      throw InputError(fmt::format("'{}' holds no parameter of the study", out_.expression));
+      throw InputError(fmt::format("'{}' contains no parameter of the study", out_.expression));
     read_columns();
     draw();
     SqlStatements statements{sql_, choice_, columns_, unit_column_,
@@ -127,9 +126,10 @@ class Exporter {
         if (measured.form->slots[measured.slot[o]].kind == ParameterKind::place)
           out_.wanted = measured.wanted[o];
       if (out_.wanted.text.empty())
-        throw InputError(fmt::format(
-            "the {} family has no slot that is a value of '{}': say with --value what is wanted",
-            measured.form->name, measured.column));
+        throw InputError(
+            fmt::format("the {} family has no parameter that is a value of '{}': give the "
+                        "expression with --value",
+                        measured.form->name, measured.column));
     }
     const formula::Program program =
         formula::compile(model_->lines, {out_.wanted}, model_->row_symbols);
@@ -170,7 +170,7 @@ class Exporter {
     };
     for (const std::size_t l : sql_.labels) {
       const formula::LabelSymbol& label = model_->row_symbols.labels[l];
-      // A new unit is none that the study knows.
+      // A new unit has a name that the study does not know.
       SqlInput input{fmt::format("formula_l{}", l), label_column(label.name), Unit{"1", 1, 0},
                      true};
       if (label.name != model_->label) input.levels = label.levels;
@@ -202,11 +202,9 @@ class Exporter {
     const std::size_t known = model_->has_random_effects() ? model_->units.size() : 0;
     const std::size_t numbers = sql_.parameters.size() + sql_.effects.size();
     if ((known + 1) * choice_.draws * numbers > most_numbers)
-      throw InputError(
-          fmt::format("{} units with {} draws of {} numbers are more than the {} that are printed: "
-                      "ask for fewer "
-                      "--draws",
-                      known + 1, choice_.draws, numbers, most_numbers));
+      throw InputError(fmt::format(
+          "{} units with {} draws of {} numbers exceed the maximum of {}: use fewer --draws",
+          known + 1, choice_.draws, numbers, most_numbers));
     out_.units.push_back("");
     out_.draws.push_back(draws_of(population_, rows, {}, choice_.draws));
     for (std::size_t u = 0; u < known; ++u) {
@@ -218,7 +216,7 @@ class Exporter {
   }
 
   void add_rows(SqlStatements& statements) const {
-    // Effects in the order of the symbols that are given by row.
+    // Effects in the order of the row symbols.
     std::vector<std::size_t> order(model_->effects.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -34,7 +34,7 @@ std::string SqlStatements::rows() const {
   return text;
 }
 
-/// Of its own for all that is drawn: another fit, or another value, has another.
+/// A name derived from all that is drawn: another fit or another value gets another table.
 std::string SqlStatements::draws_table() const {
   std::string all;
   for (const auto& [name, what] : numbers) all += name + ' ' + what + '\n';
@@ -56,11 +56,12 @@ std::string SqlStatements::setup() const {
   }
   const std::string table = draws_table();
   const std::string head = fmt::format(
-      "-- 1. Set-up: {} draws of what is not known, as rows. May be run again. SI.\n{}",
+      "-- 1. Set-up: {} draws of the unknowns, as rows. May be run again. SI.\n"
+      "{}",
       choice.draws,
       words + (random_effects
-                   ? "-- unit '': one that the study has not seen; others are given their "
-                     "readings in it.\n"
+                   ? "-- unit '': a new unit; the others are conditioned on their readings in "
+                     "the study.\n"
                    : ""));
   if (clickhouse())
     return fmt::format(
@@ -86,16 +87,16 @@ std::vector<std::string> SqlStatements::kept() const {
   fleet::refuse_alike(choice.dialect, names);
   for (std::string& each : names) {
     if (each.starts_with("law_"))
-      throw InputError(
-          fmt::format("the column '{}' would be taken for one of the answer: give the table "
-                      "another name for it",
-                      printable(each)));
+      throw InputError(fmt::format(
+          "the column '{}' has the name of a column of the answer: rename it in the table",
+          printable(each)));
     each = fleet::identifier(choice.dialect, each);
   }
   return names;
 }
 
-/// Of a row of the table: what is kept, what the value stands on, and whether that is all there.
+/// Of a row of the table: the kept columns, the inputs of the value, and whether all inputs are
+/// present.
 std::string SqlStatements::row_columns() const {
   std::string text;
   for (const std::string& each : kept()) text += fmt::format("  t.{0} as {0},\n", each);
@@ -130,7 +131,7 @@ std::string SqlStatements::row_columns() const {
                             whole.empty() ? "1 = 1" : whole);
 }
 
-/// Levels within each other: every step is computed once.
+/// Nested SELECTs: every step is computed once.
 std::string SqlStatements::steps(std::string from) const {
   const bool fence = choice.dialect == fleet::Dialect::postgresql;
   int level = 0;
@@ -146,7 +147,7 @@ std::string SqlStatements::steps(std::string from) const {
   return from;
 }
 
-/// The mean of the two order statistics about it, in the unit of the answer.
+/// The mean of the two neighboring order statistics, in the unit of the answer.
 std::string SqlStatements::answer_of(const std::string& sorted, double p) const {
   const auto k = static_cast<std::size_t>(p * static_cast<double>(choice.draws) + 0.5);
   std::string text = fmt::format("({0}[{1}] + {0}[{2}]) * 0.5e0", sorted, k, k + 1);
@@ -230,7 +231,8 @@ std::string SqlStatements::by_arrays() const {
   for (const auto& [p, name] : quantiles)
     own.push_back(
         fmt::format("if(formula_good, {}, nan) as {}", answer_of("formula_sorted", p), name));
-  // 18.16 forgets columns that a function within arrayMap takes from outside, unless somebody asks for them.
+  // ClickHouse 18.16 drops outer columns that only a function within arrayMap uses, unless the
+  // query uses them elsewhere.
   std::vector<std::string> outside;
   for (const SqlInput& each : inputs) outside.push_back(each.name);
   for (const FormulaSql::Step& each : sql.steps)

@@ -10,15 +10,16 @@
 
 namespace wearwell::formula_model {
 
-/// A column of the table that a value stands on: a number with its unit, or a label with the texts that it may hold (none: any).
+/// A column of the table that a value depends on: a number with its unit, or a label with its
+/// possible texts (empty: any).
 struct SqlInput {
-  std::string name, column;  ///< within statements ("formula_x0"); as the table has it
+  std::string name, column;  ///< within statements ("formula_x0"); in the table
   Unit unit;
   bool is_label = false;
   std::vector<std::string> levels = {};
 };
 
-/// Puts the statements of a law together.
+/// Assembles the statements of a formula.
 struct SqlStatements {
   struct Draw {
     std::string unit;
@@ -29,9 +30,9 @@ struct SqlStatements {
   const FormulaSql& sql;
   const SqlExportChoice& choice;
   const std::vector<SqlInput>& inputs;
-  std::string unit_column;  ///< empty where no unit has draws of its own
+  std::string unit_column;  ///< empty if no unit has its own draws
   std::vector<std::pair<std::string, std::string>>
-      numbers;  ///< columns of draws, and what they are
+      numbers;  ///< columns of draws, and their meaning
   std::vector<Draw> draws;
   Unit answer;
   bool random_effects = false;

@@ -13,12 +13,12 @@ std::string check_of(std::string_view bytes) {
   return sha1_of(bytes).substr(0, check_size);
 }
 
-// What stands between mark and checksum.
+// The content between mark and checksum.
 std::string_view checked(std::string_view bytes) {
   if (bytes.substr(0, mark.size()) != mark) {
     throw InputError(bytes.substr(0, 14) == mark.substr(0, 14)
                          ? "the state of a unit is of another version of wearwell"
-                         : "this is no state of a unit");
+                         : "these bytes are not a state of a unit");
   }
   const auto all = bytes.substr(0, bytes.size() < check_size ? 0 : bytes.size() - check_size);
   if (all.size() < mark.size() || check_of(all) != bytes.substr(all.size()))

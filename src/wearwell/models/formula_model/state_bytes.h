@@ -16,7 +16,7 @@ class StateWriter {
   void number(std::size_t value) { bytes_.u64(value); }
   void text(std::string_view text) { bytes_.text(text); }
   void numbers(std::span<const double> values);  ///< with their count
-  /// The same in four bytes each: of numbers that are single precision already.
+  /// The same in four bytes each: for numbers that are already in single precision.
   void short_numbers(std::span<const double> values);
   std::string done();
 
@@ -24,7 +24,7 @@ class StateWriter {
   prognosis::ByteWriter bytes_;
 };
 
-/// Reads them. Throws InputError where they are of another version or damaged.
+/// Reads them. Throws InputError if they are of another version or damaged.
 class StateReader {
  public:
   explicit StateReader(std::string_view bytes);

@@ -15,7 +15,7 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-// Intercept and slope; a slope through 0 where all lie at one place.
+// Intercept and slope; a slope through 0 if all positions are equal.
 std::pair<double, double> fitted(const Points& points) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [a, b] : points) {
@@ -67,7 +67,7 @@ StraightLine straight_line(const Table& table, const Column& axis, const Column&
   const double start = median(starts), slope = median(slopes);
   const double scatter =
       std::sqrt(sum / std::max(rows - 2.0 * static_cast<double>(units.size()), 1.0));
-  // Wear that slows down begins high as well: only what is far from 0 begins elsewhere.
+  // Wear that slows down also has a positive intercept; only a large one counts as another start.
   line.begins_at_zero = std::abs(start) < std::max(0.3 * largest_y, 4 * scatter);
   const double rate = line.begins_at_zero ? median(through) : slope;
   line.falls = rate < 0;

@@ -4,7 +4,8 @@
 
 namespace wearwell::formula_model {
 
-/// What readings show of a straight path, by least squares over all rows: of the size of things, for a first study.
+/// A straight path fitted to readings, by least squares over all rows: orders of magnitude for a
+/// first study.
 struct StraightLine {
   bool begins_at_zero = true;
   bool falls = false;

@@ -16,17 +16,17 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr double least_effective =
-    0.5;  // of the number when nodes were laid: then they are laid anew
-constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
+    0.5;  // of the effective number when nodes were built: below it they are rebuilt
+constexpr double hardly_possible = 1e-4;  // a smaller p-value contradicts
 constexpr std::size_t most_sampled = 128;
-constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
+constexpr double doubtful = 0.05;  // a smaller p-value is summed over all nodes
 
 bool has_noiseless_process(const FormulaModel& model) {
   return std::any_of(model.measured.begin(), model.measured.end(),
                      [](const Measured& m) { return m.process && m.wanted.size() < 3; });
 }
 
-constexpr std::size_t most_carried = 1000;  // far more than any law has
+constexpr std::size_t most_carried = 1000;  // far more than any formula has
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
@@ -75,7 +75,8 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
   laid_effective_ = effective_;
 }
 
-// Adds to weights what all rows, along the axis, say of nodes; where their paths stand then.
+// Adds the log-likelihood of all rows, along the axis, to the weights of nodes; returns the state
+// of their paths.
 std::vector<NodePath> TrackedUnit::look_at_all(const UnitNodes& nodes,
                                                const std::vector<UnitReading>& all,
                                                std::vector<double>& log_weight) const {
@@ -89,7 +90,7 @@ std::vector<NodePath> TrackedUnit::look_at_all(const UnitNodes& nodes,
   return paths;
 }
 
-// Sums of the weights as they are now: how many nodes carry them, and which stand for all.
+// Sums of the present weights: the effective number of nodes, and the representative ones.
 void TrackedUnit::weigh() {
   sample_.node.clear();
   sample_.weight.clear();
@@ -99,7 +100,7 @@ void TrackedUnit::weigh() {
   static thread_local std::vector<double> weight, exponent;
   weight.resize(log_weight_.size());
   exponent.resize(log_weight_.size());
-  // To single precision, as states are saved: weights to a relative 1e-6.
+  // In single precision, as states are saved: weights to a relative 1e-6.
   for (std::size_t i = 0; i < weight.size(); ++i) {
     exponent[i] = log_weight_[i] = static_cast<float>(log_weight_[i] - top);
   }
@@ -131,7 +132,8 @@ std::vector<UnitReading> TrackedUnit::all_of(const prognosis::History& history) 
   return all;
 }
 
-// Nodes laid for all readings and this one; false, and all as it was, where none goes through them.
+// Rebuilds nodes for all readings including this one; false, with nothing changed, if no node
+// passes through them.
 bool TrackedUnit::lay_with(const UnitReading& reading, const prognosis::History& history) {
   TrackedUnit before = *this;
   std::vector<UnitReading> all = all_of(history);
@@ -163,7 +165,7 @@ double TrackedUnit::p_value_at(const UnitReading& reading, std::span<double> val
 prognosis::UpdateResult TrackedUnit::take(const prognosis::Reading& reading,
                                           const prognosis::History& history) {
   static const std::string impossible =
-      "no unit that the population allows can show this after what it showed before";
+      "no unit of the population can show this after its earlier readings";
   prognosis::UpdateResult taken;
   UnitReading y;
   taken.problem = tracked_->reader.read(reading, y);
@@ -210,9 +212,11 @@ std::string TrackedUnit::two_at_one_place(const UnitReading& reading,
   all.insert(all.end(), seen_.begin(), seen_.end());
   const bool there = std::any_of(
       all.begin(), all.end(), [&](const UnitReading& each) { return each.place == reading.place; });
-  return there ? fmt::format("there is another reading at the same {}, and paths have no error",
-                             *tracked_->model->along)
-               : "";
+  return there
+             ? fmt::format(
+                   "there is another reading at the same {}; this process has no measurement error",
+                   *tracked_->model->along)
+             : "";
 }
 
 prognosis::Forecast TrackedUnit::forecast() const {
@@ -225,7 +229,7 @@ prognosis::Forecast TrackedUnit::forecast() const {
 std::vector<prognosis::ForecastBand> TrackedUnit::ahead(std::span<const double> places) const {
   const UnitReading last = any_row_ ? last_ : tracked_->lives.before_rows();
   if (std::any_of(places.begin(), places.end(), [&](double x) { return !(x >= last.place); })) {
-    throw std::invalid_argument("a place that is not ahead");
+    throw std::invalid_argument("a position that is not ahead");
   }
   std::vector<double> weight;
   normalize(log_weight_, weight);
@@ -273,7 +277,7 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
   StateReader from(bytes);
   if (from.text() != tracked->fingerprint) {
     throw InputError(
-        "the state of a unit is of another population: the study was fitted anew since");
+        "the state of a unit is of another population: the study has been fitted again since");
   }
   std::unique_ptr<TrackedUnit> unit(new TrackedUnit(tracked, Bare()));
   unit->unit_ = from.text();

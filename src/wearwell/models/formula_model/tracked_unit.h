@@ -13,7 +13,7 @@
 
 namespace wearwell::formula_model {
 
-/// What units of one population share: made once, never changed.
+/// The parts that all units of one population share: made once, never changed.
 struct Tracked {
   std::shared_ptr<const FormulaModel> model;
   ReadingReader reader;
@@ -26,11 +26,11 @@ struct Tracked {
           const WeightedDraws& posterior, std::string print);
 };
 
-/// A unit on line: nodes, and how much of the posterior each carries. `log_weight` is a sum over readings, so the
-/// order in which they came is forgotten but for what nodes were laid when.
+/// A tracked unit: nodes with their posterior weights. `log_weight` is a sum over readings, so it
+/// does not depend on their order, except through the time when nodes were rebuilt.
 class TrackedUnit final : public prognosis::TrackedUnit {
  public:
-  /// `seen`: the unit's rows in the study, along the axis; none of a new one.
+  /// `seen`: the unit's rows in the study, along the axis; empty for a new one.
   TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
               std::vector<UnitReading> seen);
   /// Throws InputError.
@@ -48,7 +48,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   std::string save() const override;
 
   double effective() const { return effective_; }
-  std::size_t laid() const { return laid_; }  ///< how often
+  std::size_t laid() const { return laid_; }  ///< number of contradictions
 
  private:
   friend class FormulaTracker;
@@ -72,10 +72,10 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   std::vector<double> log_weight_;
   std::vector<NodePath> paths_;
   UnitReading last_;           // the row farthest along the axis
-  bool any_row_ = false;       // `last_` is one
-  NodeRows::Sample sample_;    // stands for all nodes where that will do
+  bool any_row_ = false;       // whether `last_` is set
+  NodeRows::Sample sample_;    // representatives of all nodes, where accurate enough
   double effective_ = 0;       // nodes
-  double laid_effective_ = 0;  // when they were laid
+  double laid_effective_ = 0;  // when they were built
   std::size_t readings_ = 0, laid_ = 0;
 };
 

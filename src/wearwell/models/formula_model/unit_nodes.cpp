@@ -13,23 +13,25 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000;
-constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
-constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
-constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
-constexpr double wider = 1.15;     // than the law of two effects is that which its nodes follow
+constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // without random effects
+constexpr double tail = 1e-5;  // of a line: the weight beyond its nodes on either side
+// of the initial effective number of the few points: below it other points are chosen
+constexpr double least_few = 0.3;
+// wider than the distribution of two effects by this factor, for the nodes' proposal
+constexpr double wider = 1.15;
 
-// What a unit's rows say at one point of the parameters.
+// The likelihood of a unit's rows at one point of the parameters.
 struct AtPoint {
   double log_likelihood = 0;
   double mean[2] = {}, square[3] = {1, 0, 1};  // of z: mean, covariance (11, 12, 22)
   double low = -4.3, high = 4.3;               // where one effect has all but its tails
 };
 
-// From the nodes over which the unit's effect was integrated.
+// From the nodes of the integral over the unit's effect.
 void look_at_line(const latent::UnitIntegrals& integrals, AtPoint& at) {
   static thread_local std::vector<std::pair<double, double>> nodes;
   nodes.clear();
-  // From the middle they mostly go to both sides in turn.
+  // From the middle outward, mostly alternating between both sides.
   const std::vector<latent::Sweep>& sweeps = integrals.sweeps;
   const auto note = [&](const latent::Sweep& sweep) {
     if (sweep.weight[0] > 0) nodes.emplace_back(sweep.z[0], sweep.weight[0]);
@@ -52,7 +54,8 @@ void look_at_line(const latent::UnitIntegrals& integrals, AtPoint& at) {
   for (const auto& [z, weight] : nodes) {
     at.square[0] += weight * (z - at.mean[0]) * (z - at.mean[0]);
   }
-  // As wide as it needs to be where nodes are few, and no wider than a normal law's tails where they are not.
+  // As wide as needed if there are few nodes, and no wider than the tails of a normal distribution
+  // if not.
   const double sd = std::max(std::sqrt(at.square[0]), 1e-12);
   at.low = std::min(std::max(at.low, at.mean[0] - 7 * sd), at.mean[0] - 4.3 * sd);
   at.high = std::max(std::min(at.high, at.mean[0] + 7 * sd), at.mean[0] + 4.3 * sd);
@@ -102,7 +105,7 @@ class UnitAt {
     return at;
   }
 
-  // The same number alone, at less cost where it has a formula.
+  // The same value without nodes, cheaper where a formula exists.
   double log_likelihood(const double* x) const {
     FormulaRows::Scratch* const mine = rows_ && effects_ > 0 ? &rows_->mine() : nullptr;
     if (!mine || !mine->linear) return (*this)(x).log_likelihood;
@@ -119,7 +122,7 @@ class UnitAt {
 
 struct Looked {
   std::vector<AtPoint> all;
-  std::vector<double> log_seen, log_weight;  // of what the study saw; of the posterior given all
+  std::vector<double> log_seen, log_weight;  // given the study's rows of the unit; given all rows
 };
 
 Looked look_at(const PopulationPoints& points, const UnitAt& seen, const UnitAt& all) {
@@ -135,7 +138,7 @@ Looked look_at(const PopulationPoints& points, const UnitAt& seen, const UnitAt&
   return looked;
 }
 
-// Their weights alone.
+// Only their weights.
 std::vector<double> weights_of(const PopulationPoints& points, const UnitAt& seen,
                                const UnitAt& all) {
   std::vector<double> log_weight;
@@ -163,7 +166,7 @@ void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* 
   }
 }
 
-// The points of few lines when the unit itself says where parameters are.
+// The number of lines is small if the unit itself determines the parameters.
 PopulationPoints choose(const PopulationPoints& many, const std::vector<double>& log_weight,
                         std::size_t most) {
   WeightedDraws draws;
@@ -186,7 +189,7 @@ NodePopulation::NodePopulation(std::shared_ptr<const FormulaModel> formula_model
                                const WeightedDraws& posterior)
     : model(std::move(formula_model)) {
   const bool alone = model->effects.empty();
-  // As many as keep means, variances and covariances of all parameters in several regions.
+  // As many as preserve means, variances and covariances of all parameters in several regions.
   const auto d = static_cast<std::size_t>(posterior.values.cols());
   const std::size_t moments = 1 + d + d * (d + 1) / 2;
   const std::size_t lines = std::min(std::max(few_lines, 8 * moments), most_lines);
@@ -215,7 +218,7 @@ void UnitNodes::fill(const FormulaModel& model, std::size_t per_line) {
         z[0] = own_shape[0] + static_cast<double>(k) * own_shape[1];
         log_share = std::log(own_shape[1]) - 0.5 * (log_two_pi + z[0] * z[0]);
       } else {
-        // Roberts' lattice of two dimensions, shifted from line to line.
+        // Roberts' lattice in two dimensions, shifted from line to line.
         const double u = normal_quantile(fraction(i, 0.7548776662466927));
         const double v = normal_quantile(fraction(i, 0.5698402909980532));
         z[0] = own_shape[0] + own_shape[2] * u;

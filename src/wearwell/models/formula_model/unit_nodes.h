@@ -17,8 +17,8 @@ struct PopulationPoints {
   explicit PopulationPoints(const ThinnedPosterior& few);
 };
 
-/// What units are laid from: few points for nearly all of them, and many for those that say themselves what the
-/// population left open.
+/// Sources of a unit's nodes: few points for nearly all units, and many for those whose readings
+/// determine what the population left uncertain.
 struct NodePopulation {
   std::shared_ptr<const FormulaModel> model;
   PopulationPoints few, many;
@@ -27,41 +27,44 @@ struct NodePopulation {
   std::size_t effects() const { return model->effects.size(); }
 };
 
-/// The nodes of one unit. Each point of the population's posterior has a line of them over the unit's own effects,
+/// The nodes of one unit. Each point of the population's posterior has a line of them over the
+/// unit's effects,
 ///
-///   one effect   even steps in z over all that the unit's readings leave, each line begun a little farther on,
-///                so that together they lie dense: the trapezoidal rule of each
-///   two          points of a lattice that follow a normal law of the mean and the covariance of z, weighted by
-///                what the law itself is over it
+///   one effect   even steps in z over the posterior range of the unit, each line shifted a little,
+///                so that together they are dense: the trapezoidal rule of each
+///   two          points of a lattice transformed to a normal distribution with the mean and the
+///   covariance of z, weighted by
+///                the ratio of the true density to it
 ///   none         the point itself
 ///
-/// and their weights before readings, so that likelihoods of readings need only multiply them.
+/// and their weights before readings, so that likelihoods of readings only multiply them.
 struct UnitNodes {
   Nodes nodes;
-  bool own = false;  ///< the points are this unit's, not the population's few
-  /// Of each line: the weight of its point before readings, and what the study's rows of the unit have in it
-  /// already, which count with the readings.
+  bool own = false;  ///< the points are this unit's own, not the population's
+  /// Of each line: the weight of its point before readings, and the log-likelihood of the study's
+  /// rows of the unit that it already contains.
   std::vector<double> log_point, log_seen;
   std::vector<double> shape;  ///< of each line: 0, 2 (first z, step) or 5 (mean, factor) numbers
   std::vector<double> log_before;  ///< of each node: its weight before readings; from these
 
-  /// Computes effects and weights of nodes from points and shapes: the same bits whenever that is done.
+  /// Computes effects and weights of nodes from points and shapes: with the same bits at any time.
   void fill(const FormulaModel& model) { fill(model, usual_per_line); }
-  /// The same lattice of two effects with so many nodes a line.
+  /// The same lattice of two effects with this number of nodes per line.
   void fill(const FormulaModel& model, std::size_t per_line);
   static constexpr std::size_t usual_per_line = 10;
   static std::size_t shape_size(std::size_t effects) { return effects == 2 ? 5 : 2 * effects; }
 };
 
-/// Lays the nodes of a unit that the study has seen with rows `seen` (maybe none) and that has shown `all` since the
-/// beginning, those among them. Both along the axis. `before`: its nodes until now, whose points are kept where they
-/// are its own and will do.
+/// Builds the nodes of a unit with rows `seen` in the study (may be empty) and rows `all` since the
+/// beginning, including those. Both along the axis. `before`: its present nodes, whose points are
+/// kept if they are its own and accurate enough.
 UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
                     const std::vector<UnitReading>& all, const UnitNodes& before);
 
-/// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 where all are none.
+/// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 if all are
+/// zero.
 double effective_number(std::span<const double> log_weight);
-/// The same weights, to sum to 1.
+/// The same weights, normalized.
 void normalize(std::span<const double> log_weight, std::vector<double>& weight);
 
 }  // namespace wearwell::formula_model

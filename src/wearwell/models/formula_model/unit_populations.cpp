@@ -1,4 +1,4 @@
-// One unit in each of the populations that are possible: its lines, each by itself.
+// One unit in each possible population: its lines, each by itself.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t dense =
-    160;  // nodes of a line over two effects, whose few serve only all together
+    160;  // nodes of a line over two effects, where each line alone has too few
 
-// Weights of each line made to sum to 1; what they came to.
+// Normalizes the weights of each line; their sums.
 std::vector<double> by_line(std::vector<double>& log_weight, std::size_t per_line) {
   std::vector<double> sums;
   for (std::size_t begin = 0; begin < log_weight.size(); begin += per_line) {
@@ -51,7 +51,7 @@ std::optional<prognosis::InPopulations> TrackedUnit::in_populations(
   prognosis::InPopulations found = tracked_->lives.by_line(
       nodes->nodes, weight, any_row_ ? last_ : tracked_->lives.before_rows(), paths);
   for (std::size_t k = 0; k < log_likelihood.size(); ++k) {
-    // What the study saw is in the weights of populations already.
+    // The weights of populations already contain the study's rows.
     log_likelihood[k] = readings_ == 0 ? 0 : log_likelihood[k] - nodes->log_point[k];
   }
   found.log_likelihood = std::move(log_likelihood);

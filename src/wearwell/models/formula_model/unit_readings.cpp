@@ -12,7 +12,8 @@
 namespace wearwell::formula_model {
 namespace {
 
-// The label whose levels are units: that which varies, or the only one where rows follow each other.
+// The label that identifies units: the one with random effects, or the only one if rows follow each
+// other.
 std::optional<std::string> label_of_units(const FormulaModel& model) {
   if (model.label) return model.label;
   const bool paths =
@@ -69,7 +70,7 @@ int ReadingReader::level_of(const LabelColumn& label, const std::string& text) c
 
 std::string ReadingReader::read(const prognosis::Reading& from, UnitReading& reading) const {
   if (from.numbers.size() != columns_.size() || from.labels.size() != labels_.size()) {
-    throw InputError(fmt::format("a reading has {} numbers and {} labels: {} and {} are expected",
+    throw InputError(fmt::format("a reading has {} numbers and {} labels; expected are {} and {}",
                                  from.numbers.size(), from.labels.size(), columns_.size(),
                                  labels_.size()));
   }
@@ -90,7 +91,7 @@ std::string ReadingReader::read(const prognosis::Reading& from, UnitReading& rea
       if (level < 0 && needed_label_[l]) {
         return from.labels[i].empty()
                    ? fmt::format("{} is missing", label.name)
-                   : fmt::format("'{}' is no {} of the study: {}", from.labels[i], label.name,
+                   : fmt::format("'{}' is not a {} of the study: {}", from.labels[i], label.name,
                                  fmt::join(label.levels, ", "));
       }
       reading.row.labels[l] = std::max(level, 0);
@@ -117,7 +118,7 @@ std::string ReadingReader::read(const prognosis::Reading& from, UnitReading& rea
              : fmt::format("nothing was measured: {} are missing", fmt::join(names, ", "));
 }
 
-// What the study's own reader says of such a row.
+// The message of the study's own reader for such a row.
 std::string ReadingReader::read_special(const prognosis::Reading& from,
                                         UnitReading& reading) const {
   const SpecialColumns special = special_columns(model_->data);

@@ -10,28 +10,28 @@
 
 namespace wearwell::formula_model {
 
-/// A row of one unit, as the likelihood takes it.
+/// A row of one unit, as input of the likelihood.
 struct UnitReading {
   NodeRow row;
-  double place = 0;                                ///< along the axis, SI; 0 where there is none
+  double place = 0;                                ///< along the axis, SI; 0 if there is none
   std::vector<std::optional<Response>> responses;  ///< by measured column
   int count = 1;
 };
 
-/// Makes rows of readings as they arrive.
+/// Makes rows of arriving readings.
 class ReadingReader {
  public:
   explicit ReadingReader(std::shared_ptr<const FormulaModel> model);
 
   std::span<const prognosis::ReadingColumn> columns() const { return columns_; }
-  /// The study's labels but that which names units.
+  /// The study's labels except the units' label.
   std::span<const std::string> labels() const { return labels_; }
 
-  /// Fills `reading`, or says why it is none: "force is missing".
+  /// Fills `reading`, or returns why it is invalid: "force is missing".
   std::string read(const prognosis::Reading& from, UnitReading& reading) const;
   /// The rows of a unit of the study.
   std::vector<UnitReading> of_study(std::size_t unit) const;
-  /// A reading in the study's order of columns, for messages and to be kept.
+  /// A reading in the study's order of columns, for messages and for storage.
   const FormulaModel& model() const { return *model_; }
 
  private:
@@ -48,11 +48,11 @@ class ReadingReader {
   bool special_ = false;                     // censored, truncated, counted, or of trials
 };
 
-/// Along the axis; at one place by their numbers, so that the order of arrival is forgotten.
+/// Along the axis; at the same position by values, so that the order of arrival does not matter.
 void sort_along(std::vector<UnitReading>& readings);
 
-/// The same law with one unit that has these rows: what integrates the effects of a study's units out
-/// then does so for this one.
+/// The same model with one unit that has these rows, so that the integration over effects of a
+/// study's units applies to this one.
 std::shared_ptr<const FormulaModel> model_of_unit(const FormulaModel& model,
                                                   const std::vector<UnitReading>& readings);
 

@@ -9,20 +9,20 @@ namespace wearwell::formula_model {
 
 /// exp of a whole array, in vectors; `y` may be `x`.
 void exp_all(const double* x, double* y, std::size_t n);
-/// log likewise.
+/// The log likewise.
 void log_all(const double* x, double* y, std::size_t n);
 
-// A trapezoidal rule about the mode of a unit's integrand, which judges itself: its error is about the square of what
-// every second node of it is off.
+// A trapezoidal rule around the mode of a unit's integrand with an embedded error estimate: its
+// error is about the square of the difference to every second node.
 
-/// Between its nodes, in widths at the mode, one after the other until it settles.
+/// Distances of its nodes, in widths at the mode, tried in turn until it converges.
 inline constexpr double rule_gaps[] = {0.6, 0.3, 0.15};
-/// So far below its highest the logarithm of the integrand counts no more.
+/// An integrand this far below its maximum (in logarithms) is negligible.
 inline constexpr double rule_fallen = 30;
 
-/// The logarithm of the integral by nodes `width` apart; nothing where every second of them tells another. `nodes` has
-/// their `count`; of each `f`, the logarithm of the integrand, of which its share of the integral becomes, and `odd`,
-/// whether the rule of every second one leaves it out.
+/// The logarithm of the integral by nodes `width` apart; empty if every second node gives another
+/// value. `nodes` has their `count`; for each `f`, the logarithm of the integrand, which becomes
+/// its weight in the integral, and `odd`, whether the rule of every second node skips it.
 template <class Nodes>
 std::optional<double> settled(Nodes& nodes, double width) {
   constexpr double most_of_half = 3e-5;

@@ -41,9 +41,9 @@ class ArchardLikelihood final : public LogDensity {
   std::vector<double> work_;
 };
 
-// Of many inspections with normal scatter and wear that is linear in the work: everything that the
-// likelihood takes of the data are sums, here about the line of least squares, so that no digits
-// cancel.
+// For many inspections with normal scatter and wear that is linear in the work: the likelihood
+// depends on the data only through sums, here relative to the least-squares line, to avoid
+// cancellation.
 //
 //   sum (V_i - V0 - k W_i)^2 = R - 2 dk P - 2 dV Q + dk^2 A + 2 dk dV B + n dV^2
 class SummedLikelihood final : public LogDensity {
@@ -113,7 +113,7 @@ class SummedLikelihood final : public LogDensity {
   double n_, k_ = 0, constant_guess_ = 0, r2_ = 0, rw_ = 0, r_ = 0, w2_ = 0, w1_ = 0;
 };
 
-// Few inspections are taken one by one.
+// Few inspections are evaluated one by one.
 constexpr std::size_t most_one_by_one = 500;
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace wearwell::joint {
 ///   V = V0 + k W (W / W_ref)^(exponent - 1)
 ///
 /// with W the friction work, the integral of force over slip. V0 (default 0) and the exponent
-/// (default 1, Archard) are parameters only when asked for. W_ref keeps k a wear coefficient
-/// whatever the exponent: k is the mean one up to W_ref.
+/// (default 1, Archard) are parameters only if the study has them. W_ref keeps k a wear coefficient
+/// for any exponent: k is the mean one up to W_ref.
 struct Archard {
   bool has_constant = false;
   bool has_exponent = false;
@@ -42,7 +42,7 @@ struct Archard {
 
 /// Inspections of one joint, in SI; one entry each.
 struct Inspections {
-  std::vector<double> work;    ///< friction work until then, J
+  std::vector<double> work;    ///< friction work until the inspection, J
   std::vector<double> volume;  ///< worn volume, m^3
 };
 
@@ -51,10 +51,11 @@ std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, Observa
                                                      const Inspections& inspections,
                                                      std::size_t count);
 
-/// Where each inspection lies in the law of its measurement.
+/// The score of each inspection in the distribution of its measurement.
 Scores archard_scores(const Archard& law, ObservationFamily family, const Inspections& inspections);
 
-/// Least-squares k (V0 = 0, exponent 1) and the standard deviation about it: where searches start.
+/// Least-squares k (V0 = 0, exponent 1) and the standard deviation about it: start values of
+/// searches.
 struct LeastSquares {
   double k;
   double sigma;

@@ -4,15 +4,15 @@
 
 namespace wearwell::joint {
 
-/// How the force over one cycle is summed into work.
+/// Quadrature of the force over one cycle.
 enum class WorkRule {
   rectangle,  ///< sum of F_i ds_i, as An et al. (2011, eq. 3)
-  trapezoid,  ///< sum of (F_{i-1} + F_i)/2 ds_i; the first force follows the last, a cycle being
+  trapezoid,  ///< sum of (F_{i-1} + F_i)/2 ds_i; the first force follows the last, since a cycle is
               ///< closed. A profile whose last row repeats its first has a first increment of 0
 };
 
 /// Friction work of one cycle [J] from the force [N] and the slip increment [m] that ends at each
-/// sample. Throws InputError when it is not positive.
+/// sample. Throws InputError if it is not positive.
 double work_per_cycle(const std::vector<double>& force, const std::vector<double>& slip_increment,
                       WorkRule rule);
 
@@ -28,7 +28,7 @@ struct WornVolume {
   std::vector<double> volume;  ///< m^3
 };
 
-/// Worn volume from the position (dx, dy) [m] of the pin's centre in the unworn bushing: the pin's
+/// Worn volume from the position (dx, dy) [m] of the pin's center in the unworn bushing: the pin's
 /// area outside the bushing, averaged over all rows of the same number of cycles (over angles),
 /// times the length (An et al. 2011, section 3).
 WornVolume worn_volume(const PinGeometry& geometry, const std::vector<double>& cycles,

@@ -28,7 +28,7 @@ double read_profile(const TomlReader& profile, const Source& source) {
   }
 }
 
-// k = V/(F s), every measurement for itself.
+// k = V/(F s), for each measurement alone.
 PointwiseTable pointwise_table(const Table& table, const std::vector<double>& cycles,
                                const ColumnChoice& volume, const ColumnChoice& force,
                                const ColumnChoice& slip) {
@@ -50,7 +50,7 @@ PointwiseTable pointwise_table(const Table& table, const std::vector<double>& cy
   return result;
 }
 
-// The friction work of each inspection, from whichever source the study names.
+// The friction work of each inspection, from the source that the study names.
 void read_work(const TomlReader& root, const TomlReader& columns, const Source& source,
                const Table& table, JointData& data) {
   const auto conditions = root.table("conditions");
@@ -106,7 +106,7 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
                         JointData& data) {
   if (columns.has("force") || columns.has("work")) {
     columns.fail(columns.has("force") ? "force" : "work",
-                 "pin positions (dx, dy) have many rows an inspection; give "
+                 "pin positions (dx, dy) have many rows per inspection; give "
                  "conditions.work_per_cycle or profile");
   }
   const ColumnChoice dx = required_column(columns, "dx", "m", table),
@@ -135,7 +135,7 @@ JointData read_joint_data(const TomlReader& root, const Source& source, Observat
   const TomlReader columns = data_table.required_table("columns");
   const bool positions = columns.has("dx") || columns.has("dy");
   if (positions && columns.has("volume")) {
-    columns.fail("volume", "is given beside pin positions (dx, dy); keep one of the two");
+    columns.fail("volume", "is given, and so are pin positions (dx, dy); keep one of the two");
   }
 
   const Table table = with_counts(columns, read_table(data_table, source));
@@ -172,7 +172,8 @@ JointData read_joint_data(const TomlReader& root, const Source& source, Observat
   }
   const auto& work = data.inspections.work;
   if (*std::max_element(work.begin(), work.end()) <= 0) {
-    throw InputError(fmt::format("{}: no inspection after any friction work", table.source));
+    throw InputError(
+        fmt::format("{}: no inspection has any friction work before it", table.source));
   }
   if (family == ObservationFamily::lognormal) {
     for (std::size_t i = 0; i < rows; ++i) {

@@ -13,22 +13,22 @@
 
 namespace wearwell::joint {
 
-/// The inspections of a joint, with what is needed to speak of them in the user's terms.
+/// The inspections of a joint, with the names and units for messages.
 struct JointData {
   Inspections inspections;  ///< SI
   std::vector<double> cycles;
   Unit volume_unit;
-  std::optional<double> work_per_cycle;  ///< J, where it is constant
+  std::optional<double> work_per_cycle;  ///< J, if it is constant
   std::string work_text;
   std::optional<PointwiseTable> pointwise;
   std::vector<DataColumn> columns;
   TableLayout layout;
-  std::string name;  ///< of the joint, as its readings come under it: "joint" unless the study says
+  std::string name;  ///< name of the joint, as its readings have it; default "joint"
 };
 
-/// Work and volume from whichever sources the study names (docs/reference/joint.md): columns, one constant, a
-/// profile of one cycle, pin positions. Throws InputError where none or two are given, and where a
-/// row cannot be.
+/// Work and volume from the sources that the study names (docs/reference/joint.md): columns, one
+/// constant, a profile of one cycle, pin positions. Throws InputError if none or two are given, and
+/// for an impossible row.
 JointData read_joint_data(const TomlReader& root, const Source& source, ObservationFamily family);
 
 }  // namespace wearwell::joint

@@ -14,9 +14,10 @@ double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-// Friction work against cycles. Where the work per cycle is constant, it is so past and to come.
+// Friction work against cycles. If the work per cycle is constant, it applies to the past and the
+// future.
 struct CycleWork {
-  std::optional<double> rate;  // J a cycle, of what comes
+  std::optional<double> rate;  // J per future cycle
   WorkHistory history;
 };
 
@@ -54,7 +55,7 @@ void need_rate(const TomlReader& predict, const CycleWork& cycle_work, const cha
     predict.fail(key, "needs the work of future cycles; give predict.work_per_cycle");
 }
 
-// The curve ends after the last inspection or prediction, or somewhat after the limit.
+// The curve ends after the last inspection or prediction, or somewhat after the threshold.
 void add_curve(const std::optional<TomlReader>& predict, const CycleWork& cycle_work,
                const Volumes& volumes, const JointData& data, PosteriorStudy& study) {
   constexpr int points = 32;
@@ -98,7 +99,7 @@ void add_life(const TomlReader& predict, const CycleWork& cycle_work, const Arch
               const JointData& data, PosteriorStudy& study) {
   const auto risk = predict.quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
-    predict.fail("risk", "must lie between 0 and 1, as 0.05 or \"5 %\"");
+    predict.fail("risk", "must lie between 0 and 1, like 0.05 or \"5 %\"");
   const auto limit = predict.quantity("limit", "m^3");
   if (!limit) {
     for (const char* key : {"risk", "b_lives", "credible_level"}) {

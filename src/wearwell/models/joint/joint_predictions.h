@@ -8,8 +8,9 @@
 
 namespace wearwell::joint {
 
-/// What to tell of a joint, into `study`: the worn volume at each stage and along the history, and
-/// what `[predict]` asks for: volumes at cycles to come, the life until a limit (docs/reference/joint.md).
+/// Adds the quantities of a joint to `study`: the worn volume at each stage and along the history,
+/// and those of `[predict]`: volumes at future cycles, the life until a threshold
+/// (docs/reference/joint.md).
 void add_predictions(const TomlReader& root, const Archard& law, ObservationFamily family,
                      const JointData& data, PosteriorStudy& study);
 

@@ -33,26 +33,27 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
       fmt::format(
           "title = {0}\n"
           "model = \"archard-joint\"\n\n"
-          "{1}[data.columns]\n{2}{3}\n"
-          "[likelihood]\nfamily = \"normal\"\n\n"
-          "# Without [prior] weak defaults hold (docs/reference/priors.md). What you know of k "
-          "makes a "
-          "better "
-          "answer:\n"
-          "# [prior]\n# k = {{ distribution = \"lognormal\", median = \"1e-5 mm^3/(N m)\", log_sd "
-          "= 2 }}\n\n"
-          "[predict]\n{4}",
+          "{1}[data.columns]\n"
+          "{2}{3}\n"
+          "[likelihood]\n"
+          "family = \"normal\"\n\n"
+          "# Without [prior] weak defaults apply (docs/reference/priors.md). Replace them with "
+          "what you know of k:\n"
+          "# [prior]\n"
+          "# k = {{ distribution = \"lognormal\", median = \"1e-5 mm^3/(N m)\", log_sd = 2 }}\n\n"
+          "[predict]\n"
+          "{4}",
           toml_text("Wear of a joint, from " + roles.file()), roles.data_section(), columns,
           conditions,
           slip || work
-              ? "# work_per_cycle = \"5 N m\"             # of cycles to come: then cycles = [...] "
-                "and "
-                "limit = \"...\"\n"
+              ? "# work_per_cycle = \"5 N m\"             # of future cycles: needed for cycles = "
+                "[...] and limit = \"...\"\n"
               : fmt::format(
-                    "cycles = [{:.0f}]{}\n# limit = \"100 mm^3\"                  # when is it "
-                    "reached?\n"
-                    "# risk  = \"1 %\"                       # and when to inspect again\n",
-                    2 * last, "                         # twice what was run")));
+                    "cycles = [{:.0f}]{}\n"
+                    "# limit = \"100 mm^3\"                  # failure threshold: adds the life\n"
+                    "# risk  = \"1 %\"                       # adds the time of the next "
+                    "inspection\n",
+                    2 * last, "                         # twice the largest in the data")));
 }
 
 }  // namespace wearwell::joint

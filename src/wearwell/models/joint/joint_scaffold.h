@@ -6,7 +6,7 @@
 
 namespace wearwell::joint {
 
-/// A study of worn volumes against cycles, or nothing where the headings name none.
+/// A study of worn volumes against cycles; empty if the headings have none.
 std::optional<Scaffold> scaffold(ColumnRoles& roles);
 
 }  // namespace wearwell::joint

@@ -23,13 +23,13 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& 
   const double largest =
       std::abs(*std::max_element(data.inspections.volume.begin(), data.inspections.volume.end(),
                                  [](double a, double b) { return std::abs(a) < std::abs(b); }));
-  // Data that a line fits perfectly still scatter a little.
+  // Data on an exact line still get a small scatter.
   const double sigma = std::max({guess.sigma, 1e-3 * largest, std::numeric_limits<double>::min()});
   const double k = guess.k > 0 ? guess.k : sigma / law.reference_work;
 
   // Defaults: Archard's coefficient of metals and polymers lies between 1e-8 and 1e-2 (Archard and
-  // Hirst 1956), which at a hardness of about 1 GPa is as much in mm^3/(N m); a measurement does not
-  // scatter by more than what it measures.
+  // Hirst 1956), which for a hardness of about 1 GPa has the same value in mm^3/(N m); the scatter
+  // of a measurement does not exceed the measured value.
   const std::string& unit = data.volume_unit.text;
   const double size = rounded_up(largest);
   const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
@@ -102,11 +102,11 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   if (*std::max_element(volumes.begin(), volumes.end()) <= 0) {
     study.nothing_seen = {
         "no-wear",
-        fmt::format("no wear was observed: none of {} inspections shows a worn volume above zero, "
-                    "so the data only exclude fast wear, and the upper end of every life rests on "
-                    "the prior",
-                    volumes.size()),
-        "State what is known of k from a tribometer or a like joint, and inspect again."};
+        fmt::format(
+            "no wear was observed: none of {} inspections has a worn volume above zero, so the "
+            "data only exclude fast wear, and the upper end of every life rests on the prior",
+            volumes.size()),
+        "State what you know of k from a tribometer or a similar joint, and inspect again."};
   }
   if (law.has_constant) study.meanings.push_back("volume before any work");
   if (law.has_exponent) study.meanings.push_back("exponent of the work");
@@ -117,7 +117,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.fit_data = FitData{joint::archard_scores(law, family, data.inspections),
                            {},
                            {{"friction work", work}},
-                           Rise{"worn volume grows with friction work",
+                           Rise{"worn volume increases with friction work",
                                 work,
                                 data.inspections.volume,
                                 {},
@@ -129,8 +129,8 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   }
   study.fit_data->remedies.scatter =
       family == ObservationFamily::normal
-          ? "A scatter that grows with the worn volume: try family = \"lognormal\"."
-          : "A scatter in proportion to the worn volume does not fit: try family = \"normal\".";
+          ? "The scatter grows with the worn volume: try family = \"lognormal\"."
+          : "Scatter proportional to the worn volume does not fit: try family = \"normal\".";
   study.fit_data->remedies.offset =
       "Try prior.V0, the volume before any work (running-in, an error of the zero point).";
   joint::add_predictions(root, law, family, data, study);

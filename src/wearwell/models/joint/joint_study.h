@@ -9,15 +9,15 @@ namespace wearwell {
 
 namespace joint {
 
-/// How a volume scatters: [likelihood]. Throws InputError.
+/// The scatter of a volume: [likelihood]. Throws InputError.
 ObservationFamily read_family(const TomlReader& root);
-/// Which parameters the law has: [prior].
+/// The parameters of the model: [prior].
 Archard read_law(const TomlReader& root, const JointData& data);
 
 }  // namespace joint
 
-/// Reads `model = "archard-joint"` (docs/reference/joint.md) into `study`, whose general parts are read
-/// already.
+/// Reads `model = "archard-joint"` (docs/reference/joint.md) into `study`, whose common parts are
+/// already read.
 void read_joint_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
 }  // namespace wearwell

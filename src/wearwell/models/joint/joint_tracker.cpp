@@ -32,7 +32,7 @@ struct Inspection {
   double cycles = 0, work = 0, volume = 0;
 };
 
-// What readings bring beside cycles and volume, and what is known of the cycles to come.
+// What readings have besides cycles and volume, and the known future cycles.
 struct Followed {
   Archard law;
   ObservationFamily family;
@@ -40,7 +40,7 @@ struct Followed {
   std::vector<Parameter> parameters;
   ThinnedPosterior few;
   Quantity limit;
-  double rate = 0;  // J a cycle, to come
+  double rate = 0;  // J per future cycle
   std::vector<prognosis::ReadingColumn> columns;
   std::size_t cycles = 0, volume = 0;
   std::optional<std::size_t> work, force, slip;  // of columns
@@ -57,7 +57,7 @@ struct Followed {
       if (each.name == "dx" || each.name == "dy")
         root.required_table("data").required_table("columns").fail(
             each.name,
-            "has many rows an inspection, which cannot be followed one by one: add them by "
+            "has many rows per inspection, which cannot be tracked one by one: add them with "
             "wearwell update, or give data.columns.volume");
       if (each.name == "cycles") cycles = columns.size();
       if (each.name == "volume") volume = columns.size();
@@ -65,7 +65,7 @@ struct Followed {
       if (each.name == "force") force = columns.size();
       if (each.name == "slip") slip = columns.size();
       columns.push_back({each.name, each.unit, each.name == "volume"});
-      // What is counted has a name, also where its numbers stand alone.
+      // A counted axis needs its name beside the unit, even for plain numbers.
       if (each.name == "cycles" && each.unit.text == "1") columns.back().unit.text = "cycles";
     }
   }
@@ -73,13 +73,16 @@ struct Followed {
   void read_limit(const TomlReader& root) {
     const auto predict = root.table("predict");
     const auto wanted = predict ? predict->quantity("limit", "m^3") : std::nullopt;
-    if (!wanted) root.fail("predict", "needs limit: a joint is followed until so much is worn");
+    if (!wanted)
+      root.fail(
+          "predict",
+          "needs limit: the failure threshold of the volume, towards which a joint is tracked");
     limit = *wanted;
     const auto to_come = predict->quantity("work_per_cycle", "N m/cycle");
     rate = data.work_per_cycle ? *data.work_per_cycle : to_come ? to_come->si() : 0;
   }
 
-  // Why this is no inspection; empty where it is one.
+  // Why this is not an inspection; empty if it is one.
   std::string read(const Reading& reading, Inspection& inspection) const {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double x = reading.numbers[c];
@@ -97,7 +100,7 @@ struct Followed {
     return {};
   }
 
-  // The farthest of the study and of `reading`.
+  // The farthest inspection of the study and of `reading`.
   Inspection last(const Reading* reading) const {
     Inspection farthest;
     for (std::size_t i = 0; i < data.cycles.size(); ++i) {
@@ -116,7 +119,7 @@ NodeCloud cloud(const ThinnedPosterior& few) {
   return cloud;
 }
 
-// Without readings the posterior that was carried on; else that of all inspections, integrated anew.
+// Without readings the saved posterior; otherwise that of all inspections, integrated again.
 NodeCloud lay(const Followed& joint, std::span<const Reading> readings) {
   if (readings.empty()) return cloud(joint.few);
   Inspections all = joint.data.inspections;
@@ -178,12 +181,13 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
   model.seen = {joint->data.name};
   model.fingerprint = prognosis::population_fingerprint(state);
   model.refusal = [only = joint->data.name](const std::string& unit) {
-    return unit == only ? std::string()
-                        : fmt::format(
-                              "the study is of one joint, called '{}' (data.joint), and "
-                              "says nothing of '{}': joints that wear each at its own pace "
-                              "are a study of model \"formula\" with [random_effects.UNIT]",
-                              printable(only), printable(unit));
+    return unit == only
+               ? std::string()
+               : fmt::format(
+                     "the study is of one joint, called '{}' (data.joint), and has no '{}': joints "
+                     "with different wear rates need a study of model \"formula\" with "
+                     "[random_effects.UNIT]",
+                     printable(only), printable(unit));
   };
   model.problem = [joint](const Reading& reading) {
     Inspection inspection;

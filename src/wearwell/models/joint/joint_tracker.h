@@ -7,10 +7,11 @@
 
 namespace wearwell::joint {
 
-/// Follows the one joint that a study is of, under the name that the study gives it (data.joint): inspections move the posterior of its k, sigma, V0 and
-/// exponent, and where the nodes resolve that no more it is integrated anew over all inspections. Units of any
-/// other name are refused: nothing in the study says how joints differ. Throws InputError where the study has no
-/// predict.limit, or its volumes are of pin positions, many rows an inspection.
+/// Tracks the one joint of a study, under its name in the study (data.joint): inspections update
+/// the posterior of its k, sigma, V0 and exponent, and where the nodes no longer resolve it, it is
+/// integrated again over all inspections. Units of any other name are refused: the study has no
+/// variation between joints. Throws InputError if the study has no predict.limit, or its volumes
+/// come from pin positions, many rows per inspection.
 std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedState& state);
 
 }  // namespace wearwell::joint

@@ -5,18 +5,18 @@
 
 namespace wearwell::joint {
 
-/// Friction work against cycles: none at 0 cycles, evenly from inspection to inspection, and at a
-/// constant rate after the last.
+/// Friction work against cycles: zero at 0 cycles, linear between inspections, and at a constant
+/// rate after the last.
 class WorkHistory {
  public:
-  /// Cycles and work [J] of the inspections, in any order, and the work per cycle [J] of what
-  /// comes; without a rate no work is done after the last inspection.
+  /// Cycles and work [J] of the inspections, in any order, and the work per cycle [J] afterwards;
+  /// without a rate no work is done after the last inspection.
   WorkHistory(const std::vector<double>& cycles, const std::vector<double>& work,
               std::optional<double> rate);
 
   double work_at(double cycles) const;
 
-  /// When the work is first reached; infinite for never.
+  /// First number of cycles with this work; infinite if never.
   double cycles_at(double work) const;
 
  private:
