@@ -175,7 +175,7 @@ def test_what_is_no_table_is_refused_in_words(change, message):
     ({"unit": "joints"}, "no column 'joints'"),
     ({"priors": {"k": 1}}, "k is int"),
     ({"priors": {"k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=3)}}, "sigma"),
-    ({"priors": {**priors, "k": ww.lognormal("1e-7 mm^2/(N m)", log_sd=3)}}, "'k\\*F\\*s' is m\\^2, and must be m\\^3"),
+    ({"priors": {**priors, "k": ww.lognormal("1e-7 mm^2/(N m)", log_sd=3)}}, "'k\\*F\\*s' is m\\^2, but must be m\\^3"),
     ({"formula": "V = (k + b)*F*s", "priors": {**priors, "b": ww.half_normal("1e-7 mm^3/(N m)")}}, "which of k, b differ"),
     ({"unit": None, "random_effects": ["k"]}, "random_effects needs unit"),
     ({"family": "gamma"}, "no one slot"),

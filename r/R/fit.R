@@ -29,7 +29,7 @@ run_of <- function(study, choice, threads, report, progress) {
 # progress: TRUE for a bar on standard error, or a function of what, done, total and seconds.
 with_progress <- function(progress, work) {
   if (is.function(progress)) return(work(function(...) progress(...)))
-  if (!one_truth(progress, "progress, where it is no function,")) return(work(NULL))
+  if (!one_truth(progress, "progress, where it is not a function,")) return(work(NULL))
   shown <- FALSE
   on.exit(if (shown) cat("\r", strrep(" ", 79), "\r", sep = "", file = stderr()))
   work(function(what, done, total, seconds) {

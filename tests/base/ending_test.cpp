@@ -180,7 +180,7 @@ TEST_F(EndingTest, SaysThatItWaits) {
   EXPECT_THAT(entries(folder()), IsEmpty());
   write(".state.lock", "a file of somebody");
   EXPECT_THAT(message_of<InputError>([&] { LockFile(folder() / "state", [] {}); }),
-              HasSubstr("in the way"));
+              HasSubstr("is not a lock file"));
   EXPECT_THAT(entries(folder()), ElementsAre(".state.lock"));
 }
 

@@ -47,7 +47,7 @@ TEST_F(SameFile, WhichDoesNotExistYet) {
 }
 
 TEST_F(SameFile, WithinAFolderThatIsReplaced) {
-  EXPECT_THAT(refusal(folder()), HasSubstr("is a folder that holds the cycles"));
+  EXPECT_THAT(refusal(folder()), HasSubstr("is a folder that contains the cycles"));
 }
 
 TEST_F(SameFile, OthersPass) {

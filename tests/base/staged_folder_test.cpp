@@ -127,7 +127,7 @@ TEST_F(StagedFolderTest, AFileWhereAFolderIsNeededIsNotReplaced) {
   staged.write("tables/a", "2");
   write("out/tables", "precious");
   EXPECT_THAT(message_of<InputError>([&] { staged.commit({"x"}); }),
-              HasSubstr("out/tables: it is not of an earlier run"));
+              HasSubstr("out/tables: it is not from an earlier run"));
   EXPECT_EQ(tree(target), (Tree{{"x", "1"}, {"tables", "precious"}}));
 }
 
@@ -147,7 +147,7 @@ TEST_F(StagedFolderTest, RefusesAFileOfOthersWithItsName) {
     fs::create_directory(target);
     write("out/x", "precious");
     EXPECT_THAT(message_of<InputError>([&] { staged.commit({}); }),
-                HasSubstr("out/x: it is not of an earlier run"));
+                HasSubstr("out/x: it is not from an earlier run"));
   }
   EXPECT_EQ(tree(folder()), (Tree{{"out/", ""}, {"out/x", "precious"}}));
 }

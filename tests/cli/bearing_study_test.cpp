@@ -277,7 +277,7 @@ TEST_F(BearingStudy, RefusesTurnsWithTwoReadings) {
                             "time = { column = \"t\", unit = \"h\" }")),
               AllOf(HasSubstr("speed.unit: '1/h'"), HasSubstr("rev/s")));
   EXPECT_THAT(refusal(study("revolutions = { column = \"n\", unit = \"rad\" }")),
-              HasSubstr("holds an angle"));
+              HasSubstr("contains an angle"));
 }
 
 TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
@@ -295,7 +295,7 @@ TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
   expect(head + columns + "[conditions]\ncontact = \"stationary\"\n" + rest,
          "data.columns.radius: is missing");
   expect(head + columns + "[conditions]\ncontact = \"sliding\"\nradius = \"10 mm\"\n" + rest,
-         "conditions.contact: 'sliding' is not possible");
+         "conditions.contact: 'sliding' is not allowed");
   expect(head + columns + conditions + "force = \"800 N\"\n" + rest,
          "data.columns.force: is given, and so is pressure");
   expect(head + columns + conditions + "length = \"20 mm\"\n" + rest,

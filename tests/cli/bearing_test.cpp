@@ -171,8 +171,8 @@ TEST(BearingCommand, RefusesWhatHasTwoReadings) {
               testing::AllOf(HasSubstr("--speed: '40 1/s'"), HasSubstr("40 rev/s = 251.3 rad/s"),
                              HasSubstr("40 rad/s = 6.366 rev/s")));
   EXPECT_THAT(refusal("--speed 40"), testing::Not(HasSubstr("1/s")));
-  EXPECT_THAT(refusal("--speed '40 rpm' --unit 1/min"), HasSubstr("one over"));
-  EXPECT_THAT(refusal("--unit rad"), HasSubstr("--unit: unit 'rad' holds an angle"));
+  EXPECT_THAT(refusal("--speed '40 rpm' --unit 1/min"), HasSubstr("reciprocal"));
+  EXPECT_THAT(refusal("--unit rad"), HasSubstr("--unit: unit 'rad' contains an angle"));
   EXPECT_THAT(refusal("--revolutions '5 krev +- 30'"), HasSubstr("--revolutions"));
 }
 

@@ -84,7 +84,7 @@ TEST_F(Defaults, AFirstFitFindsTheTruthAndNamesThem) {
     }
   }
   const std::string report = content_of((folder() / "out" / "report.html").string());
-  EXPECT_THAT(report, HasSubstr("Default priors, which are weak: log10_a, b, log10_Sut, sigma"));
+  EXPECT_THAT(report, HasSubstr("These priors are weak defaults: log10_a, b, log10_Sut, sigma"));
 
   const json joint = fit(without_priors("joint", "joint_wear.csv"));
   EXPECT_NEAR(joint["parameters"]["k"]["mean"], 7.76e-4, 0.4e-4);
@@ -103,7 +103,7 @@ TEST_F(Defaults, FewDataAgainstADefaultAreAWarning) {
   for (const json& each : result["checks"]) {
     if (each["name"] != "prior-data-conflict") continue;
     EXPECT_EQ(each["verdict"], "warn") << each;
-    EXPECT_THAT(std::string(each["advice"]), HasSubstr("state what you know"));
+    EXPECT_THAT(std::string(each["advice"]), HasSubstr("state your own prior"));
   }
   EXPECT_EQ(result["trusted"], true) << result["checks"];
 }

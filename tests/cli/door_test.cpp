@@ -67,37 +67,38 @@ TEST_F(Door, SlipsInAStudy) {
   const Slip slips[] = {
       // the model
       {"joint", "archard-joint", "joint",
-       "slip.toml:4:9: model: 'joint' is not possible; it is one of archard-joint, bearing-wear, "
+       "slip.toml:4:9: model: 'joint' is not allowed; use one of archard-joint, bearing-wear, "
        "clutch-wear, sn, staircase, formula (nearest: 'archard-joint')"},
       {"joint", "^model", "modle", "slip.toml:4:9: modle: unknown key; did you mean 'model'?"},
       {"joint", "^model.*", "",
        "model: is missing: it is one of archard-joint, bearing-wear, clutch-wear, sn"},
       // TOML
       {"joint", "\"archard-joint\"", "archard-joint",
-       "slip.toml:4:9: a text stands in quotes: model = \"...\""},
+       "slip.toml:4:9: a text needs quotes: model = \"...\""},
       {"joint", "\"archard-joint\"", "\u201carchard-joint\u201d",
-       "slip.toml:4:9: quotes are straight"},
-      {"joint", "^title = .*", "title: joint", "'=' stands between a key and its value, not ':'"},
+       "slip.toml:4:9: use straight quotes"},
+      {"joint", "^title = .*", "title: joint", "write '=' between a key and its value, not ':'"},
       {"joint", "\"100 mm\\^3\"", "100 mm^3",
-       "'100 mm^3': a number with its unit stands in quotes; write \"100 mm^3\""},
-      {"joint", "\"1 %\"", "0,01", "'0,01': a number has a decimal point, no comma; write 0.01"},
+       "'100 mm^3': a number with a unit needs quotes; write \"100 mm^3\""},
+      {"joint", "\"1 %\"", "0,01",
+       "'0,01': a number needs a decimal point, not a comma; write 0.01"},
       {"joint", "\"15 mm\\^3\"", "15,5 mm^3",
-       "'15,5 mm^3': a number has a decimal point, no comma, and a number with its unit stands in "
+       "'15,5 mm^3': a number needs a decimal point, not a comma, and a number with a unit needs "
        "quotes; write \"15.5 mm^3\""},
       {"fatigue", "mean = -0.1,", "mean = -0,1,",
-       "'-0,1': a number has a decimal point, no comma; write -0.1"},
+       "'-0,1': a number needs a decimal point, not a comma; write -0.1"},
       {"joint", "\"100 mm\\^3\"", "\"100 mm^3",
        "a text is not closed: a quote is missing on this line"},
-      {"joint", "^risk.*", "risk = 0.1\nrisk = 0.2", "'risk' stands here a second time"},
-      {"joint", "^\\[predict\\]", "[data]\n[predict]", "'data' stands here a second time"},
-      {"joint", "^risk .*", "risk =", "no value stands behind '='"},
+      {"joint", "^risk.*", "risk = 0.1\nrisk = 0.2", "'risk' is defined twice"},
+      {"joint", "^\\[predict\\]", "[data]\n[predict]", "'data' is defined twice"},
+      {"joint", "^risk .*", "risk =", "there is no value after '='"},
       // units
       {"joint", "\"100 mm\\^3\"", "\"100,5 mm^3\"",
-       "predict.limit: '100,5 mm^3' has a decimal comma, and numbers here have a decimal point; "
+       "predict.limit: '100,5 mm^3' has a decimal comma; use a decimal point; "
        "write '100.5 mm^3'"},
       {"joint", "\"100 mm\\^3\"", "100", "predict.limit: 100 has no unit"},
       {"joint", "\\[20585\\]", "\"20,585 cycles\"",
-       "predict.cycles: '20,585 cycles': with a decimal comma that is 20.585"},
+       "predict.cycles: '20,585 cycles' is ambiguous: 20.585 with a decimal comma"},
       {"joint", "unit = \"mm\\^3\"", "unit = \"mm\"",
        "data.columns.volume.unit: unit 'mm' has the wrong dimension (expected one like 'm^3')"},
       {"bearing", "1.5 MPa", "1.5 mpa",
@@ -144,16 +145,15 @@ TEST_F(Door, SlipsInAStudy) {
        "life.points.launch.slipspeed: unknown key; did you mean 'slip_speed'?"},
       // keys that stand in the wrong table
       {"joint", "^file = ", "title = \"t\"\nfile = ",
-       "data.title: unknown key here; title stands at the top, before the first [table]"},
+       "data.title: unknown key here; title belongs at the top, before the first [table]"},
       {"joint",
-       "^file = ", "risk = 0.1\nfile = ", "data.risk: unknown key here; risk stands in [predict]"},
+       "^file = ", "risk = 0.1\nfile = ", "data.risk: unknown key here; risk belongs in [predict]"},
       {"fatigue", "^log10_Sut.*", "S_ut = \"1200 MPa\"",
-       "prior.S_ut: unknown key here; S_ut stands in [conditions]"},
+       "prior.S_ut: unknown key here; S_ut belongs in [conditions]"},
       {"clutch", "\\[simulation\\]", "[data]",
-       "data.truth: unknown key here; truth stands in [simulation]"},
+       "data.truth: unknown key here; truth belongs in [simulation]"},
       // keys without effect
-      {"fatigue", "\"goodman\"", "\"none\"",
-       "prior.log10_Sut: has no effect beside the rest of this study"},
+      {"fatigue", "\"goodman\"", "\"none\"", "prior.log10_Sut: has no effect in this study"},
       // missing
       {"joint", "^volume.*", "", "data.columns.volume: is missing"},
       {"joint", "distribution = \"uniform\", .* \\}", "distribution = \"uniform\" }",
@@ -170,11 +170,11 @@ TEST_F(Door, SlipsInAStudy) {
        "data: is given, and so is [simulation]; keep one of them"},
       // values
       {"joint", "distribution = \"uniform\"", "distribution = \"unifrom\"",
-       "prior.sigma.distribution: 'unifrom' is not possible; it is one of flat, uniform, "},
+       "prior.sigma.distribution: 'unifrom' is not allowed; use one of flat, uniform, "},
       {"joint", "family = \"normal\"", "family = \"gaussian\"",
-       "likelihood.family: 'gaussian' is not possible; it is one of normal, lognormal (nearest: "
+       "likelihood.family: 'gaussian' is not allowed; use one of normal, lognormal (nearest: "
        "'normal')"},
-      {"joint", "\"row\"", "\"rows\"", "update.stages: 'rows' is not possible; only 'row' is"},
+      {"joint", "\"row\"", "\"rows\"", "update.stages: 'rows' is not allowed; only 'row' is"},
       {"joint", "\"1 %\"", "5", "predict.risk: must lie between 0 and 1, like 0.05 or \"5 %\""},
       {"joint", "\\[20585\\]", "\"many\"", "predict.cycles: 'many' is not a number"},
       {"joint", "^cycles = \"cycles\"", "cycles = 5", "data.columns.cycles: must be a table"},
@@ -182,11 +182,11 @@ TEST_F(Door, SlipsInAStudy) {
        "likelihood.family: must be a text in quotes, and is true or false"},
       {"joint", "\\[20585\\]", "true", "predict.cycles: must be a number, and is true or false"},
       {"bearing", "\"stationary\"", "\"ball\"",
-       "conditions.contact: 'ball' is not possible; it is one of stationary, journal, bushing"},
+       "conditions.contact: 'ball' is not allowed; use one of stationary, journal, bushing"},
       {"bearing", "^\\[conditions\\]", "[conditions]\nforce = \"4 N\"",
        "conditions.force: is given here and as data.columns.force; keep one"},
       {"fatigue", "goodman", "Goodman",
-       "law.mean_stress: 'Goodman' is not possible; it is one of none, goodman, "},
+       "law.mean_stress: 'Goodman' is not allowed; use one of none, goodman, "},
       {"fatigue", "\\[1, 10\\]", "[\"B10\"]", "predict.b_lives: entry 1: 'B10' is not a number"},
       // files
       {"joint", "joint_wear.csv", "joint_waer.csv",
@@ -257,7 +257,7 @@ TEST_F(Door, SlipsInACommandLine) {
       {"fit joint", "joint is a folder, not a study file; did you mean 'joint/study.toml'?"},
       {"fit empty", "empty is a folder, not a study file"},
       {"fit joint/joint_wear.csv",
-       "joint/joint_wear.csv is a table, not a study; a study (TOML) names it: data.file = "
+       "joint/joint_wear.csv is a table, not a study; name it in a study (TOML) with data.file = "
        "\"joint_wear.csv\""},
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
@@ -268,21 +268,21 @@ TEST_F(Door, SlipsInACommandLine) {
       {"new joint joint", "joint is not empty"},
       {"compare joint", "DIR is given 1 times; at least 2 are needed"},
       {"compare joint bearing",
-       "joint holds no summary.json: it is no folder that wearwell fit wrote"},
+       "joint does not contain summary.json, so it is not a folder of results of wearwell fit"},
       {"compare joint/study.toml bearing",
-       "joint/study.toml is a file; wanted is the folder of results"},
+       "joint/study.toml is a file; give the folder of results"},
       {"compare other other",
        "other/summary.json is not what wearwell writes: wearwell is missing"},
       {"clutch compare other other",
        "other/summary.json is not what wearwell writes: model is missing"},
       {"report nowhere", "no such folder: nowhere"},
-      {"report joint", "joint holds no summary.json"},
+      {"report joint", "joint does not contain summary.json"},
       {"clutch life joint", "joint is a folder, not a file, and has no model.json"},
       {"clutch life other", "model.json"},
       {"clutch life none.json", "no such file: none.json"},
-      {"clutch life clutch/study.toml", "clutch/study.toml is not JSON"},
+      {"clutch life clutch/study.toml", "clutch/study.toml is not valid JSON"},
       {"bearing rate --contact journal --radius '9,5 mm'",
-       "--radius: '9,5 mm' has a decimal comma, and numbers here have a decimal point; write '9.5 "
+       "--radius: '9,5 mm' has a decimal comma; use a decimal point; write '9.5 "
        "mm'"},
       {"bearing rate --contact journal --radius 9.5", "--radius: '9.5' has no unit"},
       {"bearing life --contcat journal",

@@ -335,8 +335,8 @@ TEST_F(FatigueStudy, RefusesAScatterOfLifeWithTwoReadings) {
   };
   EXPECT_THAT(
       refusal(with_sigma("scale = 2, unit = \"1e5 cycles\"")),
-      AllOf(HasSubstr("prior.sigma.scale: 2 stands beside '1e5 cycles'"), HasSubstr("= 200000")));
-  EXPECT_THAT(refusal(with_sigma("scale = \"2 rad\"")), HasSubstr("holds an angle"));
+      AllOf(HasSubstr("prior.sigma.scale: 2 is given beside '1e5 cycles'"), HasSubstr("= 200000")));
+  EXPECT_THAT(refusal(with_sigma("scale = \"2 rad\"")), HasSubstr("contains an angle"));
 }
 
 // The same cycles of stress, however they are written.
@@ -446,8 +446,8 @@ TEST_F(FatigueStudy, RefusesBadRowsByName) {
   expect("350,1600,95000,F\n",
          "row 2, column 'm': the mean stress 1600 MPa is not below S_ut, which is at most 1584.89 "
          "MPa");
-  expect("350,100,95000,quux\n", "row 2, column 'end': 'quux' is no status");
-  expect("350,100,95000,true\n", "row 2, column 'end': true can be read two ways");
+  expect("350,100,95000,quux\n", "row 2, column 'end': 'quux' is not a status");
+  expect("350,100,95000,true\n", "row 2, column 'end': true is ambiguous");
   write("data.csv", "s,m,n,end\n400,100,31000,S\n350,100,95000,runout\n");
   EXPECT_THAT(refusal(goodman), HasSubstr("rows 1 to 2: every test is a runout"));
   write("data.csv", "");
@@ -509,7 +509,7 @@ TEST_F(FatigueStudy, ReportIsWrittenAgainTheSame) {
   const std::string first = content();
   for (const char* expected :
        {"Alternating stress against life", "Predictive life, by stress", "Haigh diagram",
-        "predictive", "confidence", "Every test, and the life", "run-outs"}) {
+        "predictive", "confidence", "Every test and its predicted life", "run-outs"}) {
     EXPECT_THAT(first, HasSubstr(expected));
   }
   ASSERT_EQ(run_wearwell("report '" + out + "'").exit_code, 0);
@@ -526,10 +526,8 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
        {"25 tests: 22 failures, 3 runouts",
         "alternating stress 260 to 600 MPa, mean stress 0 to 427.78 MPa",
         "life 16970 to 2\u202f000\u202f000 cycles", "S_f = S_a/(1 - S_m/S_ut)",
-        "B10 life [cycles] of the hanger at 280 MPa amplitude, R = 0.1 (mean 342.22 MPa); at "
-        "least, "
-        "with 90 % confidence "
-        "(credible), and of the next one",
+        "B10 life [cycles] of the hanger at 280 MPa amplitude, R = 0.1 (mean 342.22 MPa); "
+        "lower bound with 90 % credibility, and the value of the next item",
         "allowed alternating stress [MPa] of the specimen for 90 % to outlast "
         "1\u202f000\u202f000 cycles, R = 0.1"}) {
     EXPECT_THAT(words.out, HasSubstr(expected));

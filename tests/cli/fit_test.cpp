@@ -375,7 +375,7 @@ TEST_F(FitCommand, ValuesBeyondDoublesAreRefusedByName) {
     } else {
       EXPECT_EQ(run.exit_code, 2);
       EXPECT_THAT(run.err, HasSubstr("row 1, column 'volume': 4.44"));
-      EXPECT_THAT(run.err, HasSubstr("mm^3 is too small a number to compute with"));
+      EXPECT_THAT(run.err, HasSubstr("mm^3 is too small to compute with"));
     }
   }
 }
@@ -430,8 +430,8 @@ TEST_F(FitCommand, ExactBeyondFourParametersIsSaidToBeASampler) {
             "[sampler]\nmethod = \"exact\"\n")
           .string();
   const char* const said =
-      "Method: NUTS, not quadrature, which --method exact asks for: 5 "
-      "parameters are more than quadrature reaches (4)";
+      "Method: NUTS instead of quadrature (--method exact): 5 "
+      "parameters exceed the limit of quadrature (4)";
   EXPECT_THAT(run_wearwell("check " + study).out, HasSubstr("by nuts, 4 chains"));
   const auto in_one_line = [](std::string text) {
     return std::regex_replace(text, std::regex("\n +"), " ");
@@ -557,14 +557,15 @@ TEST_F(BadInput, UnitsAndKeys) {
   expect_refused(study("5.966 N m", "5.966 N"),
                  "conditions.work_per_cycle: unit 'N' has the wrong dimension");
   expect_refused(study("\"5.966 N m\"", "5.966"), "has no unit");
-  expect_refused(study("5.966 N m", "5.966 N m/rad"), "unit 'N m/rad' holds an angle");
-  expect_refused(study("5.966 N m", "5 966 N m"), "can be read in two ways");
+  expect_refused(study("5.966 N m", "5.966 N m/rad"), "unit 'N m/rad' contains an angle");
+  expect_refused(study("5.966 N m", "5 966 N m"), "is ambiguous: one number with a gap");
   expect_refused(study("cycles = \"cycles\"", "cycles = { column = \"cycles\", unit = \"rad\" }"),
-                 "cycles.unit: unit 'rad' holds an angle");
-  expect_refused(study("unit = \"mm^3\"", "unit = \"1/mm^3\""), "is one over what it should be");
+                 "cycles.unit: unit 'rad' contains an angle");
+  expect_refused(study("unit = \"mm^3\"", "unit = \"1/mm^3\""),
+                 "is the reciprocal of the expected unit");
   expect_refused(study("unit = \"mm^3\"", "unit = \"lg(re 1 mm^3)\""), "is a logarithm");
   expect_refused(study("cycles = [20585]", "cycles = \"20 585\""), "a gap");
-  expect_refused(study("risk   = \"1 %\"", "risk = \"1 cycle\""), "holds a count");
+  expect_refused(study("risk   = \"1 %\"", "risk = \"1 cycle\""), "contains a count");
   expect_refused(
       study("lower = \"0 mm^3/(N m)\"", "lowr = \"0 mm^3/(N m)\", unit = \"mm^3/(N m)\""),
       "prior.k.lowr: unknown key; did you mean 'lower'?");

@@ -324,7 +324,7 @@ TEST_F(DuckdbFleet, TwoColumnsOfOneNameAreRefused) {
   };
   refused("energy [J]", "has two columns named 'energy [J]': columns 7 and 8");
   refused("Energy [J]",
-          "'energy [J]' (column 7) and 'Energy [J]' (column 8), that differ by capital");
+          "'energy [J]' (column 7) and 'Energy [J]' (column 8), whose names differ only");
 }
 
 // Names are quoted and texts are data, whatever is in them.

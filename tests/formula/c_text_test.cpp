@@ -88,7 +88,7 @@ TEST_F(CText, RefusesPaths) {
   EXPECT_THAT(message_of<InputError>([&] {
                 c_function(laboratory.lines, {"output", "cum(x)"}, laboratory.symbols, "f");
               }),
-              testing::HasSubstr("rows before its own"));
+              testing::HasSubstr("depends on previous rows"));
 }
 
 TEST(CNumber, ReadsBackToTheSame) {

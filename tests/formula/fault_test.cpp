@@ -63,7 +63,7 @@ TEST(Fault, FindsBrokenDataAndStates) {
   fault = fault_of(laboratory, {"size*2"});
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->expression, "size");
-  EXPECT_EQ(fault->why, "it grows without bound before this row");
+  EXPECT_EQ(fault->why, "it becomes infinite before this row");
 }
 
 }  // namespace

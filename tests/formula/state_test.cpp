@@ -227,10 +227,11 @@ TEST(State, AsksForSortedRows) {
   laboratory.lines = {{"d(growth)/d(distance)", "growth/1 [m]"}, {"growth(0)", "a"}};
   laboratory.columns[3] = {1, 4, 2};
   EXPECT_THAT(message_of<InputError>([&] { laboratory.values("growth"); }),
-              testing::HasSubstr("'distance' goes back at row 3, from 4 to 2"));
+              testing::HasSubstr("'distance' decreases at row 3, from 4 to 2"));
   laboratory.columns[3] = {-1, 2, 4};
   EXPECT_THAT(message_of<InputError>([&] { laboratory.values("growth"); }),
-              testing::HasSubstr("'distance' is -1 in SI at row 1, before the state begins at 0"));
+              testing::HasSubstr(
+                  "'distance' is -1 in SI at row 1, before the beginning of the state at 0"));
 }
 
 }  // namespace

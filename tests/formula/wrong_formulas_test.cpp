@@ -89,8 +89,9 @@ TEST(WrongLaws, OfHostileSizeAreRefused) {
     EXPECT_THAT(refusal(repeated(part, 1200) + "x"), HasSubstr("more than 200 brackets")) << part;
   EXPECT_THAT(refusal(repeated("x*a + ", 3000) + "x"), HasSubstr("1000 operations deep"));
   EXPECT_THAT(refusal("x^1" + repeated("0", 400)), HasSubstr("too large"));
-  EXPECT_THAT(refusal(std::string("x + \0 y", 7)), HasSubstr("'\\x00' is no part"));
-  EXPECT_THAT(refusal("x + \xff"), HasSubstr("'\\xff' is no part"));
+  EXPECT_THAT(refusal(std::string("x + \0 y", 7)),
+              HasSubstr("'\\x00' is not allowed in an expression"));
+  EXPECT_THAT(refusal("x + \xff"), HasSubstr("'\\xff' is not allowed in an expression"));
   EXPECT_THAT(refusal(""), HasSubstr("the expression is empty"));
   EXPECT_THAT(refusal(" \n "), HasSubstr("the expression is empty"));
   // What is long but meant.
@@ -131,11 +132,11 @@ TEST(WrongSymbols, HaveOneMessage) {
               HasSubstr("a column and of a label"));
   EXPECT_THAT(symbols_refusal({{}, {}, {{"k", {}}}, {{"k", {}}}}),
               HasSubstr("a parameter and of a constant"));
-  EXPECT_THAT(symbols_refusal({{{"exp", {}}}, {}, {}, {}}), HasSubstr("word of the language"));
+  EXPECT_THAT(symbols_refusal({{{"exp", {}}}, {}, {}, {}}), HasSubstr("name of a keyword"));
   EXPECT_THAT(symbols_refusal({{{"2x", {}}}, {}, {}, {}}), HasSubstr("no expression can hold"));
   EXPECT_THAT(symbols_refusal({{{"", {}}}, {}, {}, {}}), HasSubstr("no expression can hold"));
   EXPECT_THAT(symbols_refusal({{}, {}, {{"q", {}, Scope::per_level, "lab"}}, {}}),
-              HasSubstr("differ by 'lab', which is no label"));
+              HasSubstr("varies by 'lab', which is not a label"));
 }
 
 TEST(WrongOutputs, SayWhatTheyMustBe) {
@@ -145,14 +146,13 @@ TEST(WrongOutputs, SayWhatTheyMustBe) {
   };
   EXPECT_EQ(refused({"[likelihood.depth] mean", "force*x", read_any_unit("um").powers,
                      "the column 'depth'"}),
-            "[likelihood.depth] mean: 'force*x' is N, and must be m, as the column 'depth'; they "
-            "differ by N/m: is a factor missing, or a power?\n    force*x\n    ^");
+            "[likelihood.depth] mean: 'force*x' is N, but must be m, as the column 'depth'; their "
+            "ratio is N/m; check for a missing factor or power\n    force*x\n    ^");
   EXPECT_EQ(refused({"[predict.quantities] q", "a + x*b", {}, {}, true}),
-            "[predict.quantities] q: 'x' differs from row to row, and this is one number; it may "
-            "hold parameters and constants only\n    a + x*b\n        ^");
-  EXPECT_THAT(refused({"q", "cum(1)", {}, {}, true}), HasSubstr("differs from row to row"));
-  EXPECT_THAT(refused({"q", "q[material]", {}, {}, true}),
-              HasSubstr("'q' differs from row to row"));
+            "[predict.quantities] q: 'x' varies from row to row, but this must be one number; use "
+            "only parameters and constants\n    a + x*b\n        ^");
+  EXPECT_THAT(refused({"q", "cum(1)", {}, {}, true}), HasSubstr("varies from row to row"));
+  EXPECT_THAT(refused({"q", "q[material]", {}, {}, true}), HasSubstr("'q' varies from row to row"));
 }
 
 }  // namespace

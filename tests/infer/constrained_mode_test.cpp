@@ -84,7 +84,7 @@ TEST(NaturalMode, HasNoJacobian) {
 
 TEST(NaturalMode, SaysWhyThereIsNone) {
   EXPECT_THAT(mode_of(prior_only(of_law("x", Gamma{0.5, 3}, 0, INFINITY, 1))).problem,
-              HasSubstr("grows without end as x nears its lower bound"));
+              HasSubstr("is unbounded as x approaches its lower bound"));
   const Posterior rising(
       {of_law("x", Normal{0, 1}, -INFINITY, INFINITY, 0.1), of_law("y", Flat{}, 0, INFINITY, 1)},
       std::make_shared<Formula>(2, [](std::span<const double> x, std::span<double> gradient) {

@@ -134,9 +134,9 @@ TEST(FitCheck, NamesWhatIsWrong) {
   };
   EXPECT_EQ(verdict(right).verdict, Verdict::pass) << verdict(right).detail;
   EXPECT_EQ(verdict(trend).verdict, Verdict::fail);
-  EXPECT_THAT(verdict(trend).detail, HasSubstr("residuals follow work"));
+  EXPECT_THAT(verdict(trend).detail, HasSubstr("residuals have a trend with work"));
   EXPECT_EQ(verdict(outlier).verdict, Verdict::fail);
-  EXPECT_THAT(verdict(outlier).detail, HasSubstr("row 7 lies farther out"));
+  EXPECT_THAT(verdict(outlier).detail, HasSubstr("row 7 is an outlier"));
 }
 
 // A table that is sorted by what was observed, as tables of lives are: at one stress that says nothing.

@@ -364,7 +364,7 @@ TEST(Maxima, MoreThanSearchesFindAreSaid) {
   const Fit found = fit(posterior, exact_settings());
   const Check last = trust_checks(posterior, found).back();
   EXPECT_NE(last.verdict, Verdict::pass);
-  EXPECT_THAT(last.detail, HasSubstr("more are to be expected that no search has found"));
+  EXPECT_THAT(last.detail, HasSubstr("more probably exist that no search has found"));
 }
 
 // A posterior of one mode is searched as well, and few searches suffice.

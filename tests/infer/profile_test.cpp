@@ -94,7 +94,7 @@ TEST(Profile, OfAModeOnItsBoundIsOpenThere) {
   const NaturalMode mode = constrained_mode(posterior, fit);
   ASSERT_EQ(mode.problem, "");
   const ProfileInterval b = profile_intervals(posterior, fit, mode, level)[1];
-  EXPECT_THAT(b.upper.open, HasSubstr("the mode lies on the bound"));
+  EXPECT_THAT(b.upper.open, HasSubstr("the mode is at the bound"));
   EXPECT_EQ(b.lower.open, "");
   EXPECT_NEAR(b.lower.value, 2 - std::sqrt(1 + z * z), 1e-6);
 }

@@ -114,7 +114,8 @@ TEST_P(SamplerOnKnown, SlowOnesLeapAboutAQuarterOfTheWarmUp) {
   expect_agreement(GetParam(), draws);
   for (const Chain& chain : draws) {
     ASSERT_EQ(chain.notes.size(), 1u);
-    EXPECT_NE(chain.notes[0].find("leaps to a mixture"), std::string::npos) << chain.notes[0];
+    EXPECT_NE(chain.notes[0].find("independence proposals from a mixture"), std::string::npos)
+        << chain.notes[0];
   }
 }
 

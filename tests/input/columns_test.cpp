@@ -38,7 +38,7 @@ TEST_F(ColumnsTest, RowsThatStandForSeveral) {
   EXPECT_THAT(refused_counts("n\n0\n"),
               HasSubstr("row 1, column 'n': 0 must be a whole number from 1"));
   EXPECT_THAT(refused_counts("n\n1\n1.5\n"), HasSubstr("row 2, column 'n': 1.5 must be"));
-  EXPECT_THAT(refused_counts("n\n999999\n2\n"), HasSubstr("all of them together at most 1000000"));
+  EXPECT_THAT(refused_counts("n\n999999\n2\n"), HasSubstr("with a sum of at most 1000000"));
 }
 
 TEST_F(ColumnsTest, KeysOfATable) {
@@ -56,10 +56,10 @@ TEST_F(ColumnsTest, KeysOfATable) {
   };
   EXPECT_THAT(refused("decimal = ';'\n"), HasSubstr("study.toml:2:"));
   EXPECT_THAT(refused("decimal = ','\nthousands = ','\n"),
-              HasSubstr("thousands: is the decimal mark as well"));
+              HasSubstr("thousands: is also the decimal mark"));
   EXPECT_THAT(refused("comment = ''\n"), HasSubstr("comment: is empty"));
   EXPECT_THAT(refused("header_row = 0\n"), HasSubstr("header_row"));
-  EXPECT_THAT(refused("sheet = 'A'\n"), HasSubstr("a.csv is no workbook"));
+  EXPECT_THAT(refused("sheet = 'A'\n"), HasSubstr("a.csv is not a workbook"));
   const Source memory{{folder() / "study.toml", ""}, {{"a.csv", table("x\n1\n")}}};
   EXPECT_THAT(
       message_of<InputError>([&] { read_table(toml("file = 'a.csv'\ndecimal = ','\n"), memory); }),

@@ -53,7 +53,7 @@ TEST_F(CsvFile, NamesRowAndColumn) {
                         while (csv.next()) {
                         }
                       }),
-              HasSubstr("t.csv, row 2: it should hold 2 cells"));
+              HasSubstr("t.csv, row 2: should have 2 cells"));
   EXPECT_THAT(refused("a,b\n1,zwei\n",
                       [](CsvReader& csv) {
                         csv.next();

@@ -34,7 +34,7 @@ class IdleStatusTest : public ScratchTest {
 TEST_F(IdleStatusTest, ARefusalNamesBothReadings) {
   EXPECT_THAT(refusal("event", {"0", "1", "1"}),
               AllOf(HasSubstr("data.columns.status: is missing"), HasSubstr("'event'"),
-                    HasSubstr("(0, 1)"), HasSubstr("all 3 rows are taken for failures"),
+                    HasSubstr("(0, 1)"), HasSubstr("all 3 rows count as failures"),
                     HasSubstr("status = \"event\""), HasSubstr("unused = [\"event\"]")));
   EXPECT_THAT(refusal("status", {"0", "1"}),
               AllOf(HasSubstr("status = { column = \"status\", failure = 1 } where 1 is a failure"),

@@ -24,10 +24,10 @@ class JsonFile : public ScratchTest {
 
 TEST_F(JsonFile, SaysWhereItIsNoJson) {
   EXPECT_THAT(refused("{\"a\": 1,\n  oops}"),
-              HasSubstr("a.json is not JSON: it ends or goes wrong at line 2, column 3"));
+              HasSubstr("a.json is not valid JSON: error at line 2, column 3"));
   EXPECT_THAT(refused(""), HasSubstr("line 1"));
   EXPECT_THAT(refused("{\"a\": 1e999}"), HasSubstr("a number is too large"));
-  EXPECT_THAT(refused("\"\xff\""), HasSubstr("is not JSON"));
+  EXPECT_THAT(refused("\"\xff\""), HasSubstr("is not valid JSON"));
   EXPECT_THAT(refused(std::string(100'000, '[')), HasSubstr("nested more than 64 deep"));
   EXPECT_THAT(refused(std::string(65, '[') + std::string(65, ']')), HasSubstr("nested more than"));
   EXPECT_NO_THROW(read_json(write("b.json", std::string(64, '[') + std::string(64, ']'))));

@@ -55,7 +55,7 @@ TEST_F(LabelledTest, RefusesByColumn) {
               testing::AllOf(HasSubstr("column 'slip [1/s]'"),
                              HasSubstr("write rev/s (rpm, Hz) or rad/s")));
   EXPECT_THAT(refused("slip\n1\n", "slip", "rad/s"), HasSubstr("name it 'slip [rad/s]'"));
-  EXPECT_THAT(refused("n [deg]\n1\n", "n", "cycle"), HasSubstr("holds an angle"));
+  EXPECT_THAT(refused("n [deg]\n1\n", "n", "cycle"), HasSubstr("contains an angle"));
   EXPECT_THAT(refused("T [degC]\n20\n-300\n", "T", "K"),
               HasSubstr("row 2, column 'T [degC]': -300 is below absolute zero"));
   EXPECT_THAT(refused("torque [foo]\n1\n", "torque", "N m"), HasSubstr("'foo'"));

@@ -72,14 +72,14 @@ TEST_F(LifeStatusTest, WordsOfTheStudyComeFirst) {
       ElementsAre(Censoring::left, Censoring::right, Censoring::interval));
   EXPECT_THAT(message_of<InputError>(
                   [&] { seen("z", {"x"}, "{ column = \"z\", failure = \"x\", runout = \"X\" }"); }),
-              HasSubstr("data.columns.status.runout: 'X' stands for two ends"));
+              HasSubstr("data.columns.status.runout: 'X' is given for two statuses"));
 }
 
 TEST_F(LifeStatusTest, AWordThatIsNoneIsRefusedWithTheKey) {
   EXPECT_THAT(message_of<InputError>([&] {
                 seen("Zustand", {"Bruch", "Brruch"});
               }),
-              AllOf(HasSubstr("row 2, column 'Zustand': 'Brruch' is no status"),
+              AllOf(HasSubstr("row 2, column 'Zustand': 'Brruch' is not a status"),
                     HasSubstr("(nearest: 'bruch')"),
                     HasSubstr("status = { column = \"Zustand\", failure = \"Brruch\" }")));
   EXPECT_THAT(message_of<InputError>([&] { seen("z", {"quux"}); }),
@@ -117,16 +117,16 @@ TEST_F(LifeStatusTest, CodesOfTheOtherSetAreRefused) {
   EXPECT_THAT(message_of<InputError>([&] {
                 seen("event", {"1", "-1"});
               }),
-              AllOf(HasSubstr("row 2, column 'event': '-1' is no status"),
+              AllOf(HasSubstr("row 2, column 'event': '-1' is not a status"),
                     HasSubstr("1 failure, 0 runout, 2 left, 3 interval")));
   EXPECT_THAT(message_of<InputError>([&] {
                 seen("censored", {"1", "3"});
               }),
-              HasSubstr("row 2, column 'censored': '3' is no status"));
+              HasSubstr("row 2, column 'censored': '3' is not a status"));
   EXPECT_THAT(message_of<InputError>([&] {
                 seen("status", {"failure", "brake"});
               }),
-              HasSubstr("row 2, column 'status': 'brake' is no status"));
+              HasSubstr("row 2, column 'status': 'brake' is not a status"));
   EXPECT_THAT(message_of<InputError>([&] { seen("d", {"0"}, "{ column = \"d\", failure = 2 }"); }),
               HasSubstr("failure"));
 }

@@ -49,8 +49,8 @@ TEST_F(ThousandsTest, SignsThatContradictAreRefused) {
   // Where commas separate the columns, points are decimal marks in most files.
   EXPECT_THAT(
       refused("load,life\n\"250,5\",35.000\n\"240,5\",60.250\n"),
-      AllOf(HasSubstr("a.csv, row 1, column 'life': '35.000' can mean 35 or, with a mark "
-                      "for thousands, 35000"),
+      AllOf(HasSubstr("a.csv, row 1, column 'life': '35.000' can mean 35 or, with a thousands "
+                      "separator, 35000"),
             HasSubstr("the file has '250,5', with a decimal comma"), HasSubstr("decimal = \",\"")));
   EXPECT_THAT(refused("load;slip;life\n250,5;1.5;35.000\n240,5;2.5;60.000\n"),
               HasSubstr("'35.000' can mean 35 or"));
@@ -136,7 +136,7 @@ TEST_F(ThousandsTest, WhatIsNoNumber) {
         std::pair{"#NV", "no value"}, std::pair{"<5", "'<5' is a limit"}})
     EXPECT_THAT(refused(std::string("n;life\n1;5\n2;\"") + cell + "\"\n"), HasSubstr(why));
   EXPECT_THAT(refused("n;life\n1;5\n2;\"1,234\"\n"),
-              HasSubstr("'1,234' can mean 1.234 or, with a mark for thousands, 1234"));
+              HasSubstr("'1,234' can mean 1.234 or, with a thousands separator, 1234"));
   EXPECT_EQ(not_a_number("abc"), "'abc' is not a number");
   EXPECT_EQ(not_a_number("1,2,3"), "'1,2,3' is not a number");
 }

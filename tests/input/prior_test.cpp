@@ -95,7 +95,7 @@ TEST_F(PriorTest, UnitIsTheFirstOneWritten) {
 // 30 beside "%" may be 30 or 30 %.
 TEST_F(PriorTest, APlainNumberBesideAUnitIsRefused) {
   EXPECT_THAT(refusal(R"(distribution = "half-normal", scale = 30, unit = "%")", plain),
-              testing::AllOf(HasSubstr("x.scale: 30 stands beside '%'"), HasSubstr("= 0.3")));
+              testing::AllOf(HasSubstr("x.scale: 30 is given beside '%'"), HasSubstr("= 0.3")));
   EXPECT_DOUBLE_EQ(read(R"(distribution = "half-normal", scale = "30 %")", plain).scale,
                    read(R"(distribution = "half-normal", scale = 0.3)", plain).scale);
   const ParameterSpec count{"x", "cycle", 0, infinity, 1};
@@ -149,9 +149,9 @@ TEST_F(PriorTest, NamesWhatIsWrong) {
     EXPECT_THAT(refusal(prior, positive), MatchesRegex(".*a.toml:1:[0-9]+: .*")) << prior;
     EXPECT_THAT(refusal(prior, positive), HasSubstr(what)) << prior;
   };
-  expect(R"(distribution = "nrmal")", "x.distribution: 'nrmal' is not possible");
+  expect(R"(distribution = "nrmal")", "x.distribution: 'nrmal' is not allowed");
   expect(R"(lower = "0 mm")", "x.distribution: is missing");
-  expect(R"(distribution = "flat")", "[x]: no quantity here has a unit");
+  expect(R"(distribution = "flat")", "[x]: no quantity of this prior has a unit");
   expect(R"(distribution = "flat", lower = 0)", "x.lower: 0 has no unit");
   expect(R"(distribution = "flat", lower = "0 s")", "x.lower: unit 's' has the wrong dimension");
   expect(R"(distribution = "flat", unit = "s")", "x.unit: unit 's' has the wrong dimension");

@@ -42,18 +42,16 @@ class TextFileTest : public ScratchTest {
 
 TEST_F(TextFileTest, RaggedLinesAreNamed) {
   EXPECT_THAT(refused("x,y\n1,2\n3,4,5\n"),
-              HasSubstr("a.csv, line 3: 3 values where the heading has 2: '3,4,5'"));
-  EXPECT_THAT(refused("x,y\n1,2\n\n3\n"),
-              HasSubstr("line 4: 1 value where the heading has 2: '3'"));
-  EXPECT_THAT(refused("x,y,z\n1,2\n3,4\n"), HasSubstr("line 2: 2 values where the heading has 3"));
-  EXPECT_THAT(refused("x;y\n1;2;3\n4;5;6\n"),
-              HasSubstr("line 2: 3 values where the heading has 2"));
-  EXPECT_THAT(refused("x,y\n1,2\n\"3,4\n5,6\n"), HasSubstr("line 3: a quote is opened"));
-  EXPECT_THAT(refused("v\n1,5\n2,5\n"), HasSubstr("line 2: 2 values where the heading has 1"));
+              HasSubstr("a.csv, line 3: 3 values but the heading has 2: '3,4,5'"));
+  EXPECT_THAT(refused("x,y\n1,2\n\n3\n"), HasSubstr("line 4: 1 value but the heading has 2: '3'"));
+  EXPECT_THAT(refused("x,y,z\n1,2\n3,4\n"), HasSubstr("line 2: 2 values but the heading has 3"));
+  EXPECT_THAT(refused("x;y\n1;2;3\n4;5;6\n"), HasSubstr("line 2: 3 values but the heading has 2"));
+  EXPECT_THAT(refused("x,y\n1,2\n\"3,4\n5,6\n"), HasSubstr("line 3: a quote is not closed"));
+  EXPECT_THAT(refused("v\n1,5\n2,5\n"), HasSubstr("line 2: 2 values but the heading has 1"));
   // Far below what a guess looks at.
   std::string content = "x,y\n";
   for (int i = 0; i < 60'000; ++i) content += "1,2\n";
-  EXPECT_THAT(refused(content + "1\n"), HasSubstr("line 60002: 1 value where the heading has 2"));
+  EXPECT_THAT(refused(content + "1\n"), HasSubstr("line 60002: 1 value but the heading has 2"));
   content += "1,2,3\n";
   const auto file = write("b.csv", content);
   EXPECT_THAT(message_of<InputError>([&] {
@@ -63,13 +61,13 @@ TEST_F(TextFileTest, RaggedLinesAreNamed) {
                 while (stream.next(batch)) {
                 }
               }),
-              HasSubstr("b.csv, line 60002: 3 values where the heading has 2"));
+              HasSubstr("b.csv, line 60002: 3 values but the heading has 2"));
 }
 
 TEST_F(TextFileTest, LinesAreNeitherCommentsNorSkipped) {
   EXPECT_THAT(refused("x,y\n# a comment\n1,2\n"),
-              HasSubstr("line 2: 1 value where the heading has 2: '# a comment' (a table has no "
-                        "comment lines; to leave them out write comment = \"#\" into [data])"));
+              HasSubstr("line 2: 1 value but the heading has 2: '# a comment' (comment lines are "
+                        "not allowed by default; to omit them write comment = \"#\" in [data])"));
   // A cell that begins with '#' is a cell.
   const Table table = read_table(write("a.csv", "#x,y\n1,2\n#5,6\n"));
   EXPECT_EQ(table.rows, 2u);
@@ -81,12 +79,12 @@ TEST_F(TextFileTest, LinesAreNeitherCommentsNorSkipped) {
 TEST_F(TextFileTest, OtherEncodings) {
   EXPECT_THAT(refused("x,y\n1,\xC3\xA4\n2,Gr\xF6\xDF"
                       "e\n"),
-              AllOf(HasSubstr("line 3: "), HasSubstr("is not UTF-8, as lines above it are")));
+              AllOf(HasSubstr("line 3: "), HasSubstr("is not UTF-8, unlike the lines above it")));
   EXPECT_THAT(refused("x,note\n1,Gr\x81\n"), HasSubstr("neither UTF-8 nor cp1252"));
   EXPECT_THAT(refused("\xFF\xFEx\0,\0y\0\n\0001\0,\0\x00\xDC"s), HasSubstr("UTF-16"));
-  EXPECT_THAT(refused("x,\0y\n1,2\n"s), HasSubstr("is no text: it has zero bytes in line 1"));
+  EXPECT_THAT(refused("x,\0y\n1,2\n"s), HasSubstr("is not a text file: line 1 has zero bytes"));
   EXPECT_THAT(refused("x,y\r1,2\r"), HasSubstr("carriage returns"));
-  EXPECT_THAT(refused("x,y\r\n1,2\r\n3,4\n"), HasSubstr("line 3 ends in another way"));
+  EXPECT_THAT(refused("x,y\r\n1,2\r\n3,4\n"), HasSubstr("line 3: its line ending"));
   const Table table = read_table(write("b.csv", "\xEF\xBB\xBFx,y\r\n1,2\r\n"));
   EXPECT_THAT(table.column("x").numbers, ElementsAre(1));
 }
@@ -98,9 +96,10 @@ TEST_F(TextFileTest, ColumnsAreSeparatedInOneWay) {
     ASSERT_EQ(table.columns.size(), 2u) << content;
     EXPECT_THAT(table.columns[1].numbers, ElementsAre(2)) << content;
   }
-  EXPECT_THAT(refused("a;b,c\n1;2,3\n4;5,6\n"), HasSubstr("can be separated by ';' and by ','"));
+  EXPECT_THAT(refused("a;b,c\n1;2,3\n4;5,6\n"),
+              HasSubstr("both ';' and ',' can separate its columns"));
   EXPECT_THAT(refused("n,N\n1,2\n"),
-              HasSubstr("'n' (column 1) and 'N' (column 2), that differ by capital letters"));
+              HasSubstr("'n' (column 1) and 'N' (column 2), whose names differ only in case"));
 }
 
 TEST_F(TextFileTest, CutOrDamagedGzip) {
@@ -131,9 +130,9 @@ TEST_F(TextFileTest, WhatIsNoFile) {
   const auto pipe = folder() / "pipe.csv";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THAT(refusal(pipe), HasSubstr("a pipe or a device"));
-  EXPECT_THAT(refusal(write("a.docx", "x")), HasSubstr("its ending does not say what it holds"));
+  EXPECT_THAT(refusal(write("a.docx", "x")), HasSubstr("its extension is unknown"));
   EXPECT_THAT(refusal(write("a.xls", "x")),
-              HasSubstr(".xls is not read; save it as .xlsx or .csv"));
+              HasSubstr(".xls is not supported; save it as .xlsx or .csv"));
   EXPECT_THAT(refusal(write("bad.parquet", "no parquet at all")),
               AllOf(HasSubstr("bad.parquet: "), Not(HasSubstr("/proc/self"))));
   EXPECT_THAT(refusal(write("bad.json", "[{\"x\": 1}, {\"x\"")), HasSubstr("bad.json: "));

@@ -145,20 +145,20 @@ TEST_F(WorkbookTest, SheetRangeAndHeadingRow) {
       R"(<row r="8"><c r="B8" t="str"><v>Summe</v></c><c r="E8"><v>9</v></c></row>)";
   const auto file = zip_of(parts_of({{"A", two_columns}, {"B", other}, {"C", ""}}));
   EXPECT_THAT(refused(file),
-              AllOf(HasSubstr("several sheets; say which in [data], as in sheet = \"A\""),
-                    HasSubstr("(there are A, B)")));
+              AllOf(HasSubstr("several sheets; state which in [data], for example sheet = \"A\""),
+                    HasSubstr("(it has A, B)")));
   EXPECT_EQ(read(file, {.sheet = "A"}).rows, 2u);
   EXPECT_EQ(read(file, {.sheet = "1"}).rows, 2u);
   EXPECT_THAT(refused(file, {.sheet = "a"}),
               HasSubstr("has no sheet 'a'; it has A, B, C (nearest: 'A')"));
-  EXPECT_THAT(refused(file, {.sheet = "C"}), HasSubstr("holds nothing"));
+  EXPECT_THAT(refused(file, {.sheet = "C"}), HasSubstr("is empty"));
   const Table table = read(file, {.sheet = "B", .range = "B2:C6"});
   EXPECT_EQ(table.layout.text, "sheet 'B', headings in row 3, units in the row below the headings");
   EXPECT_EQ(table.column("y").unit, "N");
   EXPECT_THAT(si_numbers(table, "y", Unit{}), ElementsAre(2, 4));
   EXPECT_EQ(read(file, {.header_row = 3, .sheet = "B", .range = "$B$3:$C$5"}).rows, 1u);
   for (const char* bad : {"B3:", "3:4", "C6:B2", "B3:F20x", "", "ZZZZ1:B2"})
-    EXPECT_THAT(refused(file, {.sheet = "B", .range = bad}), HasSubstr("is no range of a sheet"))
+    EXPECT_THAT(refused(file, {.sheet = "B", .range = bad}), HasSubstr("is not a range of a sheet"))
         << bad;
   EXPECT_THAT(refused(file, {.delimiter = ';', .sheet = "B"}),
               HasSubstr("are keys for tables of text"));
@@ -194,7 +194,7 @@ TEST_F(WorkbookTest, NumbersInCellsOfText) {
   };
   EXPECT_THAT(numbers({"'3,2", "3.4", "'1.234,5"}), ElementsAre(3.2, 3.4, 1234.5));
   EXPECT_EQ(read(with({"'3,2", "3.4"})).layout.text,
-            "sheet 'Tabelle1', decimal comma in cells of text");
+            "sheet 'Tabelle1', decimal comma in text cells");
   EXPECT_THAT(numbers({"'3.2", "'1,234.5"}), ElementsAre(3.2, 1234.5));
   // Beside a decimal comma a point is a mark for thousands; a cell that is a number has none.
   EXPECT_THAT(numbers({"'35.000", "'3,2", "35.000"}), ElementsAre(35000, 3.2, 35));
@@ -236,25 +236,26 @@ TEST_F(WorkbookTest, HiddenRowsAreSaid) {
 }
 
 TEST_F(WorkbookTest, WhatIsRefused) {
-  EXPECT_THAT(refused(write("a.xlsx", "no zip at all")), HasSubstr("cut off, damaged or no .xlsx"));
+  EXPECT_THAT(refused(write("a.xlsx", "no zip at all")),
+              HasSubstr("truncated, damaged or not an .xlsx"));
   EXPECT_THAT(refused(write("a.xlsx", "\xD0\xCF\x11\xE0 and so on")),
-              HasSubstr("protected by a password, or an old .xls"));
-  EXPECT_THAT(refused(zip_of({{"word/document.xml", "<w/>"}})), HasSubstr("no workbook of Excel"));
+              HasSubstr("has a password or is an old .xls"));
+  EXPECT_THAT(refused(zip_of({{"word/document.xml", "<w/>"}})), HasSubstr("not an Excel workbook"));
   EXPECT_THAT(refused(book("<row><c r=\"A1\"><f>1+1</f></c></row>")),
-              HasSubstr("cell A1 of sheet 'Tabelle1' holds a formula and not its value"));
+              HasSubstr("cell A1 of sheet 'Tabelle1' has a formula without its value"));
   EXPECT_THAT(refused(book("<row r=\"1\"><c r=\"A1\" t=\"s\"><v>77</v></c></row>")),
-              HasSubstr("names a text that the file has not"));
+              HasSubstr("refers to a text that the file does not contain"));
   EXPECT_THAT(refused(book("<row r=\"1\"><c r=\"A1\">")), HasSubstr("mismatched tag"));
-  EXPECT_THAT(refused(book("")), HasSubstr("holds nothing"));
+  EXPECT_THAT(refused(book("")), HasSubstr("is empty"));
   EXPECT_THAT(refused(book("<row r=\"1048577\"><c r=\"A1048577\"><v>1</v></c></row>")),
               HasSubstr("has no cell"));
   EXPECT_THAT(refused(book(R"(<row r="1"><c r="A1"><v>1</v></c></row>)"
                            R"(<row r="1048576"><c r="XFD1048576"><v>1</v></c></row>)")),
-              HasSubstr("is no table; give its range"));
+              HasSubstr("too many for a table; give its range"));
   Parts parts = parts_of({{"A", two_columns}});
   parts["xl/sharedStrings.xml"] =
       "<!DOCTYPE x [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;\">]><sst><si><t>&b;</t></si></sst>";
-  EXPECT_THAT(refused(zip_of(parts)), HasSubstr("entities of its own"));
+  EXPECT_THAT(refused(zip_of(parts)), HasSubstr("custom entities"));
   parts["xl/sharedStrings.xml"] = "<sst>" + std::string(70 << 20, ' ') + "</sst>";
   EXPECT_THAT(refused(zip_of(parts)), HasSubstr("unpacks to more than 64 MB"));
   // Cut anywhere, it is refused with one message.
@@ -263,7 +264,7 @@ TEST_F(WorkbookTest, WhatIsRefused) {
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
   for (std::size_t size = 1; size < whole.size(); size += 37)
     EXPECT_THAT(refused(write("cut.xlsx", whole.substr(0, size))),
-                HasSubstr("cut off, damaged or no .xlsx"));
+                HasSubstr("truncated, damaged or not an .xlsx"));
   for (std::size_t at = 0; at < whole.size(); at += 11) {
     std::string damaged = whole;
     damaged[at] ^= 0x41;

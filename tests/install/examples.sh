@@ -16,4 +16,4 @@ expect() { # PROGRAM WORDS: what it prints holds the words
 expect posterior 'tau 5'
 expect subsets '(proven, R2p 1.0000)'
 expect bearing 'worn to 60 um after'
-expect memory 'stopped before it was done'
+expect memory 'stopped before completion'

@@ -45,7 +45,7 @@ TEST(Plot, TicksMayHaveNamesOfTheirOwn) {
 TEST(Plot, NothingToDrawIsSaid) {
   const Json spec = plot("Hazard", {"x", false, NAN, INFINITY}, {"y"}, {}, 280, true);
   ASSERT_EQ(spec["layer"].size(), 1);
-  EXPECT_EQ(spec["layer"][0]["mark"]["text"], "no finite value to draw");
+  EXPECT_EQ(spec["layer"][0]["mark"]["text"], "no finite value to plot");
   EXPECT_FALSE(spec["layer"][0].contains("params"));
   EXPECT_EQ(Json::parse(spec.dump()), spec);
 }

@@ -101,14 +101,15 @@ TEST_F(ResultFolderTest, RefusesWhatIsNotOurs) {
   EXPECT_THAT(refusal(write("file", "")), HasSubstr("it is not a folder"));
   fs::create_directory(folder() / "project");
   write("project/study.toml", "");
-  EXPECT_THAT(refusal(folder() / "project"), HasSubstr("it holds study.toml, and no results.sha1"));
+  EXPECT_THAT(refusal(folder() / "project"),
+              HasSubstr("it contains study.toml, and no results.sha1"));
   put_result("1");
   write("results/notes.txt", "precious");
-  EXPECT_THAT(refusal(target), HasSubstr("it holds notes.txt, which is no result"));
+  EXPECT_THAT(refusal(target), HasSubstr("it contains notes.txt, which is not a result"));
   fs::remove(target / "notes.txt");
   write("results/summary.json", "edited");
   EXPECT_THAT(refusal(target),
-              HasSubstr("it holds summary.json, which was changed since wearwell wrote it"));
+              HasSubstr("it contains summary.json, which has changed since wearwell wrote it"));
   fs::remove(target / "summary.json");
   put_result("2");
   fs::remove(target / "summary.json");

@@ -43,8 +43,9 @@ TEST(SectionJson, LosesNothing) {
 TEST(SectionJson, NamesWhatIsWrong) {
   Json json = to_json(sample());
   json["sections"][0]["blocks"][5]["blocks"][0]["rows"][0].erase(0);
-  EXPECT_THAT(message_of<InputError>([&] { read(json); }),
-              HasSubstr("sections[0].blocks[5].blocks[0].rows[0] has 2 cells, and the table 3"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { read(json); }),
+      HasSubstr("sections[0].blocks[5].blocks[0].rows[0] has 2 cells, but the table has 3"));
 }
 
 TEST(SectionJson, IsReadOrRefused) {
@@ -68,7 +69,7 @@ TEST(SectionJson, FoldingHasAnEnd) {
   for (int i = 0; i < 10; ++i) blocks = Json::array({{{"details", "more"}, {"blocks", blocks}}});
   Json json;
   json["sections"] = Json::array({{{"id", "a"}, {"name", "a"}, {"title", ""}, {"blocks", blocks}}});
-  EXPECT_THAT(message_of<InputError>([&] { read(json); }), HasSubstr("is folded too deep"));
+  EXPECT_THAT(message_of<InputError>([&] { read(json); }), HasSubstr("is nested too deeply"));
 }
 
 }  // namespace

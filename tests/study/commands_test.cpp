@@ -50,7 +50,7 @@ TEST_F(ReportCommands, NamesTheFileThatIsWrong) {
   const std::string results_ = "'" + results().string() + "'";
   const CommandResult short_row = run_wearwell("compare " + results_ + " " + results_);
   EXPECT_EQ(short_row.exit_code, 2);
-  EXPECT_THAT(short_row.err, HasSubstr("draws_2.csv, draw 1: it should hold 3 numbers"));
+  EXPECT_THAT(short_row.err, HasSubstr("draws_2.csv, draw 1: should have 3 numbers"));
   write("results/summary.json", "{\"wearwell\": 1}");
   const CommandResult summary = run_wearwell("report '" + results().string() + "'");
   EXPECT_EQ(summary.exit_code, 2);
@@ -92,7 +92,8 @@ TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* words :
        {"V = k W, W = cycles x 5.966 N m", "5 rows of worn volume",
-        "k      wear coefficient [mm^3/(N m)]", "prior: flat: nothing is known, above 0 mm^3/(N m)",
+        "k      wear coefficient [mm^3/(N m)]",
+        "prior: flat (no prior knowledge), above 0 mm^3/(N m)",
         "prior: uniform, between 0 and 15 mm^3", "by nuts, 4 chains of 1\u202f000 draws",
         "worn volume [mm^3] at 20\u202f585 cycles", "until the worn volume reaches 100 mm^3"}) {
     EXPECT_THAT(run.out, HasSubstr(words));

@@ -46,8 +46,8 @@ TEST(Comparison, RanksByElpd) {
   EXPECT_THAT(text, HasSubstr("better"));
   EXPECT_THAT(text, HasSubstr("Log densities (elpd, AIC, BIC): data in mm^3"));
   EXPECT_THAT(text, HasSubstr("7.510\u00a0×\u00a010^-4 +- 1.100\u00a0×\u00a010^-5"));
-  EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are at the mode"));
-  EXPECT_THAT(text, HasSubstr("From 2 observations"));
+  EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are computed at the mode"));
+  EXPECT_THAT(text, HasSubstr("With 2 observations"));
 }
 
 // The same data in another unit: log densities differ by that alone.
@@ -58,7 +58,7 @@ TEST(Comparison, NeverRanksLogDensitiesInDifferentUnits) {
       compare({{"a", sample({{-2, 0, 0.1}, {-2, 0, 0.1}})}, {"b", other}});
   EXPECT_FALSE(comparison.comparable);
   EXPECT_THAT(comparison.obstacle,
-              HasSubstr("log densities of a are of data in mm^3, those of b in m^3"));
+              HasSubstr("Log densities of a are for data in mm^3, those of b for data in m^3"));
 }
 
 // Each of two predicts half of the observations: they share the weight, whoever is best in sum.
@@ -97,7 +97,7 @@ TEST(Comparison, NeverRanksDifferentData) {
       compare({{"one", sample({{-3, 0, 0.1}})}, {"other", sample({{-2, 0, 0.1}}, "b6589fc6")}});
   EXPECT_FALSE(comparison.comparable);
   EXPECT_THAT(names(comparison), ElementsAre("one", "other"));
-  EXPECT_THAT(comparison.obstacle, HasSubstr("one and other are of different data"));
+  EXPECT_THAT(comparison.obstacle, HasSubstr("one and other use different data"));
   EXPECT_THAT(comparison_text(comparison), Not(HasSubstr("elpd  ")));
   EXPECT_FALSE(to_json(comparison)["studies"][1].contains("behind"));
   const std::string page = comparison_page(comparison);
@@ -122,7 +122,7 @@ TEST(Comparison, NamesDoubtAndDistrust) {
   const Comparison comparison = compare({{"good", sample({{-2, 0, 0.1}})}, {"bad", bad}});
   const std::string text = comparison_text(comparison);
   EXPECT_THAT(text, HasSubstr("bad is not trusted"));
-  EXPECT_THAT(text, HasSubstr("elpd of bad is in doubt: Pareto k above 0.70 for 1 of 1"));
+  EXPECT_THAT(text, HasSubstr("elpd of bad is unreliable: Pareto k exceeds 0.70 for 1 of 1"));
 }
 
 TEST(Comparison, NamesAreTextAndNotMarkup) {

@@ -42,7 +42,7 @@ PosteriorSummary result_of(Verdict verdict) {
   Plots plots;
   result.quantity = "worn volume";
   result.parameters[0].meaning = "wear coefficient";
-  result.parameters[0].prior = "flat: nothing is known";
+  result.parameters[0].prior = "flat (no prior knowledge)";
   plots.unit = "mm^3";
   plots.at_name = "cycles";
   plots.parameters = {{{{7e-4, 7.5e-4, 8e-4}, {{1e4, 1e4}}}, {}, {{7e-4, 8e-4}, {1e4, 1e4}}}};
@@ -102,12 +102,12 @@ TEST(Report, SaysTheVerdictFirst) {
 
 TEST(Report, TrustIsAWord) {
   EXPECT_THAT(html_report(result_of(Verdict::pass)), HasSubstr("<strong>Trusted.</strong>"));
-  EXPECT_THAT(html_report(result_of(Verdict::warn)),
-              HasSubstr("<strong>Trusted, with a warning.</strong> No check failed; look at "
-                        "convergence."));
+  EXPECT_THAT(
+      html_report(result_of(Verdict::warn)),
+      HasSubstr("<strong>Trusted, with a warning.</strong> No check failed; see convergence."));
   EXPECT_THAT(html_report(result_of(Verdict::fail)),
-              HasSubstr("<strong>Not trusted.</strong> Do not use these numbers as they stand: "
-                        "convergence failed. Draw more."));
+              HasSubstr("<strong>Not trusted.</strong> Do not use these numbers: convergence "
+                        "failed. Draw more."));
 }
 
 // What is asked stands in a picture before any table.

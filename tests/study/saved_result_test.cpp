@@ -166,10 +166,9 @@ TEST_F(SavedResults, NamesFileAndKey) {
   ASSERT_TRUE(table.contains("table")) << table.dump();
   table["rows"][0].erase(0);
   put(summary_, report);
-  EXPECT_THAT(
-      refusal(),
-      HasSubstr("report.json is not what wearwell writes: sections[1].blocks[1].rows[0] has "
-                "5 cells, and the table 6 columns"));
+  EXPECT_THAT(refusal(),
+              HasSubstr("report.json is not what wearwell writes: sections[1].blocks[1].rows[0] "
+                        "has 5 cells, but the table has 6 columns"));
 }
 
 TEST_F(SavedResults, DrawsAreOfTheParameters) {
@@ -177,7 +176,7 @@ TEST_F(SavedResults, DrawsAreOfTheParameters) {
   EXPECT_THAT(refusal(),
               HasSubstr("draws_2.csv: its last columns are not the 2 parameters of summary.json"));
   write("draws_2.csv", "lp__,k,sigma\n");
-  EXPECT_THAT(refusal(), HasSubstr("draws_2.csv holds no draws"));
+  EXPECT_THAT(refusal(), HasSubstr("draws_2.csv does not contain draws"));
   write("draws_2.csv", "lp__,k,sigma\n-1,x,3\n");
   EXPECT_THAT(refusal(),
               HasSubstr("draws_2.csv, draw 1, column 'k': should be a number, and is 'x'"));

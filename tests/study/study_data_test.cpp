@@ -62,7 +62,7 @@ TEST_F(StudyDataTest, SecondLivesOfRowsThatAreNoIntervals) {
   EXPECT_THAT(sn_refusal(head + "7000,S\n200,9000,,F\n"), HasSubstr("row 2, column 'until'"));
   // A failure's own life, and a run-out's open end, say nothing else.
   EXPECT_THAT(sn_refusal(head + "inf,S\n200,9000,9000,F\n150,9000,,went on\n"),
-              HasSubstr("row 4, column 'status': 'went on' is no status"));
+              HasSubstr("row 4, column 'status': 'went on' is not a status"));
 }
 
 TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
@@ -85,7 +85,7 @@ TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
   EXPECT_THAT(message_of<InputError>([&] {
                 read_table(section("file = \"\"\n"), Source{{folder() / "study.toml", ""}});
               }),
-              HasSubstr("s.toml:3:8: data.file: names no file"));
+              HasSubstr("s.toml:3:8: data.file: is not given"));
 }
 
 // An int would make 1 of it.

@@ -22,7 +22,7 @@ LockFile::LockFile(const std::filesystem::path& file, const std::function<void()
   }
 }
 
-// False when somebody else has it, or had it and has taken it away.
+// False if another process has the lock, or had it and removed the file.
 bool LockFile::take(bool wait) {
   Descriptor opened(
       ::open(path_.c_str(), O_RDONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
@@ -30,12 +30,12 @@ bool LockFile::take(bool wait) {
   struct stat mine, there;
   if (fstat(opened.get(), &mine) != 0) fail_to_write(path_, errno);
   if (!S_ISREG(mine.st_mode) || mine.st_size != 0)
-    throw InputError(fmt::format("{} is in the way: it is no lock", path_.string()));
+    throw InputError(fmt::format("{} exists but is not a lock file", path_.string()));
   if (wait) {
     while (flock(opened.get(), LOCK_EX) != 0) {
       if (errno != EINTR) fail_to_write(path_, errno);
     }
-    flock(opened.get(), LOCK_UN);  // and taken below, where a signal cannot come between
+    flock(opened.get(), LOCK_UN);  // taken again below, with signals blocked
   }
   SignalBlocker now;
   if (flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {

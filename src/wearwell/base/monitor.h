@@ -7,25 +7,25 @@
 
 namespace wearwell {
 
-/// How far long work is.
+/// The progress of a long computation.
 struct Step {
   std::string_view what;  ///< the steps: "iterations"
   long long done = 0;
-  long long total = 0;  ///< 0 where it is not known
-  double seconds = 0;   ///< since the work began
+  long long total = 0;  ///< 0 if unknown
+  double seconds = 0;   ///< since the start
 };
 
-/// What a caller gives to long work: where it reports to, how it is stopped, and how many threads it
-/// may use. Results never depend on any of them.
+/// The caller's control of a long computation: progress reports, stop request and number of
+/// threads. Results do not depend on them.
 struct Monitor {
   std::function<void(const Step&)> progress = {};  ///< called by one thread at a time; may be empty
   std::stop_token stop = {};                       ///< once requested, the work throws `Cancelled`
   int threads = 0;                                 ///< 0: all
 };
 
-/// The caller asked the work to stop. Nothing was written.
+/// The caller requested a stop. Nothing was written.
 struct Cancelled : std::runtime_error {
-  Cancelled() : std::runtime_error("stopped before it was done") {}
+  Cancelled() : std::runtime_error("stopped before completion") {}
 };
 
 }  // namespace wearwell

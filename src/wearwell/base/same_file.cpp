@@ -16,7 +16,7 @@ namespace {
 bool is_same(const fs::path& one, const fs::path& other) {
   struct stat a, b;
   if (stat(one.c_str(), &a) == 0 && stat(other.c_str(), &b) == 0) {
-    // Writing to a device or a pipe destroys nothing.
+    // Writing to a device or a pipe does not overwrite data.
     if (!S_ISREG(a.st_mode) && !S_ISDIR(a.st_mode)) return false;
     return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
   }
@@ -46,7 +46,7 @@ void refuse_overwriting(const std::vector<NamedFile>& inputs,
     for (const NamedFile& input : inputs) {
       if (input.path.empty()) continue;
       if (is_same(output->path, input.path)) refuse(input, "would overwrite");
-      if (lies_in(input.path, output->path)) refuse(input, "is a folder that holds");
+      if (lies_in(input.path, output->path)) refuse(input, "is a folder that contains");
     }
     for (auto earlier = outputs.begin(); earlier != output; ++earlier) {
       if (!earlier->path.empty() && is_same(output->path, earlier->path))

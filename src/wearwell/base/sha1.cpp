@@ -33,7 +33,7 @@ class Sha1 {
 
  private:
   static void require(bool done) {
-    if (!done) throw MachineError("OpenSSL on this machine computes no SHA-1");
+    if (!done) throw MachineError("OpenSSL on this machine does not support SHA-1");
   }
 
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;

@@ -307,7 +307,7 @@ void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
     const fs::path file = target_ / name, folder = file.parent_path();
     const bool blocked = is_there(folder) && folder != target_ && !is_folder(folder);
     if (blocked || (!there && is_there(file)))
-      throw InputError(fmt::format("will not replace {}: it is not of an earlier run",
+      throw InputError(fmt::format("will not replace {}: it is not from an earlier run",
                                    (blocked ? folder : file).string()));
   }
   const Descriptor file = [&] {

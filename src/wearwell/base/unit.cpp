@@ -17,7 +17,7 @@
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 
-// Longer than others: every way to refuse or read a unit looks at the same parsed text.
+// Longer than others: all checks of a unit share one parsed text.
 namespace wearwell {
 namespace {
 
@@ -38,7 +38,7 @@ Dimension without_turns(Dimension dimension) {
   return dimension;
 }
 
-// The SI units that hold a speed of rotation, and its power.
+// The power of the rotational speed in such an SI unit, else 0.
 int rotation_power(std::string_view si) {
   if (si == "rev/s" || si == "rad/s") return 1;
   return si == "m^3 s/(J rad)" ? -1 : 0;
@@ -52,7 +52,7 @@ int rotation_power(std::string_view si) {
       value == 1 ? "" : fmt::format("{:.6g} ", value), written, s, two_pi * s, s, s / two_pi));
 }
 
-// Between revolutions and radians of a speed of rotation; 0 for another dimension.
+// The factor between revolutions and radians of a rotational speed; 0 for another dimension.
 double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rotations,
                        std::string_view written, double value) {
   const int cycles = power(unit.dimension, "cycle"), radians = power(unit.dimension, "radian");
@@ -63,8 +63,8 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
     constexpr double per_minute = 1.0 / 60;
     if (rotations != 1) {
       throw InputError(
-          fmt::format("'{}' counts neither revolutions nor radians, which differ by 2 pi; write "
-                      "rev or rad into it",
+          fmt::format("'{}' counts neither revolutions nor radians, which differ by a factor of 2 "
+                      "pi; write rev or rad in the unit",
                       written));
     }
     if (std::abs(unit.scale - per_minute) > 1e-12 * per_minute)
@@ -84,11 +84,11 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
   const char* fault = "has the wrong dimension";
   if (!dimension.empty() && without_turns(reciprocal) == without_turns(wanted) &&
       without_turns(dimension) != without_turns(wanted)) {
-    fault = "is one over what it should be";
+    fault = "is the reciprocal of the expected unit";
   } else if (without_turns(dimension) == without_turns(wanted)) {
     fault = power(dimension, "radian") != power(wanted, "radian")
-                ? "holds an angle, which is neither a count nor a number"
-                : "holds a count of cycles or revolutions, which has no place here";
+                ? "contains an angle, which is neither a count nor a pure number"
+                : "contains a count of cycles or revolutions, which does not fit here";
   }
   // "mm^3/N m" is (mm^3/N) m.
   std::string hint;
@@ -102,7 +102,7 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
       fmt::format("unit '{}' {} (expected one like '{}'{})", written, fault, example(si), hint));
 }
 
-// "mm 3": UDUNITS-2 multiplies by a number that stands behind.
+// "mm 3": UDUNITS-2 multiplies by a number after the unit.
 void refuse_number_behind(const std::string& written) {
   for (std::size_t i = 1; i < written.size(); ++i) {
     const auto is = [&](int (*kind)(int), std::size_t at) {
@@ -113,13 +113,13 @@ void refuse_number_behind(const std::string& written) {
     while (before > 0 && is(std::isspace, before)) --before;
     if (!is(std::isalnum, before) && written[before] != ')') continue;
     throw InputError(
-        fmt::format("'{}': is the number behind the space a factor or a power? Write a factor in "
-                    "front and a power with ^",
+        fmt::format("'{}': the number after the space can be a factor or a power; write a factor "
+                    "before the unit, or a power with ^",
                     written));
   }
 }
 
-// "m^0.5": UDUNITS-2 takes m^0 and multiplies by .5.
+// "m^0.5": UDUNITS-2 reads m^0 times .5.
 void refuse_broken_power(const std::string& written) {
   const auto is_digit = [&](std::size_t at) {
     return at < written.size() && std::isdigit(static_cast<unsigned char>(written[at])) != 0;
@@ -131,7 +131,7 @@ void refuse_broken_power(const std::string& written) {
     while (is_digit(at)) ++at;
     if (at + 1 < written.size() &&
         std::string_view(".,/").find(written[at]) != std::string_view::npos && is_digit(at + 1))
-      throw InputError(fmt::format("'{}': the power of a unit is a whole number", written));
+      throw InputError(fmt::format("'{}': the power of a unit must be a whole number", written));
   }
 }
 
@@ -153,20 +153,20 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
   }
   if (!unit->linear) {
     throw InputError(
-        fmt::format("'{}' is a logarithm or a point in time, and no unit (expected one like '{}')",
+        fmt::format("'{}' is a logarithm or a point in time, not a unit (expected one like '{}')",
                     written, si));
   }
   refuse_number_behind(written);
   refuse_broken_power(written);
   if (!std::isnormal(unit->scale) || unit->scale < 0 || !std::isfinite(unit->offset)) {
     throw InputError(
-        fmt::format("'{}' is {} in '{}'; a unit is above 0", written, unit->scale, si));
+        fmt::format("'{}' is {} in '{}'; a unit must be positive", written, unit->scale, si));
   }
   double factor = 1;
   if (const int rotations = rotation_power(si); rotations != 0) {
     factor = rotation_factor(*unit, wanted->dimension, rotations, written, value);
   } else if (unit->dimension != wanted->dimension) {
-    Dimension counted = unit->dimension;  // what is counted may go without saying
+    Dimension counted = unit->dimension;  // a count may be omitted
     const int cycles = power(wanted->dimension, "cycle");
     if (cycles != 0) counted.emplace("cycle", cycles);
     factor = counted == wanted->dimension ? 1 : 0;
@@ -174,20 +174,22 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
   if (factor == 0) refuse_dimension(unit->dimension, wanted->dimension, written, si);
   const bool temperature = wanted->dimension == Dimension{{"kelvin", 1}};
   if (temperature ? starts_with_number(written) : unit->offset != 0) {
-    throw InputError(fmt::format("'{}': where is its zero? (expected one like '{}')", written, si));
+    throw InputError(
+        fmt::format("'{}': its zero point is unknown (expected one like '{}')", written, si));
   }
-  // "zdegF": a number of them would end in rounding.
-  constexpr double least = 1e-9;  // of the distance of the zeros: seven digits of one unit are left
+  // "zdegF": rounding would destroy such values.
+  constexpr double least = 1e-9;  // relative to the distance of the zero points: leaves seven
+                                  // digits of one unit
   if (unit->scale < least * std::abs(unit->offset)) {
     throw InputError(
-        fmt::format("'{}' is {:.3g} {} beside a zero that lies at {:.6g}: too small to be told",
-                    written, unit->scale, si, unit->offset));
+        fmt::format("'{}' is {:.3g} {}, too small compared with its zero point at {:.6g}", written,
+                    unit->scale, si, unit->offset));
   }
   if (wanted->dimension == Dimension{{"cycle", 1}} && unit->scale < 0.5) {
-    throw InputError(fmt::format(
-        "'{}' is {:.6g} of one, and a count has no such parts; a million of them is M, as in "
-        "'Mcycles'",
-        written, unit->scale));
+    throw InputError(
+        fmt::format("'{}' is {:.6g} of one, but a count has no fractions; write M for a million, "
+                    "as in 'Mcycles'",
+                    written, unit->scale));
   }
   return Unit{written, unit->scale * factor, unit->offset};
 }
@@ -195,7 +197,7 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
 Unit read_unit(std::string_view text, std::string_view si, double value) {
   const std::string written = boost::algorithm::trim_copy(std::string(text));
   if (!is_logarithm(si)) {
-    // The unit itself needs no check; it need not be one of the SI.
+    // The unit itself needs no check and need not be an SI unit.
     const auto same = written == si ? parse_unit(written) : std::nullopt;
     return same && same->linear ? Unit{written, same->scale, same->offset}
                                 : read_linear(written, si, value);
@@ -207,11 +209,12 @@ Unit read_unit(std::string_view text, std::string_view si, double value) {
   const auto inner = [](std::string_view log) { return log.substr(6, log.size() - 7); };
   const Unit unit = read_unit(inner(written), inner(si), 1);
   if (unit.offset != 0)
-    throw InputError(fmt::format("'{}': the unit has an offset, and so no logarithm", written));
+    throw InputError(
+        fmt::format("'{}': the unit has an offset, so its logarithm is undefined", written));
   return Unit{written, 1, std::log10(unit.scale)};
 }
 
-// "0,1 mm", "1.234,5 mm", "1,234.5 mm" and "12'000 cycles": a number ends before its mark.
+// "0,1 mm", "1.234,5 mm", "1,234.5 mm" and "12'000 cycles": a C number ends before the mark.
 void refuse_marks(const std::string& written) {
   const std::size_t sign = written.starts_with('-') || written.starts_with('+');
   const std::size_t end =
@@ -227,19 +230,20 @@ void refuse_marks(const std::string& written) {
     if (behind == 0) return;
     const std::size_t before = last - sign;
     if (behind == 3 && before <= 3 && number[sign] != '0') {
-      throw InputError(fmt::format(
-          "'{}': with a decimal comma that is {}, with a mark for thousands {}; write a decimal "
-          "point and no marks",
-          written, boost::algorithm::replace_first_copy(number, ",", "."),
-          boost::algorithm::erase_all_copy(number, ",")));
+      throw InputError(
+          fmt::format("'{}' is ambiguous: {} with a decimal comma, {} with a thousands separator; "
+                      "use a decimal point and no separators",
+                      written, boost::algorithm::replace_first_copy(number, ",", "."),
+                      boost::algorithm::erase_all_copy(number, ",")));
     }
   }
-  if (number.find_first_of(",'") == number.npos) {  // points alone: "1.5.2" is no number at all
+  if (number.find_first_of(",'") == number.npos) {  // only points: "1.5.2" is not a number
     for (std::size_t at = number.find('.'); at != number.npos; at = number.find('.', at + 1)) {
       if (std::min(number.find('.', at + 1), end) != at + 4) return;
     }
   }
-  // A mark that stands twice is one for thousands; of two kinds the last is the decimal one.
+  // A mark that occurs twice is a thousands separator; of two kinds of mark the last is the decimal
+  // mark.
   const bool repeated = last == number.npos || number.find(number[last]) != last;
   std::string plain;
   for (std::size_t i = 0; i < end; ++i) {
@@ -250,8 +254,8 @@ void refuse_marks(const std::string& written) {
   }
   const bool comma = last != number.npos && number[last] == ',' && !repeated;
   throw InputError(fmt::format("'{}' has {}; write '{}'", written,
-                               comma ? "a decimal comma, and numbers here have a decimal point"
-                                     : "marks for thousands, and numbers here have none",
+                               comma ? "a decimal comma; use a decimal point"
+                                     : "thousands separators, which are not allowed",
                                plain + written.substr(end)));
 }
 
@@ -267,7 +271,7 @@ void refuse_power_of_ten(const std::string& written, std::string_view unit) {
                      unit.starts_with("10\u207b") || unit.starts_with("10**");
   if (power)
     throw InputError(
-        fmt::format("'{}': write a power of ten with an e, as in 2e-6 for 2 x 10^-6", written));
+        fmt::format("'{}': write a power of ten with e, for example 2e-6 for 2 x 10^-6", written));
 }
 
 // "35 200 cycles" is 35 times 200 cycles to UDUNITS-2. "60 1/min" is fine.
@@ -279,8 +283,8 @@ void refuse_gap(const std::string& written, double value, const std::string& uni
   double factor = 0;
   std::from_chars(unit.data(), unit.data() + unit.size(), factor);
   throw InputError(
-      fmt::format("'{}' can be read in two ways: as one number with a gap in it, or as {:.6g} "
-                  "times {:.6g}, which is {:.6g}; write the number in one piece",
+      fmt::format("'{}' is ambiguous: one number with a gap, or {:.6g} times {:.6g}, which is "
+                  "{:.6g}; write the number without a gap",
                   written, value, factor, value * factor));
 }
 
@@ -331,8 +335,9 @@ Quantity read_quantity(std::string_view text, std::string_view si) {
 void refuse_two_readings(const Quantity& quantity, const Unit& beside) {
   if (quantity.unit.text != "1" || quantity.value == 0 || beside.scale == 1) return;
   throw InputError(fmt::format(
-      "{} stands beside '{}': is it {}, or {} '{}' = {:.6g}? write its unit", quantity.value,
-      beside.text, quantity.value, quantity.value, beside.text, quantity.value * beside.scale));
+      "{} is given beside '{}' and is ambiguous: {}, or {} '{}' = {:.6g}; write its unit",
+      quantity.value, beside.text, quantity.value, quantity.value, beside.text,
+      quantity.value * beside.scale));
 }
 
 }  // namespace wearwell

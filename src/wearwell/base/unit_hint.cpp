@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_letters = 8;
 
-// Names that people write, of all dimensions that a study has.
+// Common unit names of all dimensions in studies.
 constexpr std::array common = {
     "m",    "cm",   "mm",      "um",      "nm",         "km",        "micron", "inch", "mil",
     "mils", "thou", "ft",      "N",       "kN",         "MN",        "kgf",    "lbf",  "Pa",
@@ -34,7 +34,7 @@ bool has_dimension(const std::string& text, const std::optional<Dimension>& want
   return unit && unit->linear && (!wanted || unit->dimension == *wanted);
 }
 
-// The same letters with other capitals, fewest changes first: "MPa" and "mPa" of "mpa".
+// The same letters in other case, fewest changes first: "MPa" and "mPa" for "mpa".
 std::vector<std::string> other_capitals(const std::string& written, const Dimension& wanted) {
   std::vector<std::size_t> letters;
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<std::string> other_capitals(const std::string& written, const Dimens
   return names;
 }
 
-// One slip in a name that begins alike; shorter ones are near to everything.
+// One edit in a name with the same beginning; short names are near to everything.
 std::string near_common(const std::string& written, const std::optional<Dimension>& wanted) {
   const auto first = [](const std::string& text) {
     return std::tolower(static_cast<unsigned char>(text.front()));

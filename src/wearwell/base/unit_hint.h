@@ -7,12 +7,13 @@
 
 namespace wearwell {
 
-/// "; did you mean 'mm'?": what may be meant by `written`, which is no unit of `wanted`, or none at
-/// all: other capitals, the factor of "x1000 mm", or, where it is none at all, a common name near to
-/// it. Empty where nothing is near.
+/// "; did you mean 'mm'?" for a `written` text that is not a unit of `wanted`: other case, the
+/// factor of "x1000 mm", or, if it is not a unit at all, the nearest common name. Empty if nothing
+/// is near.
 std::string unit_hint(const std::string& written, const std::optional<Dimension>& wanted);
 
-/// The unit without the times sign in front of its factor: "1000 mm" of "x1000 mm"; else `written`.
+/// The unit without the multiplication sign before its factor: "1000 mm" for "x1000 mm"; else
+/// `written`.
 std::string without_times(const std::string& written);
 
 }  // namespace wearwell

@@ -22,7 +22,7 @@ struct Free {
 using System = std::unique_ptr<ut_system, Free>;
 using UtUnit = std::unique_ptr<ut_unit, Free>;
 
-// UDUNITS-2 takes a cycle for 2 pi radians, and its hertz for 1/s.
+// UDUNITS-2 defines a cycle as 2 pi radians, and hertz as 1/s.
 constexpr std::array counts = {"cycle",  "revolution", "rotation", "turn",
                                "stroke", "closing",    "rev",      "count"};
 // r/min (IEC 60050), U/min and Lastwechsel (German), tr/min (French), ciclos (Spanish)
@@ -131,7 +131,7 @@ const ut_system* unit_system() {
     if (!read)
       throw MachineError("cannot read the UDUNITS-2 unit database; is libudunits2 installed?");
     if (!add_our_names(read.get()))
-      throw MachineError("the UDUNITS-2 unit database is not the one that was expected");
+      throw MachineError("the UDUNITS-2 unit database is not the expected one");
     return read;
   }();
   return system.get();
@@ -143,7 +143,8 @@ void multiply(ParsedUnit& result, const ut_unit* base, int power) {
   sum += power;
 }
 
-// How UDUNITS-2 built a unit: a product of base units, scaled and shifted any number of times.
+// The structure of a UDUNITS-2 unit: a product of base units, scaled and shifted any number of
+// times.
 extern "C" {
 ut_status visit_basic(const ut_unit* unit, void* result) {
   multiply(*static_cast<ParsedUnit*>(result), unit, 1);
@@ -178,7 +179,7 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
   return status;
 }
 
-// "N⁻¹" is "N^-1": UDUNITS-2 knows raised digits, but no raised sign.
+// "N⁻¹" is "N^-1": UDUNITS-2 supports superscript digits but not a superscript sign.
 std::string with_plain_powers(const std::string& text) {
   static constexpr std::array<std::string_view, 11> raised = {
       "\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075",
@@ -211,10 +212,10 @@ std::string with_plain_powers(const std::string& text) {
 
 std::optional<ParsedUnit> parse_unit(const std::string& text) {
   std::string plain = with_plain_powers(text);
-  boost::algorithm::replace_all(plain, "\u22c5", "\u00b7");  // the other dot of products
-  boost::algorithm::replace_all(plain, "\u00a0", " ");       // a space that does not break
-  boost::algorithm::replace_all(plain, "\u2212", "-");       // the minus of typesetters
-  static std::mutex one_at_a_time;                           // UDUNITS-2 parses by globals
+  boost::algorithm::replace_all(plain, "\u22c5", "\u00b7");  // the other multiplication dot
+  boost::algorithm::replace_all(plain, "\u00a0", " ");       // no-break space
+  boost::algorithm::replace_all(plain, "\u2212", "-");       // typographic minus sign
+  static std::mutex one_at_a_time;                           // UDUNITS-2 parses with global state
   const std::lock_guard lock(one_at_a_time);
   const UtUnit unit{ut_parse(unit_system(), plain.c_str(), UT_UTF8)};
   if (!unit) return {};

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
-// A likelihood that overflowed is far outside of where any parameter can be.
+// A likelihood that overflows is far outside the plausible range of parameters.
 double in_support(double value) {
   return std::isnan(value) ? minus_infinity : value;
 }
 
-// The same where the density has no gradient that a double holds, which no search can climb by.
+// The same if the gradient is not finite, because searches need it.
 double in_support(double value, std::span<double> gradient) {
   for (const double each : gradient) {
     if (std::isfinite(each)) continue;
@@ -35,21 +35,22 @@ Posterior::Posterior(std::vector<Parameter> parameters,
                      std::shared_ptr<const LogDensity> likelihood)
     : parameters_(std::move(parameters)), likelihood_(std::move(likelihood)) {
   if (dimension() != likelihood_->dimension()) {
-    throw std::logic_error("posterior: parameters and likelihood differ in number");
+    throw std::logic_error(
+        "posterior: the numbers of parameters and of likelihood arguments are not equal");
   }
   if (parameters_.empty() || dimension() > max_dimension) {
-    throw InputError(fmt::format("the model has {} parameters, 1 to {} are possible",
+    throw InputError(fmt::format("the model has {} parameters; 1 to {} are allowed",
                                  parameters_.size(), max_dimension));
   }
   for (const Parameter& p : parameters_) {
     const Distribution& prior = p.prior;
     if (!(prior.lower < p.start && p.start < prior.upper)) {
-      throw InputError(
-          fmt::format("prior.{}: its law leaves no number between {:.17g} and {:.17g} {} to start "
-                      "from",
-                      p.name, prior.lower, prior.upper, p.si));
+      throw InputError(fmt::format(
+          "prior.{}: its distribution leaves no number between {:.17g} and {:.17g} {} to start "
+          "from",
+          p.name, prior.lower, prior.upper, p.si));
     }
-    // From a bound, one unit of z is a factor of e in the distance to it.
+    // Near a bound, one unit of z is a factor of e in the distance to the bound.
     const double scale = std::isfinite(prior.lower)   ? p.start - prior.lower
                          : std::isfinite(prior.upper) ? prior.upper - p.start
                                                       : p.scale;
@@ -58,7 +59,8 @@ Posterior::Posterior(std::vector<Parameter> parameters,
   const Eigen::VectorXd z = start();
   if (!std::isfinite(value(view(z)))) {
     throw InputError(
-        "the posterior is zero at plausible parameter values: prior, data and law contradict each "
+        "the posterior is zero at plausible parameter values: prior, data and model contradict "
+        "each "
         "other");
   }
 }

@@ -1,4 +1,4 @@
-// Rows bound to a program, and the scratch of a call.
+// Binding of rows to a program, and the workspace of a call.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ Workspace Program::workspace(std::size_t most_rows) const {
   Workspace made;
   made.body_ = std::make_unique<Workspace::Body>();
   Workspace::Body& work = *made.body_;
-  // Not one stride apart for every size of cache.
+  // Avoids strides that map to the same cache sets.
   work.most = (std::max<std::size_t>(most_rows, 1) + 15) / 8 * 8;
   work.numbers = tape.numbers;
   work.number_adjoints.assign(tape.numbers.size(), 0);
@@ -27,7 +27,7 @@ Workspace Program::workspace(std::size_t most_rows) const {
   work.at.resize(tape.cells.size());
   work.adjoint_at.resize(tape.cells.size());
   for (std::size_t i = 0; i < tape.cells.size(); ++i) {
-    if (tape.cells[i].slot < 0) continue;  // the parameters themselves
+    if (tape.cells[i].slot < 0) continue;  // read directly from the parameters
     const auto slot = static_cast<std::size_t>(tape.cells[i].slot);
     if (tape.cells[i].home == Cell::number) {
       work.at[i] = &work.numbers[slot];
@@ -64,7 +64,7 @@ Data Program::bind(const Rows& rows) const {
 
 namespace {
 
-// Where the path of row i was before it.
+// The state of row i's path at the previous row.
 double place_before(const StateStart& start, const std::vector<double>& axis,
                     const Data::Body& rows, std::size_t i) {
   if (rows.starts[i] == 0) return axis[i - 1];
@@ -81,15 +81,16 @@ void check_axis(const Symbols& symbols, const StateStart& start, const std::vect
     if (axis[i] >= least) continue;
     throw InputError(
         starts[i] == 0
-            ? fmt::format("'{}' goes back at row {}, from {:.6g} to {:.6g} in SI; a state runs "
-                          "along it",
+            ? fmt::format("'{}' decreases at row {}, from {:.6g} to {:.6g} in SI; a state needs "
+                          "ascending values of it",
                           name, i + 1, least, axis[i])
-            : fmt::format("'{}' is {:.6g} in SI at row {}, before the state begins at {:.6g}", name,
-                          axis[i], i + 1, least));
+            : fmt::format(
+                  "'{}' is {:.6g} in SI at row {}, before the beginning of the state at {:.6g}",
+                  name, axis[i], i + 1, least));
   }
 }
 
-// The part of `axis` since the row before.
+// The increment of `axis` since the previous row.
 void steps_along(const StateStart& start, const std::vector<double>& axis, const Data::Body& rows,
                  std::vector<double>& steps) {
   for (std::size_t i = 0; i < axis.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace wearwell::formula {
 namespace {
 
-// Of the text that is written before: helpers that C has not (c_helpers).
+// Helper functions that C lacks, written before the text (c_helpers).
 std::string expression_of(const Node& node, const std::vector<std::string>& name) {
   const auto of = [&](int i) -> const std::string& { return name[static_cast<std::size_t>(i)]; };
   const auto unary = [&](const char* function) {
@@ -87,8 +87,8 @@ std::string expression_of(const Node& node, const std::vector<std::string>& name
       return fmt::format("({} != 0) ? {} : {}", of(node.a), of(node.b), of(node.c));
     default:
       throw InputError(
-          "the law depends on rows before its own (cum, step, a state by its rate): such a path is "
-          "not exported to C");
+          "the formula depends on previous rows (cum, step, a state with a rate) and cannot be "
+          "exported to C");
   }
 }
 
@@ -102,7 +102,7 @@ std::string c_number(double x) {
   return std::signbit(x) ? "(" + text + ")" : text;
 }
 
-// What is shared is computed once.
+// Shared subexpressions are computed once.
 std::string c_function(const std::vector<Line>& law, const Wanted& wanted, const Symbols& symbols,
                        const std::string& function) {
   const WrittenGraph written = written_graph(law, {wanted}, symbols);

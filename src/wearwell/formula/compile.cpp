@@ -15,8 +15,8 @@
 namespace wearwell::formula {
 namespace {
 
-// Lines stand in any order and lean on each other: each is read after those that it names. Within the
-// rate of a state, names mean other things (the state as it runs), so a line is read anew for it.
+// Lines may be in any order; each is read after the lines that it names. Within the rate of a
+// state, names have another meaning (the running state), so lines are read a second time for it.
 class Compiler {
  public:
   Compiler(const std::vector<Line>& law, const std::vector<Wanted>& wanted, const Symbols& symbols,
@@ -77,7 +77,7 @@ class Compiler {
     for (const Token& token : written(item).tokens) {
       if (token.kind != Token::name) continue;
       if (token.text == lines_.state) {
-        if (item == beginning_item()) continue;  // refused where it is read
+        if (item == beginning_item()) continue;  // refused when it is read
         found.push_back(moving ? beginning_item() : state_item());
         continue;
       }
@@ -128,9 +128,9 @@ class Compiler {
     for (const Token& token : from.tokens)
       if (token.kind == Token::name && token.text == name) at = token.at;
     complain(from.text, at,
-             fmt::format("the lines lean on each other in a circle: {}",
+             fmt::format("the lines refer to each other in a circle: {}",
                          boost::algorithm::join(circle, " -> ")),
-             "a quantity that feeds back on itself is a state: \"d(x)/d(y)\"");
+             "write a quantity that depends on itself as a state: \"d(x)/d(y)\"");
   }
 
   int read(const Written& text, const Names& names) {
@@ -166,7 +166,7 @@ class Compiler {
       const Node& node = graph_[beginning];
       if (!node.any && column != nullptr && node.powers != state_powers_)
         complain(lines_.beginning.text, 0,
-                 fmt::format("the state begins as {}, and the column '{}' is {}",
+                 fmt::format("the state begins as {}, but the column '{}' is {}",
                              description(graph_.dimension(node.powers)), lines_.state,
                              description(column->powers)),
                  difference(graph_.dimension(node.powers), column->powers));
@@ -193,7 +193,7 @@ class Compiler {
     const Powers demanded = quotient(graph_.dimension(state_powers_), axis.powers);
     if (!node.any && graph_.dimension(node.powers) != demanded) {
       complain(text, 0,
-               fmt::format("the rate is {}, and that of '{}' along '{}' must be {}",
+               fmt::format("the rate is {}, but the rate of '{}' along '{}' must be {}",
                            description(graph_.dimension(node.powers)), lines_.state, axis.name,
                            description(demanded)),
                difference(graph_.dimension(node.powers), demanded));
@@ -202,7 +202,7 @@ class Compiler {
         node.moving ? graph_.make(Op::state, state_powers_, beginning, rate) : closed_form();
   }
 
-  // A rate that knows nothing of the state nor of where it is: each row adds its step.
+  // A rate that depends neither on the state nor on the axis: each row adds its step.
   int closed_form() {
     Node step;
     step.op = Op::step;
@@ -225,7 +225,7 @@ class Compiler {
     const Powers& powers = graph_.dimension(node.powers);
     if (wanted.powers && !node.any && powers != *wanted.powers) {
       complain(written.text, 0,
-               fmt::format("'{}' is {}, and must be {}{}{}", shortened_text(wanted.text),
+               fmt::format("'{}' is {}, but must be {}{}{}", shortened_text(wanted.text),
                            description(powers), description(*wanted.powers),
                            wanted.because.empty() ? "" : ", as ", wanted.because),
                difference(powers, *wanted.powers));
@@ -236,8 +236,8 @@ class Compiler {
     for (const Token& token : written.tokens)
       if (token.kind == Token::name && token.text == column) at = token.at;
     complain(written.text, at,
-             fmt::format("'{}' differs from row to row, and this is one number", column),
-             "it may hold parameters and constants only");
+             fmt::format("'{}' varies from row to row, but this must be one number", column),
+             "use only parameters and constants");
   }
 
   static std::string shortened_text(const std::string& text) {
@@ -297,7 +297,7 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
   const std::vector<bool> used = reachable(graph, body->roots);
   for (int i = 0; i < graph.size(); ++i) {
     if (!used[static_cast<std::size_t>(i)]) continue;
-    // A state runs along its axis whether its rate names it or not.
+    // A state uses its axis even if its rate does not name it.
     if (graph[i].op == Op::state) body->columns[static_cast<std::size_t>(body->start.axis)] = true;
     if (graph[i].index < 0) continue;
     const auto index = static_cast<std::size_t>(graph[i].index);

@@ -22,7 +22,7 @@ struct Base {
   const char* name;
   const char* symbol;
 };
-// In the order in which they are written.
+// The order of units in text.
 constexpr std::array<Base, 9> bases = {{{"kilogram", "kg"},
                                         {"meter", "m"},
                                         {"ampere", "A"},
@@ -57,7 +57,7 @@ double number(const Power& power) {
   return static_cast<double>(power.numerator()) / power.denominator();
 }
 
-// How many symbols it takes to write them down.
+// The number of symbols in their text.
 double cost(const Powers& powers) {
   double sum = 0;
   for (const auto& [base, power] : powers) sum += std::abs(number(power));
@@ -171,8 +171,7 @@ std::string si_text(const Powers& powers) {
     const auto at = powers.find(base.name);
     if (at == powers.end()) continue;
     if (at->second.denominator() != 1)
-      throw InputError(
-          fmt::format("{} is not the unit of anything that is read", description(powers)));
+      throw InputError(fmt::format("{} is not the dimension of any input", description(powers)));
     text += (text.empty() ? "" : " ") + factor(base.symbol, at->second);
   }
   return text.empty() ? "1" : text;
@@ -199,13 +198,14 @@ std::string with_roots(std::string text) {
 }
 
 AnyUnit plain_unit(const std::string& text) {
-  // UDUNITS-2 reads m^0.3 as m^0 times 0.3.
+  // Checked here, because UDUNITS-2 reads m^0.3 as m^0 times 0.3.
   for (std::size_t at = 0; (at = text.find_first_of("^*", at)) != text.npos; ++at) {
     if (text[at] == '*' && text.substr(at, 2) != "**") continue;
     const std::size_t end = text.find_first_not_of("^*+-0123456789", at);
     if (end != text.npos && text[end] == '.' && end + 1 < text.size() &&
         std::isdigit(static_cast<unsigned char>(text[end + 1])) != 0)
-      throw InputError(fmt::format("'{}': a power in a unit is a whole number, or sqrt(m)", text));
+      throw InputError(
+          fmt::format("'{}': a power in a unit must be a whole number, or write sqrt(m)", text));
   }
   const auto parsed = parse_unit(text);
   if (!parsed && two_sizes(text).empty()) throw InputError(fmt::format("'{}' is not a unit", text));
@@ -215,10 +215,10 @@ AnyUnit plain_unit(const std::string& text) {
 
 struct Root {
   std::string rest, inner;
-  bool below = false;  ///< behind a slash
+  bool below = false;  ///< after a slash
 };
 
-// A square root that is a factor of its own, outside of brackets.
+// A square root as a separate factor, outside brackets.
 std::optional<Root> split_root(const std::string& text) {
   const std::size_t at = text.find("sqrt(");
   if (at == text.npos) return {};
@@ -248,7 +248,7 @@ AnyUnit read_any_unit(std::string_view text) {
   if (!root) return plain_unit(written);
   const AnyUnit rest = plain_unit(root->rest), inner = plain_unit(root->inner);
   if (rest.unit.offset != 0 || inner.unit.offset != 0)
-    throw InputError(fmt::format("'{}': where is its zero?", written));
+    throw InputError(fmt::format("'{}': its zero point is unknown", written));
   const double size = std::sqrt(inner.unit.scale);
   const Powers powers = raised(inner.powers, Power(1, 2));
   return {{written, root->below ? rest.unit.scale / size : rest.unit.scale * size, 0},
@@ -269,7 +269,7 @@ AnyQuantity read_any_quantity(std::string_view text) {
   const AnyUnit any = read_any_unit(unit);
   const bool whole = std::all_of(any.powers.begin(), any.powers.end(),
                                  [](const auto& each) { return each.second.denominator() == 1; });
-  // The reader of quantities knows of gaps in numbers and of absolute zero.
+  // The reader of quantities checks gaps in numbers and absolute zero.
   if (whole) return {read_quantity(written, si_text(any.powers)), any.powers};
   return {{value, any.unit}, any.powers};
 }

@@ -15,7 +15,7 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// Every node by itself, in the order in which they were written; slow, and for a message only.
+// Evaluates every node separately, in the written order; slow, used only for messages.
 class Examination {
  public:
   Examination(const Graph& graph, const std::vector<int>& roots)
@@ -24,7 +24,7 @@ class Examination {
         needed_(reachable(graph, roots)),
         values_(index(graph.size())) {}
 
-  // The leaves' and states' values come through `leaf`.
+  // `leaf` gives the values of leaves and states.
   template <class F>
   void compute(std::size_t n, const std::uint8_t* starts, const F& leaf) {
     rows_ = n;
@@ -76,7 +76,7 @@ class Examination {
                          powers.empty() ? "" : " " + description(powers));
     };
     const double result = values_[index(found.node)][found.row];
-    if (node.a < 0) return "its value is no finite number";
+    if (node.a < 0) return "its value is not finite";
     switch (node.op) {
       case Op::divide:
         if (values_[index(node.b)][found.row] == 0) return "division by 0";
@@ -92,12 +92,12 @@ class Examination {
       case Op::whole_power:
         return fmt::format("{} to the power {}", value(node.a), node.value);
       case Op::state:
-        return std::isinf(result) ? "it grows without bound before this row"
-                                  : "its rate cannot be computed on the way to this row";
+        return std::isinf(result) ? "it becomes infinite before this row"
+                                  : "its rate cannot be computed before this row";
       default:
         break;
     }
-    return std::isnan(result) ? "it is no number" : "it is infinite";
+    return std::isnan(result) ? "it is not a number" : "it is infinite";
   }
 
  private:
@@ -116,7 +116,7 @@ class Examination {
     rows[row] = true;
   }
 
-  // What a value is made of is asked for too, but for branches that were not taken.
+  // Also checks the operands of a value, except those of branches not taken.
   void pass_on(int i) {
     const Node& node = graph_[i];
     for (std::size_t r = 0; r < rows_; ++r) {

@@ -102,7 +102,7 @@ int Graph::folded(const Node& node) {
   constant.value = value_of(node.op, arguments[0], arguments[1], arguments[2], node.value);
   constant.powers = node.powers;
   constant.truth = node.truth;
-  // What is no number stays as it is written, so that a message can name it.
+  // A result that is not a number is not folded, so that a message can name the expression.
   return std::isfinite(constant.value) ? add(constant) : -1;
 }
 
@@ -115,7 +115,7 @@ int Graph::add(Node node) {
   derive(node);
   node.origin = origin_;
   if (node.depth > most_depth) throw InputError("an expression is more than 1000 operations deep");
-  if (size() >= most_nodes) throw InputError("the laws hold more than 200000 operations");
+  if (size() >= most_nodes) throw InputError("the formulas have more than 200000 operations");
   const int at = size();
   nodes_.push_back(node);
   known_.emplace(node, at);

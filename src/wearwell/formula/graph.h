@@ -13,40 +13,40 @@
 
 namespace wearwell::formula {
 
-/// One operation of all that is written in a study; equal ones are one.
+/// One operation of the expressions of a study; equal operations share a node.
 struct Node {
   Op op = Op::constant;
-  int a = -1, b = -1, c = -1;  ///< the nodes it works on, all before it; -1 for none
+  int a = -1, b = -1, c = -1;  ///< operands, which are earlier nodes; -1 for none
   int index = -1;              ///< of a column, label, slot, or parameter by row
   int level = -1;              ///< label_is, parameter: the level; pick: the label
   double value =
       0;           ///< of a constant; the exponent of whole_power; of cum: whole_step, if it is one
   int powers = 0;  ///< its dimension: index into Graph::dimension
   bool truth = false;  ///< true or false, as 1 or 0
-  bool any = false;    ///< the number 0 as written, which fits any dimension
-  // What follows from these:
-  bool rows = false;        ///< differs from row to row
+  bool any = false;    ///< a literal 0, which fits any dimension
+  // Derived:
+  bool rows = false;        ///< varies from row to row
   bool parametric = false;  ///< depends on parameters
-  bool by_path = false;     ///< depends on rows before its own
+  bool by_path = false;     ///< depends on previous rows
   bool moving = false;      ///< within a rate: depends on the state or the axis
-  int by_label = -1;        ///< the label whose texts alone tell its rows apart; -1 for none
+  int by_label = -1;        ///< the label whose level alone determines the value; -1 for none
   int depth = 0;
-  int origin = -1;  ///< the text in which it was first met
+  int origin = -1;  ///< the text of its first occurrence
 };
 
-/// Of a `cum` that sums up whole steps along the axis, of which a longer one is as good as two.
+/// For a `cum` that sums whole steps along the axis: a longer step equals two shorter ones.
 inline constexpr double whole_step = 1;
 
-/// Typed expressions of a study, hash-consed: a node stands behind those that it works on. Constants
-/// are folded. Bounded in size and depth, whatever is written.
+/// Typed expressions of a study, hash-consed; a node comes after its operands. Constants are
+/// folded. Size and depth are bounded.
 class Graph {
  public:
   static constexpr int most_nodes = 200000, most_depth = 1000;
 
   Graph();
 
-  /// The node, or the one that there is already; what follows from its arguments is filled in.
-  /// Throws InputError where the bounds are exceeded.
+  /// Returns an existing equal node or adds the node, with its derived properties. Throws
+  /// InputError if the bounds are exceeded.
   int add(Node node);
   int constant(double value, int powers = 0);
   int make(Op op, int powers, int a, int b = -1, int c = -1, bool truth = false);
@@ -59,10 +59,10 @@ class Graph {
   const Node& operator[](int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   int size() const { return static_cast<int>(nodes_.size()); }
 
-  /// Of nodes that are added from now on.
+  /// The origin of nodes added from now on.
   void set_origin(int origin) { origin_ = origin; }
 
-  /// Of the state; empty without one.
+  /// The name of the state; empty without one.
   const std::string& state_name() const { return state_name_; }
   void set_state_name(std::string name) { state_name_ = std::move(name); }
 
@@ -84,10 +84,10 @@ class Graph {
   std::string state_name_;
 };
 
-/// The nodes that `roots` depend on, as a mark for each node of the graph.
+/// Marks the nodes that `roots` depend on.
 std::vector<bool> reachable(const Graph& graph, const std::vector<int>& roots);
 
-/// An expression as text, names of lines written out: "k * (force * distance) / area".
+/// An expression as text, with lines expanded: "k * (force * distance) / area".
 std::string text_of(const Graph& graph, int node, const Symbols& symbols);
 
 }  // namespace wearwell::formula

@@ -1,7 +1,7 @@
 #pragma once
 
-// The loops of all operations. Included by kernels.cpp for the vectors that every machine has, and
-// by kernels_avx2.cpp for wider ones; all is local to the source that includes it.
+// The loops of all operations. Included by kernels.cpp for baseline vectors and by kernels_avx2.cpp
+// for wider ones; everything is local to the including source.
 
 #include <cmath>
 #include <cstddef>
@@ -13,13 +13,13 @@
 namespace wearwell::formula {
 namespace {
 
-// One of three arguments chosen by template, so that a uniform one is read once.
+// Selects one of three arguments at compile time, so that a uniform argument is read once.
 template <bool Uniform>
 inline double get(const double* a, std::size_t i) {
   return a[Uniform ? 0 : i];
 }
 
-// Sums in eight lanes, whose order no compiler and no vector changes.
+// Sums in eight lanes, in an order that does not depend on compiler or vector width.
 template <class T>
 inline double lane_sum(std::size_t n, const T& term) {
   double lane[8] = {};
@@ -30,7 +30,7 @@ inline double lane_sum(std::size_t n, const T& term) {
   return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
-// Gives term(i), or its sum, to an argument. The term is guarded: no adjoint, no gift.
+// Adds term(i), or its sum, to the adjoint of an argument. A zero adjoint gives zero.
 template <bool Uniform, class T>
 inline void give(double* to, const double* __restrict g, std::size_t n, bool first,
                  const T& slope) {
@@ -79,7 +79,7 @@ struct BinaryLoop {
   }
 };
 
-// a^extra by squaring. Small exponents are known while compiling, so that their loops are vector code.
+// a^extra by squaring. Small exponents are compile-time constants, so that their loops vectorize.
 template <bool A>
 struct WholePowerLoop {
   static double raise(double a, unsigned n) {
@@ -126,7 +126,7 @@ struct WholePowerLoop {
   }
 };
 
-// a^b where c = log a is known; a and c depend on no parameter.
+// a^b with known c = log a; a and c do not depend on parameters.
 template <bool A, bool B, bool C>
 struct PowerLogLoop {
   static void forward(const double*, const double* __restrict b, const double* __restrict c,

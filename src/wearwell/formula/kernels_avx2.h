@@ -4,7 +4,7 @@
 
 namespace wearwell::formula {
 
-/// The same kernels for machines with AVX2; without kernels where the compiler has none for it.
+/// The same kernels for machines with AVX2; empty if the compiler does not support it.
 Kernels kernels_avx2(Op op, unsigned uniform);
 
 }  // namespace wearwell::formula

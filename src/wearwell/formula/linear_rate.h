@@ -6,13 +6,13 @@
 
 namespace wearwell::formula {
 
-/// A rate that is constant + slope * state, where neither depends on the state nor on the axis; nodes,
-/// -1 for 0.
+/// A rate constant + slope * state whose parts do not depend on the state or the axis; nodes, -1
+/// for 0.
 struct LinearRate {
   int constant = -1, slope = -1;
 };
 
-/// The parts of a rate in `graph`, to which they are added; nothing where it is not linear.
+/// Adds the parts of a rate to `graph`; empty if it is not linear.
 std::optional<LinearRate> linear_rate(Graph& graph, int rate);
 
 }  // namespace wearwell::formula

@@ -63,7 +63,7 @@ class Sorter {
     return at == list.end() ? nullptr : &*at;
   }
 
-  // What a name stands for already.
+  // The existing meaning of a name.
   const char* taken(const std::string& name) const {
     if (find(symbols_.columns, name)) return "column";
     if (find(symbols_.labels, name)) return "label";
@@ -86,8 +86,8 @@ class Sorter {
 
   void add_rate(const RateName& rate, const Text& text) {
     if (!lines_.state.empty()) {
-      throw InputError(fmt::format("{}: '{}' is a state already, and a study has one", text.where,
-                                   lines_.state));
+      throw InputError(fmt::format("{}: '{}' is already a state; a study can have only one",
+                                   text.where, lines_.state));
     }
     check_name(rate.state, "state");
     lines_.state = rate.state;
@@ -97,29 +97,28 @@ class Sorter {
       std::vector<std::string> names;
       for (const ColumnSymbol& each : symbols_.columns) names.push_back(each.name);
       throw InputError(fmt::format(
-          "{}: a state runs along a column, and '{}' is none{}", text.where,
+          "{}: a state needs a column as its axis, but '{}' is not a column{}", text.where,
           printable(shortened(rate.axis)),
           names.empty()
               ? ""
               : fmt::format("; did you mean '{}'?", nearest_name(shortened(rate.axis), names))));
     }
     if (axis->measured)
-      throw InputError(
-          fmt::format("{}: '{}' is what is measured; a state runs along a column that "
-                      "is known",
-                      text.where, rate.axis));
+      throw InputError(fmt::format(
+          "{}: '{}' is the measured response; the axis of a state must be a known column",
+          text.where, rate.axis));
     lines_.start.axis = static_cast<int>(axis - symbols_.columns.data());
   }
 
   // "depth(0)", "depth(first)", "depth(2 km)".
   void add_beginning(const std::string& name, std::size_t bracket, const Text& text) {
-    if (lines_.has_beginning) throw InputError(fmt::format("{}: a state begins once", text.where));
+    if (lines_.has_beginning)
+      throw InputError(fmt::format("{}: define the beginning of a state only once", text.where));
     lines_.has_beginning = true;
     if (name.back() != ')')
-      throw InputError(
-          fmt::format("{}: neither a name, nor a rate \"d(x)/d(y)\", nor the beginning "
-                      "of a state \"x(0)\"",
-                      text.where));
+      throw InputError(fmt::format(
+          "{}: neither a name, nor a rate \"d(x)/d(y)\", nor the beginning of a state \"x(0)\"",
+          text.where));
     lines_.beginning = {boost::algorithm::trim_copy(name.substr(0, bracket)), text,
                         tokens_of(text)};
     check_name(lines_.beginning.name, "state");
@@ -131,8 +130,9 @@ class Sorter {
     if (lines_.state != lines_.beginning.name) {
       throw InputError(
           lines_.state.empty()
-              ? fmt::format("{}: a beginning without a state; its rate is a line \"d({})/d(...)\"",
-                            text.where, printable(shortened(lines_.beginning.name)))
+              ? fmt::format(
+                    "{}: a beginning without a state; add its rate as a line \"d({})/d(...)\"",
+                    text.where, printable(shortened(lines_.beginning.name)))
               : fmt::format("{}: the state is '{}'", text.where, lines_.state));
     }
     if (place_ == "first") {
@@ -145,14 +145,14 @@ class Sorter {
       lines_.start.at = place.quantity.si();
       if (place.quantity.value != 0 || place.quantity.unit.text != "1") {
         if (place.powers != axis.powers)
-          throw InputError(fmt::format("'{}' is {}, and '{}' is {}", place_,
+          throw InputError(fmt::format("'{}' is {}, but '{}' is {}", place_,
                                        description(place.powers), axis.name,
                                        description(axis.powers)));
       }
     } catch (const InputError& error) {
       throw InputError(
-          fmt::format("{}: where does the state begin? {}; write {}(0), {}(first) or "
-                      "a place on '{}' with its unit",
+          fmt::format("{}: the beginning of the state is unclear: {}; write {}(0), {}(first) or a "
+                      "value of '{}' with its unit",
                       text.where, error.what(), lines_.state, lines_.state, axis.name));
     }
   }

@@ -10,14 +10,14 @@
 
 namespace wearwell::formula {
 
-/// A text with its words.
+/// A text with its tokens.
 struct Written {
   std::string name;  ///< of a line
   Text text;
   std::vector<Token> tokens = {};
 };
 
-/// The lines of [formula], sorted by what they are.
+/// The lines of [formula], sorted by kind.
 struct Lines {
   std::vector<Written> named;
   std::string state;  ///< empty without one
@@ -26,8 +26,8 @@ struct Lines {
   StateStart start;
 };
 
-/// Sorts the lines and reads their words; throws InputError where the name of a line is no name,
-/// or is taken, and where there is more than one state.
+/// Sorts and tokenizes the lines; throws InputError if the name of a line is invalid or taken, or
+/// if there is more than one state.
 Lines sort_lines(const std::vector<Line>& law, const Symbols& symbols);
 
 }  // namespace wearwell::formula

@@ -10,7 +10,7 @@
 namespace wearwell::formula {
 namespace {
 
-// A guess is helpful only where it shares most of its letters.
+// Offers a guess only if it shares most letters.
 std::string likely(const std::string& name, const std::vector<std::string>& known) {
   if (known.empty()) return {};
   const std::string nearest = nearest_name(name, known);
@@ -65,18 +65,19 @@ Term Naming::named(const Token& token) {
 
 void Naming::no_index(const Token& token) {
   complain(text_, here().at,
-           fmt::format("'{}' is no parameter that differs by a label", token.text),
-           "a unit stands behind a number only, and the unit of a column in [data.columns]");
+           fmt::format("'{}' is not a parameter that varies by a label", token.text),
+           "only a number can have a unit here; the unit of a column belongs in [data.columns]");
 }
 
 Term Naming::state(const Token& token) {
   if (names_.state_node < 0 && names_.in_rate) {
-    complain(
-        text_, token.at, fmt::format("what dimension has the state '{}'?", token.text),
-        fmt::format("say where it begins, with a unit, as in \"{}(0)\" = \"0 [mm]\"", token.text));
+    complain(text_, token.at, fmt::format("the dimension of the state '{}' is unknown", token.text),
+             fmt::format("state its beginning with a unit, for example \"{}(0)\" = \"0 [mm]\"",
+                         token.text));
   }
   if (names_.state_node < 0)
-    complain(text_, token.at, fmt::format("the state '{}' in its own beginning", token.text));
+    complain(text_, token.at,
+             fmt::format("the beginning of the state '{}' uses the state itself", token.text));
   return {names_.state_node, token.at, end_of_last()};
 }
 
@@ -86,8 +87,8 @@ Term Naming::column(std::size_t i, const Token& token) {
     return leaf(Op::axis_now, i, symbol.powers, token.at);
   if (symbol.measured) {
     complain(text_, token.at,
-             fmt::format("'{}' is what is measured, and no law may lean on it", token.text),
-             "to use its values as they are, read the column a second time under another name");
+             fmt::format("'{}' is the measured response, which a formula cannot use", token.text),
+             "to use its measured values, read the column a second time under another name");
   }
   return leaf(Op::column, i, symbol.powers, token.at);
 }
@@ -101,13 +102,13 @@ Term Naming::parameter(std::size_t i, const Token& token) {
                 token.at);
   }
   if (!index) {
-    complain(text_, token.at, fmt::format("'{}' differs by '{}'", token.text, symbol.label),
+    complain(text_, token.at, fmt::format("'{}' varies by '{}'", token.text, symbol.label),
              fmt::format("write {}[{}]", token.text, symbol.label));
   }
   ++at_;
   const Token& inside = tokens_[at_];
   if (inside.kind != Token::name && inside.kind != Token::quotation) {
-    complain(text_, inside.at, "a label, or one of its texts in quotes, stands in the brackets",
+    complain(text_, inside.at, "write a label, or one of its texts in quotes, in the brackets",
              fmt::format("write {}[{}]", token.text, symbol.label));
   }
   ++at_;
@@ -116,10 +117,9 @@ Term Naming::parameter(std::size_t i, const Token& token) {
   if (inside.kind == Token::quotation)
     return leaf(Op::parameter, i, symbol.powers, token.at, level_of(symbol.label, inside));
   if (inside.text != symbol.label) {
-    complain(
-        text_, inside.at,
-        fmt::format("'{}' differs by '{}', not by '{}'", token.text, symbol.label, inside.text),
-        fmt::format("write {}[{}]", token.text, symbol.label));
+    complain(text_, inside.at,
+             fmt::format("'{}' varies by '{}', not by '{}'", token.text, symbol.label, inside.text),
+             fmt::format("write {}[{}]", token.text, symbol.label));
   }
   const auto& labels = names_.symbols.labels;
   const auto label = std::find_if(labels.begin(), labels.end(), [&](const LabelSymbol& each) {
@@ -160,17 +160,17 @@ void Naming::unknown(const Token& token) {
   }
   const std::string name = shortened(token.text);
   std::string hint = likely(name, known);
-  if (name == "ln") hint = "the natural logarithm is log";
-  if (name == "if") hint = "a choice is where(condition, yes, no)";
-  if (name == "e" && !called) hint = "e is exp(1)";
+  if (name == "ln") hint = "write log for the natural logarithm";
+  if (name == "if") hint = "write where(condition, yes, no) for a choice";
+  if (name == "e" && !called) hint = "write exp(1) for e";
   for (const LabelSymbol& label : names_.symbols.labels) {
     if (std::find(label.levels.begin(), label.levels.end(), token.text) != label.levels.end())
-      hint = fmt::format("a text of the label '{}' stands in quotes: \"{}\"", label.name, name);
+      hint = fmt::format("write a text of the label '{}' in quotes: \"{}\"", label.name, name);
   }
   complain(text_, token.at,
            fmt::format("'{}' is {}", name,
-                       called ? "no function"
-                              : "no column, label, parameter, constant or line of [formula]"),
+                       called ? "not a function"
+                              : "not a column, label, parameter, constant or line of [formula]"),
            hint);
 }
 

@@ -11,7 +11,7 @@
 
 namespace wearwell::formula {
 
-/// The words of an expression with a place in them, and what its names stand for.
+/// The tokens of an expression with a position, and the meaning of its names.
 class Naming {
  protected:
   Naming(Graph& graph, const Text& text, const std::vector<Token>& tokens, const Names& names)
@@ -32,7 +32,7 @@ class Naming {
     return end;
   }
 
-  /// Of the name at the place, which moves behind it and its index.
+  /// Reads the name at the position and moves past it and its index.
   Term named(const Token& token);
 
   Graph& graph_;

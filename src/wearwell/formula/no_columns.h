@@ -4,7 +4,7 @@
 
 namespace wearwell::formula {
 
-/// One row, for a program that leans on parameters alone.
+/// One row without columns, for a program that depends only on parameters.
 Data bind_no_columns(const Program& program, const Symbols& symbols);
 
 }  // namespace wearwell::formula

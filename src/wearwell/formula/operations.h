@@ -1,6 +1,7 @@
 #pragma once
 
-// Each operation on numbers, with its slopes. Like vector_math.h, local to the source that includes it.
+// Each operation on numbers, with its derivatives. Like vector_math.h, local to the including
+// source.
 
 #include <cmath>
 #include <limits>
@@ -14,8 +15,8 @@ inline double sign_of(double x) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// Functions of one argument: value, and slope by argument and value.
-// expm1(x)/x and its slope, by their series where these would cancel.
+// Functions of one argument: value, and slope from argument and value. expm1(x)/x and its slope use
+// their series where the formula would cancel.
 inline double growth(double x) {
   return x == 0 ? 1 : std::expm1(x) / x;
 }
@@ -67,7 +68,7 @@ WEARWELL_BINARY(Add, a + b, 1, 1)
 WEARWELL_BINARY(Subtract, a - b, 1, -1)
 WEARWELL_BINARY(Multiply, a* b, b, a)
 WEARWELL_BINARY(Divide, a / b, 1 / b, -y / b)
-// NaN wins.
+// NaN propagates.
 WEARWELL_BINARY(Min, (a < b || a != a) ? a : b, a < b ? 1.0 : 0.0, a < b ? 0.0 : 1.0)
 WEARWELL_BINARY(Max, (a > b || a != a) ? a : b, a > b ? 1.0 : 0.0, a > b ? 0.0 : 1.0)
 WEARWELL_BINARY(Less, a < b ? 1.0 : 0.0, 0, 0)
@@ -78,7 +79,8 @@ WEARWELL_BINARY(Both, (a != 0 && b != 0) ? 1.0 : 0.0, 0, 0)
 WEARWELL_BINARY(Either, (a != 0 || b != 0) ? 1.0 : 0.0, 0, 0)
 #undef WEARWELL_BINARY
 
-// a^b of a >= 0, given log a. NaN for a < 0, but for b = 0: the exponent is no fixed whole number.
+// a^b of a >= 0, given log a. NaN for a < 0 except for b = 0, because the exponent is not a fixed
+// whole number.
 inline double powered(double b, double log_a) {
   const double y = vector_exp(b * log_a);
   return b == 0 ? 1 : y;

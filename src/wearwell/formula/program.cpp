@@ -177,7 +177,7 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
 
 namespace {
 
-// The place of a cell's adjoints, emptied where nothing was given to it yet.
+// The adjoints of a cell, zeroed before the first contribution.
 double* emptied(const Tape& tape, Workspace::Body& work, int cell, bool gives, bool first) {
   if (!gives) return nullptr;
   double* to = work.adjoint_at[static_cast<std::size_t>(cell)];
@@ -199,7 +199,7 @@ void reverse_state(const Tape& tape, Workspace::Body& work, const Data::Body& da
                        work.adjoint_at[static_cast<std::size_t>(step.out)], work.state_adjoints);
 }
 
-// Adds to the sum of each label; rows of one label mostly stand together, and are summed in four
+// Adds to the sum of each label. Rows of one label are usually adjacent and are summed in four
 // lanes.
 void sum_by_label(const int* label, const double* x, std::size_t n, double* sums) {
   for (std::size_t i = 0; i < n;) {
@@ -210,7 +210,7 @@ void sum_by_label(const int* label, const double* x, std::size_t n, double* sums
   }
 }
 
-// What the caller gave to outputs that do not own the adjoints of their cell.
+// Adds the caller's adjoints of outputs that do not own the adjoints of their cell.
 void collect_outputs(const Tape& tape, Workspace::Body& work) {
   for (std::size_t i = 0; i < tape.outputs.size(); ++i) {
     const OutputCell& output = tape.outputs[i];
@@ -252,7 +252,7 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
   };
   for (std::size_t i = tape.row_steps.size(); i-- > 0;) {
     const Step& step = tape.row_steps[i];
-    if (step.gives == 8) continue;  // nobody asks
+    if (step.gives == 8) continue;  // the adjoint is not needed
     const double* given = work.adjoint_at[static_cast<std::size_t>(step.out)];
     if (step.kernels.reverse != nullptr) {
       run(step, work.rows);

@@ -12,12 +12,12 @@
 
 namespace wearwell::formula {
 
-/// All that a program knows.
+/// The content of a program.
 struct Program::Body {
   Symbols symbols;
-  Graph graph;              ///< as it was written
-  std::vector<int> roots;   ///< nodes of the outputs in it
-  std::vector<Text> texts;  ///< that a node's origin is an index of
+  Graph graph;              ///< as written
+  std::vector<int> roots;   ///< its nodes of the outputs
+  std::vector<Text> texts;  ///< texts, indexed by a node's origin
   std::vector<Output> outputs;
   StateStart start;
   int rate = -1, beginning = -1;                  ///< nodes of the state, if there is one
@@ -29,9 +29,9 @@ struct Program::Body {
 struct Data::Body {
   std::size_t rows = 0;
   std::vector<std::vector<double>> columns;  ///< by slot of Cell::data
-  std::vector<std::vector<int>> labels;      ///< as Symbols::labels; of those that are picked by
-  std::vector<std::uint8_t> starts;          ///< 1 where a path begins
-  std::vector<double> from, repeats;         ///< as in Rows, by row; empty without
+  std::vector<std::vector<int>> labels;      ///< as Symbols::labels; only the labels used for picks
+  std::vector<std::uint8_t> starts;          ///< 1 at the beginning of a path
+  std::vector<double> from, repeats;         ///< as in Rows, by row; empty if not given
 };
 
 struct Workspace::Body {
@@ -40,7 +40,7 @@ struct Workspace::Body {
   std::vector<double> level_values, level_adjoints;  ///< by slot of Cell::level
   std::vector<double> values, adjoints;              ///< by slot of Cell::row, `most` rows each
   std::vector<const double*> at;                     ///< by cell
-  std::vector<double*> adjoint_at;                   ///< by cell; null where there are none
+  std::vector<double*> adjoint_at;                   ///< by cell; null without adjoints
   std::vector<std::vector<double>> output_adjoints;
   std::vector<int> output_cells;
   std::vector<bool> output_uniform;

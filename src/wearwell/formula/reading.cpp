@@ -14,9 +14,10 @@
 namespace wearwell::formula {
 namespace {
 
-constexpr int deepest = 200;  // brackets, signs and powers within each other
+constexpr int deepest = 200;  // nested brackets, signs and powers
 
-// Recursive descent; from loose to tight: or, and, not, a comparison, + -, * /, a sign in front, ^.
+// Recursive descent, from lowest to highest precedence: or, and, not, comparison, + -, * /, unary
+// sign, ^.
 class Reader : Naming {
  public:
   Reader(Graph& graph, const Text& text, const std::vector<Token>& tokens, const Names& names)
@@ -34,8 +35,8 @@ class Reader : Naming {
     explicit Deeper(Reader& reader) : reader_(reader) {
       if (++reader_.depth_ > deepest)
         complain(reader_.text_, reader_.here().at,
-                 fmt::format("more than {} brackets or signs within each other", deepest),
-                 "give parts of the expression names of their own");
+                 fmt::format("more than {} nested brackets or signs", deepest),
+                 "write parts of the expression as separate lines");
     }
     ~Deeper() { --reader_.depth_; }
     Deeper(const Deeper&) = delete;
@@ -79,7 +80,7 @@ class Reader : Naming {
     const Token& sign = tokens_[at_++];
     const Term right = sum();
     if (is_comparison())
-      complain(text_, here().at, "two comparisons in one", "write: a < b and b < c");
+      complain(text_, here().at, "two comparisons in one expression", "write: a < b and b < c");
     return rules_.comparison(sign.text, left, right, sign.at);
   }
 
@@ -146,16 +147,16 @@ class Reader : Naming {
   [[noreturn]] void expected() {
     const Token& token = here();
     if (token.kind == Token::end) {
-      if (!open_.empty()) complain(text_, open_.back(), "a '(' is never closed");
+      if (!open_.empty()) complain(text_, open_.back(), "a '(' is not closed");
       complain(text_, token.at, "the expression ends too early",
                "a number, a name or a bracket is missing");
     }
     if (token.text == ")" && at_ > 0 && tokens_[at_ - 1].text == "(")
-      complain(text_, token.at, "nothing stands between the brackets");
+      complain(text_, token.at, "the brackets are empty");
     if (token.text == ")" && open_.empty()) complain(text_, token.at, "a ')' without a '('");
-    if (token.text == "[") complain(text_, token.at, "a unit stands behind a number, as in 1 [mm]");
+    if (token.text == "[") complain(text_, token.at, "write a unit after a number, as in 1 [mm]");
     complain(text_, token.at,
-             fmt::format("'{}' where a number, a name or a bracket should be", token.text));
+             fmt::format("'{}' instead of a number, a name or a bracket", token.text));
   }
 
   Term brackets() {
@@ -164,8 +165,8 @@ class Reader : Naming {
     open_.push_back(open);
     Term term = alternative();
     if (is_sign(","))
-      complain(text_, here().at, "a comma outside of a function",
-               "the decimal sign is a point, a product is written with *");
+      complain(text_, here().at, "a comma outside a function",
+               "use a point as the decimal sign and * for a product");
     close(open);
     term.at = open;
     term.end = end_of_last();
@@ -174,31 +175,31 @@ class Reader : Naming {
 
   void close(std::size_t open) {
     if (!is_sign(")")) {
-      if (here().kind == Token::end) complain(text_, open, "a '(' is never closed");
+      if (here().kind == Token::end) complain(text_, open, "a '(' is not closed");
       leftover();
     }
     ++at_;
     open_.pop_back();
   }
 
-  // What may not stand behind a complete expression.
+  // Errors after a complete expression.
   [[noreturn]] void leftover() {
     const Token& token = here();
     const std::string seen = printable(shortened(token.text, 30));
     if (token.kind == Token::sign && token.text == ")")
       complain(text_, token.at, "a ')' without a '('");
     if (token.kind == Token::sign && token.text == ",")
-      complain(text_, token.at, "a comma outside of a function",
-               "the decimal sign is a point, a product is written with *");
+      complain(text_, token.at, "a comma outside a function",
+               "use a point as the decimal sign and * for a product");
     if (token.kind == Token::sign && token.text == "[")
-      complain(text_, token.at, "a unit stands behind a number only",
+      complain(text_, token.at, "only a number can have a unit",
                "multiply by one of it: (...) * 1 [mm]");
     if (token.kind == Token::sign && token.text == "]")
       complain(text_, token.at, "a ']' without a '['");
     if (token.kind == Token::unit)
-      complain(text_, token.at, "two units behind one number", "write one: 1 [N m]");
+      complain(text_, token.at, "two units after one number", "write one: 1 [N m]");
     complain(text_, token.at, fmt::format("a sign is missing before '{}'", seen),
-             "a product is written with *");
+             "write a product with *");
   }
 
   Term number() {
@@ -211,7 +212,7 @@ class Reader : Naming {
       node.value = to_si(any.unit, token.value);
       node.powers = graph_.intern(any.powers);
       if (!std::isfinite(node.value))
-        complain(text_, token.at, "a quantity that is infinite in SI");
+        complain(text_, token.at, "a quantity that is infinite in SI units");
     } else {
       node.any = token.value == 0;
     }
@@ -231,9 +232,10 @@ class Reader : Naming {
       double value = 0;
       value = std::stod(number);
       complain(text_, token.at,
-               fmt::format("'{} [{}]' is a temperature, {:.6g} K, or a difference of {:.6g} K",
-                           number, any.unit.text, to_si(any.unit, value), any.unit.scale * value),
-               "write it in [K], or name it in [constants]");
+               fmt::format(
+                   "'{} [{}]' is ambiguous: a temperature, {:.6g} K, or a difference of {:.6g} K",
+                   number, any.unit.text, to_si(any.unit, value), any.unit.scale * value),
+               "write it in [K], or define it in [constants]");
     }
     return any;
   }
@@ -245,7 +247,7 @@ class Reader : Naming {
     if (function != nullptr) {
       if (!called)
         complain(text_, token.at, fmt::format("'{}' is a function", token.text),
-                 fmt::format("its arguments stand in brackets: {}(...)", token.text));
+                 fmt::format("write its arguments in brackets: {}(...)", token.text));
       return call(*function);
     }
     if (token.text == "pi") {
@@ -254,12 +256,12 @@ class Reader : Naming {
     }
     if (is_word_of_language(token.text)) {
       complain(text_, token.at,
-               fmt::format("'{}' where a number, a name or a bracket should be", token.text));
+               fmt::format("'{}' instead of a number, a name or a bracket", token.text));
     }
     Term term = named(token);
     if (called) {
-      complain(text_, ahead().at, fmt::format("'{}' is no function", token.text),
-               fmt::format("a product is written {} * (...)", token.text));
+      complain(text_, ahead().at, fmt::format("'{}' is not a function", token.text),
+               fmt::format("write a product as {} * (...)", token.text));
     }
     return term;
   }

@@ -9,19 +9,19 @@
 
 namespace wearwell::formula {
 
-/// What names stand for where an expression is read.
+/// The meaning of names in an expression.
 struct Names {
   const Symbols& symbols;
-  std::map<std::string, int> lines = {};  ///< the nodes of the lines of [formula] read before
+  std::map<std::string, int> lines = {};  ///< the nodes of lines of [formula] already read
   std::vector<std::string> all_lines = {};
-  std::string state = {};  ///< its name; empty without one
-  int state_node = -1;     ///< what the name stands for here; -1 where it may not be used
-  int axis = -1;           ///< the column along which the state runs
-  bool in_rate = false;    ///< of the state: the axis is then a running variable
+  std::string state = {};  ///< name of the state; empty without one
+  int state_node = -1;     ///< node of the name; -1 if it must not be used here
+  int axis = -1;           ///< the column that is the axis of the state
+  bool in_rate = false;    ///< reads a rate: the axis is a running variable
 };
 
 /// Reads an expression into the graph and returns its node. Throws InputError with a caret at the
-/// place.
+/// position.
 int read_expression(Graph& graph, const Text& text, const std::vector<Token>& tokens,
                     const Names& names);
 

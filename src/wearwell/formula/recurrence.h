@@ -5,8 +5,8 @@
 
 namespace wearwell::formula {
 
-/// y[i] = growth[i] y[i - 1] + gain[i] along each path, from `beginning` of the path's first row on; what
-/// is 0 stays 0 however much it grows. `starts` is 1 where a path begins.
+/// y[i] = growth[i] y[i - 1] + gain[i] along each path, starting from `beginning` at the path's
+/// first row; 0 stays 0 for any growth. `starts` is 1 at the beginning of a path.
 struct Recurrence {
   const double* growth = nullptr;
   const double* gain = nullptr;  ///< null for none
@@ -25,7 +25,7 @@ struct Recurrence {
     }
   }
 
-  /// Adds what the adjoints of y give, to what is not null.
+  /// Adds the contributions of y's adjoints to the adjoints that are not null.
   void reverse(const double* y, const double* adjoint, double* to_growth, double* to_gain,
                double* to_beginning) const {
     double carried = 0;

@@ -10,9 +10,8 @@
 namespace wearwell::formula {
 namespace {
 
-// What a factor costs: it is known, is computed once for all data, once a call, once for each
-// text of a label, once a row, or
-// within a path.
+// The cost class of a factor: constant, once for all data, once per call, once per level of a
+// label, once per row, or within a path.
 enum Class { known, of_data, of_parameters, of_labels, of_rows, of_state, classes };
 
 class Regrouping {
@@ -61,7 +60,7 @@ class Regrouping {
     copy.a = mapped(node.a);
     copy.b = mapped(node.b);
     copy.c = mapped(node.c);
-    copy.powers = 0;  // checked by now
+    copy.powers = 0;  // already checked
     copy.any = false;
     if (node.op == Op::power && !to_[copy.a].parametric && !to_[copy.a].moving &&
         to_[copy.b].parametric) {
@@ -92,7 +91,7 @@ class Regrouping {
   // Factors above (0) and below (1) the line, by class.
   using Factors = std::array<std::array<std::vector<int>, classes>, 2>;
 
-  // Products within this one, unless others share them.
+  // Flattens nested products unless they are shared.
   void gather(int i, bool below, bool& negative, Factors& factors) {
     std::vector<std::pair<int, bool>> open = {{i, below}};
     while (!open.empty()) {
@@ -126,7 +125,7 @@ class Regrouping {
     bool negative = false;
     Factors factors;
     gather(i, false, negative, factors);
-    // From what is known to what changes most.
+    // From constant to most variable.
     int result = -1;
     const auto join = [&](std::initializer_list<Class> group) {
       int above = -1, below = -1;

@@ -11,7 +11,7 @@
 namespace wearwell::formula {
 namespace {
 
-constexpr double largest_exponent = 100;  // of a quantity with a dimension
+constexpr double largest_exponent = 100;  // limit for a quantity with a dimension
 
 bool has_angle(const Powers& powers) {
   return powers == Powers{{"radian", 1}};
@@ -25,10 +25,9 @@ std::string difference(const Powers& a, const Powers& b) {
   others.erase("cycle");
   others.erase("radian");
   if (others.empty() && quotient_ab.contains("radian"))
-    return "an angle is neither a count nor a number; multiply or divide by 1 [rad]";
-  if (others.empty())
-    return "what is counted has a dimension of its own; multiply or divide by 1 [cycle]";
-  return fmt::format("they differ by {}: is a factor missing, or a power?",
+    return "an angle is neither a count nor a pure number; multiply or divide by 1 [rad]";
+  if (others.empty()) return "a count has its own dimension; multiply or divide by 1 [cycle]";
+  return fmt::format("their ratio is {}; check for a missing factor or power",
                      description(quotient_ab));
 }
 
@@ -40,7 +39,7 @@ std::string Rules::dimension(const Term& term) const {
   return description(powers(term));
 }
 
-// What the term may be divided by: "1 [N]".
+// A divisor that makes the term a pure number: "1 [N]".
 std::string Rules::stand_in(const Term& term) const {
   return fmt::format("1 [{}]", description(powers(term)));
 }
@@ -48,22 +47,23 @@ std::string Rules::stand_in(const Term& term) const {
 void Rules::demand_value(const Term& term) const {
   if (term.kind == Term::label) {
     const LabelSymbol& label = symbols_.labels[static_cast<std::size_t>(term.label_index)];
-    complain(text_, term.at, fmt::format("'{}' is a label, and no number", label.name),
+    complain(text_, term.at, fmt::format("'{}' is a label, not a number", label.name),
              label.levels.empty()
                  ? "compare it with one of its texts"
                  : fmt::format("compare it: {} == \"{}\"", label.name, label.levels.front()));
   }
   if (term.kind == Term::quotation)
-    complain(text_, term.at, "a text in quotes is no number", "it may be compared with a label");
+    complain(text_, term.at, "a text in quotes is not a number",
+             "it can only be compared with a label");
 }
 
 void Rules::demand_truth(const Term& term, const std::string& of) const {
   demand_value(term);
   if (node(term).truth) return;
   complain(text_, term.at,
-           fmt::format("{} takes a condition, and '{}' is a number ({})", of, written(term),
+           fmt::format("{} needs a condition, but '{}' is a number ({})", of, written(term),
                        dimension(term)),
-           "compare it with another, as in x > 0");
+           "compare it with another number, as in x > 0");
 }
 
 void Rules::demand_pure(const Term& term, const std::string& of, std::size_t at) const {
@@ -71,19 +71,19 @@ void Rules::demand_pure(const Term& term, const std::string& of, std::size_t at)
   if (powers(term).empty()) return;
   complain(
       text_, at,
-      fmt::format("{} takes a pure number, and '{}' is {}", of, written(term), dimension(term)),
-      fmt::format("divide it by one of its dimension, as in ({})/{}", written(term),
+      fmt::format("{} needs a pure number, but '{}' is {}", of, written(term), dimension(term)),
+      fmt::format("divide it by a quantity of its dimension, as in ({})/{}", written(term),
                   stand_in(term)));
 }
 
-// The dimension that both have.
+// The common dimension of both.
 int Rules::common(const Term& a, const Term& b, const std::string& what, std::size_t at) const {
   demand_value(a);
   demand_value(b);
   if (node(a).any) return node(b).powers;
   if (node(b).any || node(a).powers == node(b).powers) return node(a).powers;
   complain(text_, at,
-           fmt::format("'{}' is {}, and '{}' is {}: they cannot be {}", written(a), dimension(a),
+           fmt::format("'{}' is {}, but '{}' is {}: they cannot be {}", written(a), dimension(a),
                        written(b), dimension(b), what),
            difference(powers(a), powers(b)));
 }
@@ -96,7 +96,7 @@ Term Rules::made(Node made_node, const Term& a, const Term& b, std::size_t at) {
     constants &= from < 0 || graph_[from].op == Op::constant;
   if (constants)
     complain(text_, at, fmt::format("'{}' is not a finite number", written(term)),
-             result.op == Op::divide ? "it divides by 0" : "");
+             result.op == Op::divide ? "it is a division by 0" : "");
   return term;
 }
 
@@ -119,14 +119,14 @@ Term Rules::product(Op op, const Term& a, const Term& b, std::size_t at) {
   demand_value(a);
   demand_value(b);
   if (op == Op::divide && node(b).op == Op::constant && node(b).value == 0)
-    complain(text_, at, fmt::format("'{}' is 0, and nothing can be divided by it", written(b)));
+    complain(text_, at, fmt::format("'{}' is 0, so division by it is not possible", written(b)));
   const int powers =
       graph_.intern(op == Op::multiply ? formula::product(this->powers(a), this->powers(b))
                                        : quotient(this->powers(a), this->powers(b)));
   return of(op, bounded(powers, at), a, b, at);
 }
 
-// Fractions of small numbers can be multiplied without end.
+// Limits the growth of fractional powers under repeated multiplication.
 int Rules::bounded(int powers, std::size_t at) const {
   for (const auto& [base, exponent] : graph_.dimension(powers)) {
     if (std::abs(exponent.numerator()) > 1000 || exponent.denominator() > 64)
@@ -146,13 +146,14 @@ Term Rules::power(const Term& base, const Term& exponent, std::size_t at) {
   if (!whole && !base_powers.empty()) {
     const bool half = constant && power.value == 0.5;
     const std::string why =
-        constant ? (std::abs(power.value) > largest_exponent
-                        ? fmt::format("an exponent above {}", largest_exponent)
-                        : "a power that is not a whole number")
-                 : fmt::format("a power by '{}', which is no fixed number,", written(exponent));
+        constant
+            ? (std::abs(power.value) > largest_exponent
+                   ? fmt::format("an exponent above {}", largest_exponent)
+                   : "a power that is not a whole number")
+            : fmt::format("a power with '{}', which is not a fixed number,", written(exponent));
     complain(
         text_, at,
-        fmt::format("{} takes a pure number, and '{}' is {}", why, written(base), dimension(base)),
+        fmt::format("{} needs a pure number, but '{}' is {}", why, written(base), dimension(base)),
         half ? fmt::format("write sqrt({}), or ({}/{})^0.5", written(base), written(base),
                            stand_in(base))
              : fmt::format("write ({}/{})^{}", written(base), stand_in(base), written(exponent)));
@@ -203,13 +204,13 @@ Term Rules::comparison(const std::string& sign, const Term& a, const Term& b, st
     const Term& other = a.kind == Term::label ? b : a;
     if (other.kind != Term::quotation) {
       complain(text_, other.at,
-               fmt::format("the label '{}' can be compared with a text only", written(label)),
-               fmt::format("texts stand in quotes: {} == \"{}\"", written(label),
+               fmt::format("the label '{}' can only be compared with a text", written(label)),
+               fmt::format("write texts in quotes: {} == \"{}\"", written(label),
                            other.kind == Term::number ? written(other) : "..."));
     }
     if (sign != "==" && sign != "!=")
-      complain(text_, at, fmt::format("a label is no number: '{}' means nothing", sign),
-               "labels are compared by == and !=");
+      complain(text_, at, fmt::format("a label is not a number: '{}' has no meaning", sign),
+               "compare labels with == or !=");
     int node = label_is(label, other);
     if (sign == "!=") node = graph_.make(Op::opposite, 0, node, -1, -1, true);
     return {node, a.at, b.end};
@@ -247,13 +248,13 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
   const auto given = static_cast<int>(arguments.size());
   if (many ? given < function.arguments : given != function.arguments) {
     complain(text_, at,
-             fmt::format("{} takes {} argument{}, and has {}", function.name,
+             fmt::format("{} needs {} argument{}, but has {}", function.name,
                          many ? "2 or more" : std::to_string(function.arguments),
                          function.arguments == 1 ? "" : "s", given));
   }
   const Term& a = arguments.front();
   Term last = arguments.back();
-  last.end = end;  // a message quotes the whole call
+  last.end = end;  // messages quote the whole call
   const std::string name = function.name;
   Node result;
   result.op = function.op;
@@ -271,14 +272,14 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
     case Rule::angle:
       demand_value(a);
       if (!has_angle(powers(a)) && !node(a).any) {
-        complain(
-            text_, at,
-            fmt::format("{} takes an angle, and '{}' is {}", name, written(a), dimension(a)),
-            powers(a).empty()
-                ? fmt::format("if it is in radians: {}({} * 1 [rad])", name, written(a))
-            : powers(a) == Powers{{"cycle", 1}}
-                ? fmt::format("one turn is 2*pi: {}({} * 2*pi [rad] / 1 [cycle])", name, written(a))
-                : "");
+        complain(text_, at,
+                 fmt::format("{} needs an angle, but '{}' is {}", name, written(a), dimension(a)),
+                 powers(a).empty()
+                     ? fmt::format("if it is in radians, write {}({} * 1 [rad])", name, written(a))
+                 : powers(a) == Powers{{"cycle", 1}}
+                     ? fmt::format("one turn is 2*pi; write {}({} * 2*pi [rad] / 1 [cycle])", name,
+                                   written(a))
+                     : "");
       }
       break;
     case Rule::root:
@@ -288,7 +289,7 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
     case Rule::cum:
       demand_value(a);
       if (node(a).moving)
-        complain(text_, at, "cum sums over rows, and within a rate the state runs between them");
+        complain(text_, at, "cum sums over rows, but a rate is evaluated between rows");
       result.powers = node(a).powers;
       break;
     case Rule::same: {
@@ -304,7 +305,7 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
     }
     case Rule::where:
       demand_truth(a, "where");
-      result.powers = common(arguments[1], arguments[2], "the two outcomes of one where", at);
+      result.powers = common(arguments[1], arguments[2], "the two results of one where", at);
       result.b = arguments[1].node;
       result.c = arguments[2].node;
       result.truth = node(arguments[1]).truth && node(arguments[2]).truth;

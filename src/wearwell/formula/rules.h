@@ -9,7 +9,7 @@
 
 namespace wearwell::formula {
 
-/// A part of an expression that was read.
+/// A parsed part of an expression.
 struct Term {
   enum Kind : unsigned char { number, label, quotation };
   int node = -1;       ///< of a number
@@ -20,8 +20,8 @@ struct Term {
   std::string quoted = {};
 };
 
-/// What may be done with what: every operation checks the types and dimensions of its terms and
-/// throws InputError with a caret at `at`, the place of the sign or function.
+/// The typing rules: every operation checks the types and dimensions of its terms and throws
+/// InputError with a caret at `at`, the position of the operator or function.
 class Rules {
  public:
   Rules(Graph& graph, const Text& text, const Symbols& symbols)
@@ -34,11 +34,11 @@ class Rules {
   Term comparison(const std::string& sign, const Term& a, const Term& b, std::size_t at);
   Term logic(Op op, const Term& a, const Term& b, std::size_t at);
   Term opposite(const Term& a, std::size_t at);
-  /// `end`: behind its closing bracket.
+  /// `end`: the position after the closing bracket.
   Term call(const Function& function, const std::vector<Term>& arguments, std::size_t at,
             std::size_t end);
 
-  /// Refuses a label or text that stands alone.
+  /// Refuses a label or text used as a number.
   void demand_value(const Term& term) const;
 
  private:
@@ -61,7 +61,7 @@ class Rules {
   const Symbols& symbols_;
 };
 
-/// Why two dimensions may differ, for a hint: "their quotient is m/s; is a factor missing?".
+/// A hint for unequal dimensions: "their ratio is m/s; check for a missing factor or power".
 std::string difference(const Powers& a, const Powers& b);
 
 }  // namespace wearwell::formula

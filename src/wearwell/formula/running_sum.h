@@ -5,9 +5,9 @@
 
 namespace wearwell::formula {
 
-/// The sums of x over the rows of each path up to its own; `starts` is 1 where a path begins. `carried`
-/// is what the sum is before the first row of a path (null: 0), `repeats` how many rows alike each
-/// row stands for (null: one).
+/// The cumulative sums of x along each path; `starts` is 1 at the beginning of a path. `carried` is
+/// the sum before the first row of a path (null: 0), `repeats` the number of equal rows that each
+/// row represents (null: 1).
 inline void running_sum(const double* x, bool uniform, const std::uint8_t* starts, double* sum,
                         std::size_t n, const double* carried = nullptr,
                         const double* repeats = nullptr) {
@@ -19,8 +19,8 @@ inline void running_sum(const double* x, bool uniform, const std::uint8_t* start
   }
 }
 
-/// Adds what the adjoints of such sums give to x (sets it where `first`): every x is part of the sums
-/// from its row to the end of its path.
+/// Adds the contributions of the sums' adjoints to those of x (assigns if `first`): every x is part
+/// of the sums from its row to the end of its path.
 inline void running_sum_reverse(const double* adjoint, bool uniform, const std::uint8_t* starts,
                                 double* to, std::size_t n, bool first) {
   double behind = 0;

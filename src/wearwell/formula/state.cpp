@@ -10,7 +10,7 @@
 
 #include "wearwell/formula/trajectory.h"
 
-// Longer than others: one solver: by steps and along trajectories, forwards and backwards.
+// Longer than others: one solver, by steps and along trajectories, forward and backward.
 namespace wearwell::formula {
 namespace {
 
@@ -40,7 +40,7 @@ class Rate {
     return number(plan_.result);
   }
 
-  // After `value`.
+  // Call after `value`.
   void differentiate() {
     std::fill(adjoints_.begin(), adjoints_.end(), 0.0);
     adjoints_[static_cast<std::size_t>(plan_.result)] = 1;
@@ -75,7 +75,7 @@ Stepper make_stepper() {
   return Stepper(Checker(std::numeric_limits<double>::min(), relative));
 }
 
-// From `from` to `to`. False where the state leaves all bounds before; NaN where it cannot be told.
+// From `from` to `to`. False if the state diverges before the end; NaN if it cannot be computed.
 template <class F>
 bool integrate(Stepper& stepper, const F& rate, Numbers& x, Numbers& kept, double from, double to) {
   double s = from, h = to - from;
@@ -100,14 +100,14 @@ bool integrate(Stepper& stepper, const F& rate, Numbers& x, Numbers& kept, doubl
   return true;
 }
 
-// Trajectories of the shape, and where the rows of a call are on them.
+// Trajectories of the shape, and the positions of a call's rows on them.
 class SharedPaths {
  public:
   explicit SharedPaths(const StatePlan& plan) : plan_(plan), key_(plan.inputs.size()) {}
 
   struct Row {
-    Trajectory* on = nullptr;    // null: by steps
-    double before = 0, now = 0;  // along it, at the row before and here
+    Trajectory* on = nullptr;    // null: solved by steps
+    double before = 0, now = 0;  // positions on it at the previous row and here
   };
   const Row& row(std::size_t i) const { return rows_[i]; }
 
@@ -117,8 +117,8 @@ class SharedPaths {
     rows_.assign(rows, {});
   }
 
-  // Row i, to which `way` leads along the axis from `state`. The state there; nothing where it is not known
-  // by a trajectory.
+  // The state at row i, a distance `way` along the axis after `state`; empty if no trajectory
+  // covers it.
   std::optional<double> advance(const StateRows& rows, std::size_t i, bool first, double state,
                                 double way) {
     Row& row = rows_[i];
@@ -132,7 +132,7 @@ class SharedPaths {
       row.before = row.on->place(state);
     }
     row.now = row.before + factor(rows, i) * way;
-    if (!(row.now >= row.before)) {  // backwards, or no number
+    if (!(row.now >= row.before)) {  // decreasing, or NaN
       row.on = nullptr;
       return {};
     }
@@ -151,7 +151,7 @@ class SharedPaths {
     return j < plan_.inputs.size() ? rows.inputs[j][i]
                                    : plan_.numbers[static_cast<std::size_t>(plan_.factor)];
   }
-  // Beyond the inputs where the factor is a constant.
+  // Its index is beyond the inputs if the factor is constant.
   std::size_t factor_input() const {
     return static_cast<std::size_t>(plan_.factor - plan_.first_input);
   }
@@ -220,8 +220,8 @@ struct StateSolver::Body {
     return std::copysign(std::numeric_limits<double>::infinity(), towards);
   }
 
-  // The slopes of the state at the end by itself at the beginning and by each input, in `partial`
-  // from 1 on.
+  // The derivatives of the final state by the initial state and by each input, in `partial` from
+  // index 1.
   void sensitivities(double state, double from, double to) {
     std::fill(x.begin(), x.end(), 0.0);
     x[0] = state;
@@ -238,12 +238,11 @@ struct StateSolver::Body {
     partial = x;
   }
 
-  // What row i gives to the inputs, and what is left for the state before; false where that is not known by
-  // a trajectory.
+  // The contributions of row i to the inputs and to the previous state; false if no trajectory
+  // covers it.
   bool give_along(const StateRows& rows, std::size_t i, double way, double give, StateAdjoints& to,
                   double& carried) {
-    constexpr double least =
-        1e-9;  // of the rate: its ratio says nothing where the state is at rest
+    constexpr double least = 1e-9;  // relative rate below which the ratio of rates is unreliable
     if (!shared) return false;
     const SharedPaths::Row& row = shared->row(i);
     if (row.on == nullptr) return false;
@@ -274,7 +273,7 @@ struct StateSolver::Body {
     return true;
   }
 
-  // A place on a trajectory.
+  // A position on a trajectory.
   struct Place {
     const Trajectory* on = nullptr;
     double t = 0, rate = 0;
@@ -282,7 +281,7 @@ struct StateSolver::Body {
   };
 
   const StatePlan& plan;
-  Place last, next;  // of the row looked at last: its beginning; of one before it
+  Place last, next;  // the beginning of the last row, and of the row before it
   Rate rate;
   std::optional<SharedPaths> shared;
   StateStart start;
@@ -293,7 +292,7 @@ struct StateSolver::Body {
 
 StateSolver::StateSolver(const StatePlan& plan, const StateStart& start)
     : body_(std::make_unique<Body>(plan, start)) {
-  // The steppers take their memory at their first step.
+  // The steppers allocate at their first step.
   const auto rest = [](const Numbers& at, Numbers& result, double) {
     result.assign(at.size(), 0.0);
   };

@@ -9,35 +9,36 @@
 
 namespace wearwell::formula {
 
-/// An array over the rows of a call, or one number for all.
+/// Values for the rows of a call, or a single number.
 struct Values {
   const double* at = nullptr;
   bool uniform = false;
   double operator[](std::size_t i) const { return at[uniform ? 0 : i]; }
 };
 
-/// What a state runs on: the rows of a call.
+/// The inputs of a state for the rows of a call.
 struct StateRows {
   const double* axis = nullptr;          ///< sorted within a path
-  const std::uint8_t* starts = nullptr;  ///< 1 where a path begins
-  const double* from = nullptr;  ///< where on the axis, at its first row; null: as the law says
+  const std::uint8_t* starts = nullptr;  ///< 1 at the beginning of a path
+  const double* from = nullptr;  ///< beginning on the axis, at the first row; null: from the
+                                 ///< formula
   std::size_t count = 0;
-  Values beginning;  ///< taken from the first row of a path
-  Values anchor;     ///< where paths begin by the law, also one that goes on from elsewhere
-  std::vector<Values> inputs;  ///< as StatePlan::inputs; they hold up to their row
+  Values beginning;            ///< read at the first row of a path
+  Values anchor;               ///< the beginning in the formula, also for continued paths
+  std::vector<Values> inputs;  ///< as StatePlan::inputs; valid up to their row
 };
 
-/// Where adjoints of a state go; null where nobody takes them. They are added to; of an argument
-/// that is uniform, to one number.
+/// The destinations of a state's adjoint contributions; null if not needed. A uniform argument has
+/// a single number.
 struct StateAdjoints {
   double* beginning = nullptr;
   std::vector<double*> inputs;
 };
 
 /// Integrates a state's rate from row to row (Fehlberg 7(8), to a relative 1e-11 a step), and its
-/// sensitivities backwards. Where the rate is a factor times a shape that depends on the state alone, rows
-/// run along trajectories that they share (trajectory.h); by steps only beyond these. One thread's own; it
-/// allocates only for more trajectories, or longer ones, than ever before.
+/// sensitivities backward. If the rate is a factor times a shape that depends only on the state,
+/// rows share trajectories (trajectory.h) and use steps only beyond them. For one thread; allocates
+/// only for new or longer trajectories.
 class StateSolver {
  public:
   StateSolver(const StatePlan& plan, const StateStart& start);
@@ -45,11 +46,11 @@ class StateSolver {
   StateSolver& operator=(StateSolver&&) noexcept;
   ~StateSolver();
 
-  /// The state at each row. Infinite where it grows without bound before the row, and from there to
-  /// the end of its path; NaN where its rate cannot be computed or takes more than 20000 steps.
+  /// The state at each row. Infinite from the row before which it diverges to the end of its path;
+  /// NaN if its rate cannot be computed or needs more than 20000 steps.
   void forward(const StateRows& rows, double* state);
 
-  /// Adds what the adjoints of the state give.
+  /// Adds the contributions of the state's adjoints.
   void reverse(const StateRows& rows, const double* state, const double* adjoint,
                StateAdjoints& to);
 

@@ -18,17 +18,16 @@ void check_name(const std::string& name, const std::string& what) {
   };
   if (name.empty() || !letter(name.front()) || !std::all_of(name.begin(), name.end(), inner)) {
     throw InputError(
-        fmt::format("the {} '{}' has a name that no expression can hold; a name is of letters a-z, "
-                    "digits and _, "
-                    "a letter first",
+        fmt::format("the {} '{}' does not have a valid name; a name consists of letters a-z, "
+                    "digits and _, and begins with a letter",
                     what, name));
   }
   if (name.size() > longest_name)
     throw InputError(fmt::format("the name of the {} '{}' is longer than {} characters", what, name,
                                  longest_name));
   if (is_word_of_language(name)) {
-    throw InputError(fmt::format(
-        "the {} '{}' has the name of a word of the language; give it another", what, name));
+    throw InputError(
+        fmt::format("the {} '{}' has the name of a keyword; give it another name", what, name));
   }
 }
 
@@ -53,7 +52,7 @@ void check(const Symbols& symbols) {
     const bool found = std::any_of(symbols.labels.begin(), symbols.labels.end(),
                                    [&](const auto& label) { return label.name == each.label; });
     if (!found) {
-      throw InputError(fmt::format("the parameter '{}' is to differ by '{}', which is no label",
+      throw InputError(fmt::format("the parameter '{}' varies by '{}', which is not a label",
                                    each.name, each.label));
     }
   }

@@ -7,25 +7,25 @@
 
 namespace wearwell::formula {
 
-/// A number for each row, in SI (a temperature in degrees Celsius is in kelvin by then).
+/// A number for each row, in SI (temperatures in kelvin).
 struct ColumnSymbol {
   std::string name;
   Powers powers;
-  /// What the study measures: an expression may not lean on it. A state of the same name
-  /// ("d(depth)/d(distance)") takes its place in expressions.
+  /// A measured response, which expressions cannot use. A state of the same name
+  /// ("d(depth)/d(distance)") replaces it in expressions.
   bool measured = false;
 };
 
 /// A text for each row, one of `levels`: `material == "PTFE"`, `k[material]`.
 struct LabelSymbol {
   std::string name;
-  std::vector<std::string> levels;  ///< row i holds an index into these
+  std::vector<std::string> levels;  ///< rows hold indices into these
 };
 
 enum class Scope {
-  one,        ///< one number: one slot of the vector of parameters
-  per_level,  ///< `k[material]`: a slot for each level of `label`, one behind the other
-  per_row,  ///< written `k`, but given by row, outside of the vector of parameters: a random effect
+  one,        ///< one number: one entry of the parameter vector
+  per_level,  ///< `k[material]`: consecutive entries, one for each level of `label`
+  per_row,    ///< written `k`, but given by row, outside the parameter vector: a random effect
 };
 
 struct ParameterSymbol {
@@ -41,8 +41,8 @@ struct ConstantSymbol {
   double value = 0;  ///< SI
 };
 
-/// What names in expressions may stand for. The order of columns, labels and parameters is the
-/// order in which a program is given their values.
+/// The names available in expressions. A program receives the values of columns, labels and
+/// parameters in this order.
 struct Symbols {
   std::vector<ColumnSymbol> columns;
   std::vector<LabelSymbol> labels;
@@ -50,12 +50,12 @@ struct Symbols {
   std::vector<ConstantSymbol> constants;
 };
 
-/// Throws InputError where a name is no name (letters, digits and _, a letter first), is one of the
-/// language's own (exp, where, and, pi ...), or stands for two things.
+/// Throws InputError if a name is invalid (letters, digits and _, a letter first), is a keyword
+/// (exp, where, and, pi ...), or is used twice.
 void check(const Symbols& symbols);
 
-/// Where each parameter's slots begin in the vector of parameters; the last entry is its size. A
-/// parameter by row has none.
+/// The first index of each parameter in the parameter vector; the last entry is its size. A
+/// parameter by row has no entries.
 std::vector<std::size_t> slots(const Symbols& symbols);
 
 }  // namespace wearwell::formula

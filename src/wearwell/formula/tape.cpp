@@ -5,7 +5,7 @@
 
 #include "wearwell/formula/rate_factor.h"
 
-// Longer than others: one walk over the graph, and the plan of a state that it meets.
+// Longer than others: one walk over the graph, and the plan of its state.
 namespace wearwell::formula {
 namespace {
 
@@ -34,7 +34,7 @@ class Maker {
   int cell(int node) const { return node < 0 ? -1 : cell_[static_cast<std::size_t>(node)]; }
   Cell& home(int cell) { return tape_.cells[static_cast<std::size_t>(cell)]; }
 
-  // What a state's rate holds is needed, but not by itself: its steps run within the state's.
+  // The operations of a state's rate are not separate steps; they run within the state's steps.
   void mark() {
     needed_ = reachable(graph_, roots_);
     for (int i = 0; i < graph_.size(); ++i) {
@@ -50,7 +50,7 @@ class Maker {
                : static_cast<int>(symbols_.labels[static_cast<std::size_t>(label)].levels.size());
   }
 
-  // The cell of a node where rows are computed: what is known by label is laid out over the rows.
+  // The cell of a node in row computations; values by label are expanded over the rows.
   int row_cell(int node) {
     const int at = cell(node);
     if (at < 0 || home(at).home != Cell::level) return at;
@@ -173,7 +173,7 @@ class Maker {
     return step;
   }
 
-  // The steps of the rate: what moves, by numbers; all else are its inputs.
+  // The steps of the rate: moving nodes are numbers, all others are inputs.
   void prepare_state(const Node& node) {
     StatePlan plan;
     plan.beginning = row_cell(node.a);
@@ -260,7 +260,7 @@ class Maker {
     return at;
   }
 
-  // Which arguments have a slope at all.
+  // Which arguments have a derivative.
   static unsigned slopes(Op op) {
     switch (op) {
       case Op::less:
@@ -281,7 +281,7 @@ class Maker {
     }
   }
 
-  // From the outputs backwards: what takes adjoints, and who gives it the first.
+  // Backward from the outputs: which cells take adjoints, and which step contributes first.
   void activate() {
     std::vector<bool> parametric(tape_.cells.size()), takes(tape_.cells.size());
     for (int i = 0; i < graph_.size(); ++i)
@@ -307,7 +307,7 @@ class Maker {
         Step& step = steps[i];
         if (!takes[static_cast<std::size_t>(step.out)]) {
           step.kernels.reverse = nullptr;
-          step.gives = 8;  // nobody asks
+          step.gives = 8;  // the adjoint is not needed
           continue;
         }
         if (step.op == Op::state) {
@@ -343,7 +343,7 @@ class Maker {
   bool continued_;
   std::vector<std::size_t> slots_;
   std::vector<int> cell_;
-  std::map<int, int> expanded_;  ///< node known by label, and its cell over the rows
+  std::map<int, int> expanded_;  ///< node by label, and its cell over the rows
   std::vector<bool> needed_;
   Tape tape_;
 };

@@ -9,12 +9,12 @@
 namespace wearwell::formula {
 namespace {
 
-// How tightly an operation binds, as in the language.
+// The precedence of an operation.
 enum Binding { loose, either_, both_, opposite_, compared, sum, product_, minus, raised_, tight };
 
 struct Shape {
   Binding binding;
-  const char* sign;  ///< of what stands between two
+  const char* sign;  ///< infix operator
 };
 
 Shape shape_of(Op op) {
@@ -52,13 +52,13 @@ Shape shape_of(Op op) {
   }
 }
 
-constexpr std::size_t longest = 4000;  // what is shared is written out each time
+constexpr std::size_t longest = 4000;  // limit, because shared subexpressions are repeated
 
 class Printer {
  public:
   Printer(const Graph& graph, const Symbols& symbols) : graph_(graph), symbols_(symbols) {}
 
-  // The depth of a graph is bounded, and so is this recursion; so is the text.
+  // The depth of a graph is bounded, which bounds this recursion; the text is bounded too.
   void print(int at, Binding least) {
     if (out.size() > longest) return;
     const Node& node = graph_[at];
@@ -157,7 +157,7 @@ class Printer {
   }
 
   void number(const Node& node, Binding least) {
-    if (node.truth) {  // decided already
+    if (node.truth) {  // known result
       const bool within = least > compared;
       out += fmt::format("{}1 == {}{}", within ? "(" : "", node.value, within ? ")" : "");
       return;

@@ -26,10 +26,10 @@ class Lexer {
 
   std::vector<Token> run() {
     if (all_.size() > longest_expression) {
-      throw InputError(fmt::format(
-          "{}: the expression has {} characters, and may have {}; give parts of it names of their "
-          "own",
-          text_.where, all_.size(), longest_expression));
+      throw InputError(
+          fmt::format("{}: the expression has {} characters, but at most {} are allowed; write "
+                      "parts of it as separate lines",
+                      text_.where, all_.size(), longest_expression));
     }
     for (skip(); at_ < all_.size(); skip()) found_.push_back(next());
     if (found_.empty())
@@ -71,7 +71,7 @@ class Lexer {
       const std::string word = all_.substr(at_, last - at_);
       complain(text_, at_,
                fmt::format("'{}{}' is neither a number nor a name", token.text, shortened(word)),
-               fmt::format("a product is written {} * {}, a unit {} [{}]", token.text,
+               fmt::format("write a product as {} * {}, a unit as {} [{}]", token.text,
                            shortened(word), token.text, shortened(word)));
     }
     if (peek() == '.' || peek() == ',') comma_in_number(token.text);
@@ -79,10 +79,10 @@ class Lexer {
   }
 
   void comma_in_number(const std::string& before) {
-    if (peek() == '.') complain(text_, at_, "a number with two points");
+    if (peek() == '.') complain(text_, at_, "a number with two decimal points");
     if (is_digit(peek(1)) && brackets_ == 0) {
       complain(text_, at_, "a comma in a number",
-               fmt::format("the decimal sign is a point: {}.{}", before, peek(1)));
+               fmt::format("use a point as the decimal sign: {}.{}", before, peek(1)));
     }
   }
 
@@ -94,14 +94,14 @@ class Lexer {
 
   Token quoted(char mark) {
     const std::size_t start = at_, close = all_.find(mark, at_ + 1);
-    if (close == all_.npos) complain(text_, start, "a quotation that does not end");
+    if (close == all_.npos) complain(text_, start, "a quotation is not closed");
     at_ = close + 1;
     return {Token::quotation, start, all_.substr(start + 1, close - start - 1), 0};
   }
 
   Token unit() {
     const std::size_t start = at_, close = all_.find(']', at_);
-    if (close == all_.npos) complain(text_, start, "a unit that does not end", "a ']' is missing");
+    if (close == all_.npos) complain(text_, start, "a unit is not closed", "a ']' is missing");
     at_ = close + 1;
     return {Token::unit, start, all_.substr(start + 1, close - start - 1), 0};
   }
@@ -123,14 +123,15 @@ class Lexer {
   Token sign_of(std::string_view sign) {
     const std::size_t start = at_;
     at_ += sign.size();
-    if (sign == "**") complain(text_, start, "'**' is no sign here", "a power is written with ^");
-    if (sign == "<>") complain(text_, start, "'<>' is no sign here", "write: !=");
-    if (sign == "=<") complain(text_, start, "'=<' is no sign here", "write: <=");
-    if (sign == "=>") complain(text_, start, "'=>' is no sign here", "write: >=");
-    if (sign == "&&") complain(text_, start, "'&&' is no sign here", "write: and");
-    if (sign == "||") complain(text_, start, "'||' is no sign here", "write: or");
-    if (sign == "!") complain(text_, start, "'!' is no sign here", "write: not");
-    if (sign == "=") complain(text_, start, "'=' is no sign here", "a comparison is written ==");
+    if (sign == "**") complain(text_, start, "'**' is not an operator", "write a power with ^");
+    if (sign == "<>") complain(text_, start, "'<>' is not an operator", "write: !=");
+    if (sign == "=<") complain(text_, start, "'=<' is not an operator", "write: <=");
+    if (sign == "=>") complain(text_, start, "'=>' is not an operator", "write: >=");
+    if (sign == "&&") complain(text_, start, "'&&' is not an operator", "write: and");
+    if (sign == "||") complain(text_, start, "'||' is not an operator", "write: or");
+    if (sign == "!") complain(text_, start, "'!' is not an operator", "write: not");
+    if (sign == "=")
+      complain(text_, start, "'=' is not an operator here", "write a comparison with ==");
     return {Token::sign, start, std::string(sign), 0};
   }
 
@@ -141,26 +142,27 @@ class Lexer {
     struct Hint {
       std::string_view sign, hint;
     };
-    static constexpr Hint hints[] = {{"·", "a product is written with *"},
-                                     {"×", "a product is written with *"},
-                                     {"⋅", "a product is written with *"},
-                                     {"−", "that is not the minus of the keyboard; write -"},
-                                     {"–", "that is not the minus of the keyboard; write -"},
-                                     {"÷", "a quotient is written with /"},
-                                     {"²", "a square is written ^2"},
-                                     {"³", "a cube is written ^3"},
-                                     {"{", "brackets are round: ( )"},
-                                     {"}", "brackets are round: ( )"},
+    static constexpr Hint hints[] = {{"·", "write a product with *"},
+                                     {"×", "write a product with *"},
+                                     {"⋅", "write a product with *"},
+                                     {"−", "this is not the keyboard minus; write -"},
+                                     {"–", "this is not the keyboard minus; write -"},
+                                     {"÷", "write a quotient with /"},
+                                     {"²", "write a square as ^2"},
+                                     {"³", "write a cube as ^3"},
+                                     {"{", "use round brackets: ( )"},
+                                     {"}", "use round brackets: ( )"},
                                      {"≤", "write <="},
                                      {"≥", "write >="},
-                                     {"%", "write a percentage as a unit: 5 [%]"},
-                                     {":", "a quotient is written with /"},
-                                     {";", "an expression is one formula"}};
+                                     {"%", "write a percentage with a unit: 5 [%]"},
+                                     {":", "write a quotient with /"},
+                                     {";", "an expression must be one formula"}};
     std::string hint =
-        "an expression is of letters a-z, digits and + - * / ^ ( ) [ ] , < > = ! \" _";
+        "an expression consists of letters a-z, digits and + - * / ^ ( ) [ ] , < > = ! \" _";
     for (const Hint& each : hints)
       if (each.sign == seen) hint = each.hint;
-    complain(text_, at_, fmt::format("'{}' is no part of an expression", printable(seen)), hint);
+    complain(text_, at_, fmt::format("'{}' is not allowed in an expression", printable(seen)),
+             hint);
   }
 
   const Text& text_;

@@ -8,19 +8,19 @@
 
 namespace wearwell::formula {
 
-/// A word of an expression.
+/// A token of an expression.
 struct Token {
   enum Kind : unsigned char { number, name, quotation, unit, sign, end };
   Kind kind = end;
   std::size_t at = 0;  ///< its first byte
-  std::string text;    ///< of a text or unit what stands between quotes or brackets
+  std::string text;    ///< for a text or unit: the content of the quotes or brackets
   double value = 0;    ///< of a number
 };
 
 inline constexpr std::size_t longest_expression = 20000;
 
-/// The words of an expression, `end` last. Throws InputError where there are none, where the text
-/// is longer than `longest_expression` or holds what belongs to no expression.
+/// The tokens of an expression, `end` last. Throws InputError if there are none, if the text is
+/// longer than `longest_expression`, or for invalid characters.
 std::vector<Token> tokens_of(const Text& text);
 
 }  // namespace wearwell::formula

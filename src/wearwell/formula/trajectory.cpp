@@ -6,7 +6,7 @@
 
 #include "wearwell/formula/vector_math.h"
 
-// Longer than others: one solution: its panels, what is read off them, and their slopes.
+// Longer than others: one solution, its panels, their evaluation and their derivatives.
 namespace wearwell::formula {
 namespace {
 
@@ -18,14 +18,15 @@ constexpr double most_error = 1e-13;       // of y, of a panel
 constexpr double most_rate_error = 1e-11;  // of g, of a panel
 constexpr double most_bend = 25;           // of a panel: the integral of dg/dy
 constexpr std::size_t most_panels = 1000;
-constexpr double nearly_there = 1e-10;  // of the time to a pole: the rest is none
+constexpr double nearly_there = 1e-10;  // relative to the time to a pole; the rest is negligible
 
-// Chebyshev nodes x of a panel (-1, 1), what makes coefficients of values there, and integrals from -1 to each.
+// Chebyshev nodes x of a panel (-1, 1), with the matrices from values to coefficients and to
+// integrals from -1 to each node.
 struct Rule {
   Lanes x;
-  std::array<Lanes, lanes> coefficient;  // [k][j]: of value j in coefficient k
+  std::array<Lanes, lanes> coefficient;  // [k][j]: weight of value j in coefficient k
   std::array<Lanes, lanes + 1>
-      integral;  // [i][j]: of value j in the integral to x_i; the last to 1
+      integral;  // [i][j]: weight of value j in the integral to x_i; the last row is to 1
 
   Rule() {
     const double n = lanes, pi = 3.14159265358979323846;
@@ -64,7 +65,7 @@ const Rule& rule() {
   return made;
 }
 
-// half * integrals of f to each node, and to the end in the last place.
+// half * integrals of f to each node, and to the end in the last entry.
 void integrate(const Lanes& f, double half, Powers& to) {
   for (std::size_t i = 0; i <= lanes; ++i) {
     const Lanes& row = rule().integral[i];
@@ -84,7 +85,8 @@ void coefficients_of(const double* values, double* to) {
   }
 }
 
-// A polynomial in powers of x. Coefficients fall off by 10^-11 and more over a panel, so that nothing cancels there.
+// A polynomial in powers of x. Coefficients decrease by 10^-11 or more over a panel, so there is no
+// cancellation.
 double value_of(const double* c, double x) {
   const double x2 = x * x, x4 = x2 * x2;
   const auto four = [&](const double* p) { return (p[0] + p[1] * x) + (p[2] + p[3] * x) * x2; };
@@ -92,7 +94,7 @@ double value_of(const double* c, double x) {
   return low + (high + c[16] * (x4 * x4)) * (x4 * x4);
 }
 
-// From coefficients of Chebyshev polynomials, 17, to those of powers.
+// Converts 17 Chebyshev coefficients to powers.
 void make_powers(Powers& c) {
   static const auto table = [] {
     std::array<Powers, lanes + 1> t{};  // [k][power]
@@ -186,7 +188,8 @@ bool Trajectory::is(double anchor, const std::vector<double>& inputs) const {
   return true;
 }
 
-// On half the way to twice the anchor; from 0 as far as the rate stays about what it is.
+// The first panel reaches half of the way to twice the anchor; from 0, as far as the rate is nearly
+// constant.
 void Trajectory::first_step() {
   Lanes at;
   at.fill(anchor_);
@@ -213,7 +216,8 @@ void Trajectory::first_step() {
   ended_ = !(step_ > 0 && std::isfinite(step_));
 }
 
-// Newton's method: the correction solves the linear equation about what there is, by its integrating factor.
+// Newton's method: the correction solves the equation linearized at the current solution, by its
+// integrating factor.
 bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& panel) {
   const double half = 0.5 * length;
   Lanes y, residual, by_state;
@@ -222,7 +226,7 @@ bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& 
     const double t = half * (rule().x[i] + 1), u = bend * t;
     y[i] = y0 + g0 * t * (std::abs(u) < 1e-8 ? 1 : (vector_exp(u) - 1) / u);
   }
-  const auto moves = [&](const double* g) {  // on, and the same way
+  const auto moves = [&](const double* g) {  // moves, and in the same direction
     bool same = all_finite(g);
     for (std::size_t i = 0; i < lanes; ++i) same &= g[i] * direction_ > 0;
     return same;
@@ -282,7 +286,7 @@ bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& 
   return std::isfinite(last) && (last - y0) * direction_ > 0;
 }
 
-// Towards a pole g grows from panel to panel, however short these become; beside a jump of g it does not.
+// Near a pole g grows from panel to panel as these become shorter; beside a jump of g it does not.
 bool Trajectory::rises_steeply() const {
   constexpr std::size_t some = 8;
   return panels_ > some && panel_[panels_ - 1].size > 4 * panel_[panels_ - 1 - some].size;

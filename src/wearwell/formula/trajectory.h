@@ -8,7 +8,7 @@
 
 namespace wearwell::formula {
 
-/// The shape of a rate, g(y), at several states at once. One thread's.
+/// The shape of a rate, g(y), at several states at once. For one thread.
 class RateShape {
  public:
   static constexpr std::size_t lanes = 16;
@@ -18,7 +18,7 @@ class RateShape {
   void set_input(std::size_t j, double value);
   /// g of each; valid until the next call.
   const double* operator()(const Lanes& state);
-  /// After that: the derivatives of each by its state and by an input.
+  /// Call after it: the derivatives of each by its state and by an input.
   void differentiate();
   const double* by_state() const { return adjoint(state_); }
   const double* by_input(std::size_t j) const {
@@ -36,30 +36,30 @@ class RateShape {
 };
 
 /// One solution of y' = g(y), y(0) = anchor, for t >= 0, as polynomials on panels, each the collocation at 16
-/// Chebyshev nodes (Newton's method; a panel is as long as its last coefficients allow, about 1e-13 of y). All paths
-/// whose rate is in proportion to g run along it, t being the sum of factor times step. It is made as far as
-/// somebody asks, in panels that do not depend on who asks what.
+/// Chebyshev nodes (Newton's method; a panel is as long as its last coefficients allow, about 1e-13
+/// of y). All paths with a rate proportional to g follow it; t is the sum of factor times step. It
+/// is extended on request, in panels that do not depend on the requests.
 class Trajectory {
  public:
   explicit Trajectory(const StatePlan& plan);
 
-  /// Begins anew. `inputs` has those of the plan, of which the shape's count.
+  /// Restarts. `inputs` are those of the plan; only the inputs of the shape matter.
   void begin(double anchor, const std::vector<double>& inputs);
   bool is(double anchor, const std::vector<double>& inputs) const;
 
-  /// Makes it as far as t; false where it does not come so far.
+  /// Extends it to t; false if it ends before t.
   bool reach(double t);
-  /// Where it ends because y leaves all bounds; else it is not known how it goes on.
+  /// Whether it ends because y diverges; otherwise its continuation is unknown.
   bool blows_up() const { return blown_; }
   double sign() const { return direction_; }
 
-  // Of t that were reached.
+  // For values of t within reach.
   double state(double t) const;
-  double rate_at_anchor() const { return rate_; }  ///< g there
+  double rate_at_anchor() const { return rate_; }  ///< g at the anchor
   /// g, and the derivatives of y(t) by the inputs of the shape.
   void slopes(double t, double& rate, std::vector<double>& by_input);
 
-  /// Where y is reached, as far as it is; NaN where it is not.
+  /// The t at which y is reached; NaN if it is not.
   double place(double y);
 
  private:

@@ -1,9 +1,9 @@
 #pragma once
 
-// Exponential and logarithm without branches, so that loops over them become vector code. The
+// Exponential and logarithm without branches, so that loops over them vectorize. The
 // methods and constants are those of Sun's fdlibm (e_exp.c, e_log.c; errors below one unit in the
-// last place). No function here is shared between sources: each is compiled for the vectors of its
-// own source.
+// last place). Functions are local to each source, because each source is compiled for its own
+// vector width.
 
 #include <bit>
 #include <cstdint>
@@ -33,7 +33,7 @@ inline double vector_exp(double x) {
   const double r = high - low, z = r * r;
   const double c = r - z * (p1 + z * (p2 + z * (p3 + z * (p4 + z * p5))));
   const double y = 1 - ((low - (r * c) / (2 - c)) - high);
-  const double half = (k * 0.5 + to_integer) - to_integer;  // 2^k may be no double, its halves are
+  const double half = (k * 0.5 + to_integer) - to_integer;  // 2^k may overflow, its halves do not
   return y * power_of_two(half) * power_of_two(k - half);
 }
 
@@ -53,7 +53,7 @@ inline double vector_log(double x) {
   const double r = z * (l1 + w * (l3 + w * (l5 + w * l7))) + w * (l2 + w * (l4 + w * l6));
   const double half_square = 0.5 * f * f;
   double y = s * (half_square + r) + k * ln2_low - half_square + f + k * ln2_high;
-  y = x < infinity ? y : x;  // infinity and NaN as they are
+  y = x < infinity ? y : x;  // infinity and NaN pass through
   y = x == 0 ? -infinity : y;
   return x < 0 ? std::numeric_limits<double>::quiet_NaN() : y;
 }

@@ -10,15 +10,15 @@ namespace wearwell::formula {
 
 inline constexpr std::size_t longest_name = 64;
 
-/// What is done with numbers. Those that are called as functions have an entry in `functions()`.
+/// The operations. Those called as functions have an entry in `functions()`.
 enum class Op : unsigned char {
   constant,
   column,
-  label_is,   ///< 1 where the row's label is a given one
+  label_is,   ///< 1 if the row has the given level
   parameter,  ///< one slot
   by_row,     ///< a parameter given by row
-  pick,       ///< the slot of the row's label
-  step,       ///< of the axis, since the row before
+  pick,       ///< the entry of the row's level
+  step,       ///< increment of the axis since the previous row
   state_now,  ///< within a rate: the state
   axis_now,   ///< within a rate: the axis
   add,
@@ -54,16 +54,16 @@ enum class Op : unsigned char {
   where,
   cum,
   state,   ///< by its rate
-  expand,  ///< numbers by label to the rows that have it
+  expand,  ///< expands numbers by label to rows
   recurrence,  ///< a state with a linear rate: a its growth from row to row, b its beginning, c its gain
 };
 
-/// What a function asks of its arguments and gives.
+/// The types of a function's arguments and result.
 enum class Rule : unsigned char {
   pure,      ///< pure numbers in and out
   angle,     ///< an angle in, a pure number out
   to_angle,  ///< a pure number in, an angle out
-  same,      ///< the dimension of its arguments, which is one
+  same,      ///< arguments of one dimension, result of the same
   root,
   power,
   where,
@@ -80,10 +80,10 @@ struct Function {
 const std::vector<Function>& functions();
 const Function* find_function(std::string_view name);
 
-/// Functions, `and`, `or`, `not`, `pi`: no name of a study's own.
+/// Functions, `and`, `or`, `not`, `pi`: reserved names.
 bool is_word_of_language(std::string_view name);
 
-/// Throws InputError where a name is no name or a word of the language; `what` is "column", "line".
+/// Throws InputError if a name is invalid or a keyword; `what` is "column", "line".
 void check_name(const std::string& name, const std::string& what);
 
 }  // namespace wearwell::formula

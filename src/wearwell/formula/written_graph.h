@@ -7,13 +7,13 @@
 
 namespace wearwell::formula {
 
-/// Expressions as they are written, before they are made a tape.
+/// Expressions as written, before compilation to a tape.
 struct WrittenGraph {
   Graph graph;
   std::vector<int> roots;  ///< of `wanted`
 };
 
-/// Throws InputError as `compile` does.
+/// Throws InputError like `compile`.
 WrittenGraph written_graph(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
                            const Symbols& symbols);
 

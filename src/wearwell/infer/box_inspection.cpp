@@ -226,7 +226,7 @@ bool BoxIntegrator::grow() {
       if (!mass_there && !moments_there) continue;
       if (too_far(a, high ? upper_[a] : -lower_[a])) {
         if (mass_there) {
-          failure_ = "its mass does not end: it is improper or far too wide";
+          failure_ = "its mass is unbounded: the posterior is improper or far too wide";
           return false;
         }
         forget_moments();
@@ -260,17 +260,17 @@ void BoxIntegrator::forget_moments() {
 void BoxIntegrator::verify() {
   sum();
   if (!std::isfinite(error_) || !(mass_ > 0)) {
-    failure_ = "its mass is no number";
+    failure_ = "its mass is not a number";
     return;
   }
   if (missed_maximum()) {
-    failure_ = "the boxes do not have one of the maxima that are known";
+    failure_ = "the boxes miss one of the known maxima";
     contradicted_ = true;
     return;
   }
   if (!own_shape_) return;
   if (map_.highest_of_weight() > reference_ + highest_ + most_above) {
-    failure_ = fmt::format("a density e^{:.1f} times that of any node was met beside them",
+    failure_ = fmt::format("a density e^{:.1f} times that of any node exists between the nodes",
                            map_.highest_of_weight() - reference_ - highest_);
     contradicted_ = true;
     return;
@@ -279,8 +279,8 @@ void BoxIntegrator::verify() {
   // The curvature along the ridge knows of one maximum.
   if (places_.empty() ? std::abs(off) > most_from_laplace : off < -most_from_laplace) {
     contradicted_ = true;
-    failure_ =
-        fmt::format("the integral is e^{:.1f} times what curvature along the ridge says", off);
+    failure_ = fmt::format(
+        "the integral is e^{:.1f} times its Laplace approximation along the ridge", off);
   }
 }
 

@@ -71,7 +71,7 @@ BoxIntegrator::BoxIntegrator(const Posterior& posterior, const Whitening& whiten
 ExactPosterior BoxIntegrator::run() {
   moments_exist_ = settings_.second_moments;
   if (own_shape_ && map_.endless())
-    failure_ = "its mass does not end: it is improper or far too wide";
+    failure_ = "its mass is unbounded: the posterior is improper or far too wide";
   lower_.fill(-6);
   upper_.fill(6);
   lower_[map_.axis()] = map_.lower();
@@ -114,7 +114,7 @@ BoxIntegrator::Cell& BoxIntegrator::add(const Coordinates& lower, const Coordina
     map_.to_real(frame, u, z);
     const double log_density =
         posterior_.value(std::span(z.data(), static_cast<std::size_t>(d_))) - reference_;
-    if (log_density > 300) failure_ = "the density grows without bound";
+    if (log_density > 300) failure_ = "the density is unbounded";
     highest_ = std::max(highest_, log_density);
     const double f = std::exp(log_density + frame.log_jacobian - log_jacobian_);
     values_.push_back(f);

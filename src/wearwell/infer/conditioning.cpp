@@ -14,11 +14,11 @@ constexpr double fewest_doubles = 1e4;
 constexpr double most_noise = 1e-3;
 
 const char* const advice =
-    "The data agree with each other, or with the law, to their last digits: what scatter they have "
-    "was "
-    "rounded away. Give them with more digits, measure from a nearer zero, or state the scatter.";
+    "The data agree with each other, or with the model, to their last digits, so rounding has "
+    "removed their scatter. Give more digits, measure from a closer zero point, or state the "
+    "scatter.";
 
-// Of the log density at `center`, along one direction.
+// Rounding noise of the log density at `center`, along one direction.
 double noise(const Posterior& posterior, const Eigen::VectorXd& center,
              const Eigen::VectorXd& direction) {
   constexpr std::array binomials = {1., -8., 28., -56., 70., -56., 28., -8., 1.};
@@ -45,8 +45,7 @@ std::vector<StageDiagnostic> digits(const Posterior& posterior, const Whitening&
     if (!(doubles < fewest_doubles)) continue;
     found.push_back(
         {Stage::digits, Verdict::fail,
-         fmt::format("{} is known to {:.2g} of its own size, which double precision does "
-                     "not resolve",
+         fmt::format("{} is known to a relative {:.2g}, which double precision does not resolve",
                      posterior.parameters()[static_cast<std::size_t>(i)].name,
                      std::sqrt(variance[i]) / std::abs(mean[i])),
          advice});
@@ -58,7 +57,8 @@ std::vector<StageDiagnostic> digits(const Posterior& posterior, const Whitening&
   }
   if (loudest > most_noise) {
     found.push_back({Stage::digits, Verdict::fail,
-                     fmt::format("rounding moves the log density by {:.2g}", loudest), advice});
+                     fmt::format("rounding errors change the log density by {:.2g}", loudest),
+                     advice});
   }
   return found;
 }

@@ -51,10 +51,10 @@ std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) 
 }
 
 constexpr const char* nowhere = "the search found no point of positive density";
-constexpr const char* no_end = "the search did not come to an end";
+constexpr const char* no_end = "the search did not converge";
 
 std::string endless(const Parameter& parameter, bool lower) {
-  return fmt::format("the density grows without end as {} nears its {} bound", parameter.name,
+  return fmt::format("the density is unbounded as {} approaches its {} bound", parameter.name,
                      lower ? "lower" : "upper");
 }
 
@@ -72,7 +72,7 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Maximum
       return endless(parameter, lower);
     }
     if (std::abs(best.x[i] - center[i]) > far * width[i]) {
-      return fmt::format("the density still rises with {} at {:.3g} {}", parameter.name,
+      return fmt::format("the density still increases with {} at {:.3g} {}", parameter.name,
                          from_si(parameter.unit, best.x[i]), parameter.unit.text);
     }
   }

@@ -103,9 +103,8 @@ FitTest shape_test(const std::string& of, const StudentizedScores& residuals,
 
 std::string advice_on_scatter(const FitData& data) {
   if (!data.remedies.scatter.empty()) return data.remedies.scatter;
-  return "A scatter that grows with the mean: try a lognormal family, or a standard deviation that "
-         "depends on what it "
-         "follows.";
+  return "If the scatter grows with the mean, try a lognormal family, or a standard deviation that "
+         "depends on the mean or the driver.";
 }
 
 // What scatter may follow: along which values, and in words.
@@ -155,7 +154,7 @@ void add_scatter_tests(const FitData& data, const ScoreSample& sample,
         residuals,
         [&](std::span<const double> z) { return scatter_trend_score(sizes(z), along.rank); }, true);
     tests.push_back({"scatter along " + along.name, trend.p,
-                     fmt::format("residuals scatter more the {} {} is",
+                     fmt::format("residuals scatter more for {} {}",
                                  trend.mean > 0 ? "larger" : "smaller", along.name),
                      advice_on_scatter(data)});
   }
@@ -166,8 +165,8 @@ void add_scatter_tests(const FitData& data, const ScoreSample& sample,
         [&](std::span<const double> z) { return scatter_between_score(sizes(z), level); }, false);
     tests.push_back({"scatter between levels of " + label.name, between.p,
                      fmt::format("residuals scatter differently between levels of {}", label.name),
-                     fmt::format("Look at the levels of {} one by one; give them standard "
-                                 "deviations of their own, or fit them apart.",
+                     fmt::format("Examine each level of {}; give each level its own standard "
+                                 "deviation, or fit the levels separately.",
                                  label.name)});
   }
   for (std::size_t i = first; i < tests.size(); ++i) {
@@ -211,14 +210,13 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
     // Draw by draw, as the test is exact of the scores of one draw: of means over draws a few rows have too much to say.
     const std::vector<double> each =
         each_draw(scores, [&](std::span<const double> z) { return offset_score(z, driver); });
-    tests.push_back(
-        {"offset", combined_p(each, true, credited_offset),
-         fmt::format("the data start {} zero: residuals share an offset",
-                     mean(each) > 0 ? "above" : "below"),
-         data.remedies.offset.empty()
-             ? "Look for an error of the zero point, or for running-in that the law does not know."
-             : data.remedies.offset,
-         offset_share});
+    tests.push_back({"offset", combined_p(each, true, credited_offset),
+                     fmt::format("the data start {} zero: the residuals share an offset",
+                                 mean(each) > 0 ? "above" : "below"),
+                     data.remedies.offset.empty() ? "Look for an error of the zero point, or for "
+                                                    "running-in that the model does not include."
+                                                  : data.remedies.offset,
+                     offset_share});
   }
   return tests;
 }

@@ -25,11 +25,12 @@ std::vector<StageDiagnostic> unsettled_effects(const Posterior& posterior,
   if (open == 0) return {};
   return {
       {Stage::effects, worst > of_import ? Verdict::fail : Verdict::warn,
-       fmt::format("in {} of {} points of the posterior looked at what differs from unit to unit, "
-                   "or a path under noise, is integrated out to {:.1g} of the log likelihood only",
+       fmt::format("at {} of {} sampled points of the posterior the integral over random effects, "
+                   "or over a noisy path, has an error of {:.1g} in the log likelihood",
                    open, looked, worst),
-       "An expression with a jump or a corner (where, min, max, abs) in what differs is hard to "
-       "integrate: write it smoothly. Paths under noise are where errors are far from steps."}};
+       "A jump or a kink (where, min, max, abs) in a random effect is hard to integrate: write a "
+       "smooth expression. For noisy paths the integral is hard if reading errors and steps have "
+       "very unlike sizes."}};
 }
 
 }  // namespace wearwell

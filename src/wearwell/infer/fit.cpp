@@ -64,49 +64,47 @@ std::vector<StageDiagnostic> stage_diagnostics(const Posterior& posterior,
   if (!shape.mode.found) {
     found.push_back(
         {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
-         fit.exact ? "there is none, or it was not found; the numbers are those of quadrature"
-                   : "there is none, or it was not found",
-         "Give priors that hold every parameter, or better guesses by their location."});
+         fit.exact ? "there is no mode, or it was not found; the numbers are those of quadrature"
+                   : "there is no mode, or it was not found",
+         "Give informative priors for all parameters, with locations near the expected values."});
   } else if (shape.neck >= 0) {
     const auto neck = static_cast<std::size_t>(shape.neck);
     found.push_back(
         {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
-         fmt::format("there is none: the density rises without end as {} nears its bound, where no "
-                     "sampler follows; {}",
+         fmt::format("there is no mode: the density is unbounded as {} approaches its bound, where "
+                     "samplers fail; {}",
                      posterior.parameters()[neck].name,
-                     !fit.exact                      ? "and there is no quadrature"
+                     !fit.exact                      ? "quadrature is not available"
                      : fit.method == settings.method ? "the numbers are those of quadrature"
-                                                     : "the draws are quadrature's"),
-         "More rows than parameters, or a measured scatter, would hold it."});
+                                                     : "the draws are those of quadrature"),
+         "Give more rows than parameters, or a measured scatter."});
   } else if (fit.exact && shape.highest > fit.exact->highest + most_above) {
-    found.push_back({Stage::quadrature, Verdict::fail,
-                     fmt::format("a density e^{:.1f} times that of any node was met beside them",
-                                 shape.highest - fit.exact->highest),
-                     "There is more than one mode: cut the priors to the one that is meant."});
+    found.push_back(
+        {Stage::quadrature, Verdict::fail,
+         fmt::format("a density e^{:.1f} times that of any node exists between the nodes",
+                     shape.highest - fit.exact->highest),
+         "The posterior has more than one mode: restrict the priors to the intended one."});
   }
   if (fit.maxima.several() && !fit.exact && !mixed(fit)) {
-    found.push_back(
-        {Stage::maxima, Verdict::fail,
-         fmt::format("{}; quadrature does not cover them, and the chains do not go from one to the "
-                     "other often enough to tell their shares",
-                     description(posterior, fit.maxima)),
-         "Cut the priors to the one that is meant; order parameters that may change places; or "
-         "draw "
-         "many more (--draws, --warmup)."});
+    found.push_back({Stage::maxima, Verdict::fail,
+                     fmt::format("{}; quadrature does not cover them, and the chains switch "
+                                 "between them too rarely to estimate their shares",
+                                 description(posterior, fit.maxima)),
+                     "Restrict the priors to the intended maximum; order exchangeable parameters; "
+                     "or draw many more (--draws, --warmup)."});
   }
   constexpr double most_left = 0.5;
   if (fit.maxima.left > most_left) {
-    found.push_back(
-        {Stage::maxima, Verdict::warn,
-         fmt::format("{}; about {:.0f} more are to be expected that no search has found",
-                     description(posterior, fit.maxima), std::ceil(fit.maxima.left)),
-         "Narrow the priors to what can be: the density has many local maxima."});
+    found.push_back({Stage::maxima, Verdict::warn,
+                     fmt::format("{}; about {:.0f} more probably exist that no search has found",
+                                 description(posterior, fit.maxima), std::ceil(fit.maxima.left)),
+                     "Restrict the priors to possible values: the density has many local maxima."});
   }
   for (const Tail& tail : shape.tails) {
     if (tail.known) continue;
     const std::string& name = posterior.parameters()[static_cast<std::size_t>(tail.parameter)].name;
     found.push_back({Stage::tails, Verdict::fail,
-                     fmt::format("how the posterior ends with {} {} could not be measured", name,
+                     fmt::format("the tail of the posterior for {} {} could not be measured", name,
                                  tail.towards_bound ? "near its bound"
                                  : tail.upward      ? "large"
                                                     : "towards minus infinity"),
@@ -114,13 +112,14 @@ std::vector<StageDiagnostic> stage_diagnostics(const Posterior& posterior,
   }
   const bool failed = !integral.failure.empty();
   if (integral.contradicted || (failed && settings.method == Method::exact)) {
-    found.push_back({Stage::quadrature, Verdict::fail, integral.failure,
-                     "The numbers are a sampler's. Narrower priors make the posterior rounder."});
+    found.push_back(
+        {Stage::quadrature, Verdict::fail, integral.failure,
+         "The numbers are those of a sampler. Narrower priors make quadrature easier."});
   } else if (fit.exact && fit.exact->error > settings.exact.tolerance) {
     found.push_back({Stage::quadrature, Verdict::warn,
-                     fmt::format("its relative error is {:.1g}, not {:.1g}", fit.exact->error,
+                     fmt::format("its relative error is {:.1g} instead of {:.1g}", fit.exact->error,
                                  settings.exact.tolerance),
-                     "Read no more digits than that."});
+                     "Do not use more digits than that."});
   }
   return found;
 }
@@ -129,7 +128,7 @@ std::vector<StageDiagnostic> stage_diagnostics(const Posterior& posterior,
 
 std::string beyond_quadrature(std::size_t parameters) {
   if (parameters <= max_exact_dimension) return "";
-  return fmt::format("{} parameters are more than quadrature reaches ({})", parameters,
+  return fmt::format("{} parameters exceed the limit of quadrature ({})", parameters,
                      max_exact_dimension);
 }
 
@@ -246,8 +245,8 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
     fit.no_exact = "the posterior is improper";
   } else if (posterior.dimension() > most_slow_dimension && posterior.likelihood()->is_slow()) {
     fit.no_exact = fmt::format(
-        "each evaluation of this likelihood, which has paths to integrate out, takes long: too "
-        "long for quadrature over {} parameters",
+        "this likelihood integrates over paths, which is too slow for quadrature over {} "
+        "parameters",
         posterior.dimension());
   } else {
     ExactSettings exact = settings.exact;

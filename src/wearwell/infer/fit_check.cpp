@@ -70,21 +70,21 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
     return all;
   };
   const std::string other_distribution =
-      "The law misses something that the data show: look at the residuals, try another law or "
-      "exponent, or ask whether a prior holds it off.";
+      "The model does not describe the data: examine the residuals, try another formula or "
+      "exponent, or check whether a prior prevents a better fit.";
   std::vector<Judged> tests;
-  tests.push_back({"scatter", scatter_test, "residuals are not of the size that the scatter says",
-                   "The scatter that is known or believed is not that of these data: see what it "
-                   "was taken for, or let it be fitted."});
   tests.push_back(
-      {"location", location_test, "residuals do not lie about zero", other_distribution});
+      {"scatter", scatter_test, "the size of the residuals does not match the scatter",
+       "The stated scatter is not that of these data: check what it refers to, or fit it."});
+  tests.push_back(
+      {"location", location_test, "the residuals are not centered at zero", other_distribution});
   for (const Driver& driver : data.drivers) {
     const std::vector<double> values = each(driver.value);
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     if (!(*least < *most)) continue;
     tests.push_back({"trend with " + driver.name,
                      [values](std::span<const double> z) { return trend_test(z, values); },
-                     "residuals follow " + driver.name, other_distribution});
+                     "residuals have a trend with " + driver.name, other_distribution});
   }
   if (data.drivers.empty()) return tests;
   const std::vector<double> along = each(data.drivers.front().value);
@@ -95,7 +95,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      for (const std::size_t i : order) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbours along " + data.drivers.front().name + " are alike",
+                   "residuals of neighbors along " + data.drivers.front().name + " are correlated",
                    other_distribution});
   if (data.unit.empty()) return tests;
   // Unit by unit, or where rows are judged one by one measured column by column: what is alike within one may
@@ -111,7 +111,8 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      for (const std::size_t i : within) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbours of one " + one + " are alike", other_distribution});
+                   "residuals of neighbors within one " + one + " are correlated",
+                   other_distribution});
   return tests;
 }
 
@@ -154,35 +155,34 @@ void judge_effects(const FitData& data, const std::vector<std::vector<double>>& 
     for (std::size_t u = 1; u < count; ++u) farthest = middle(u) > middle(farthest) ? u : farthest;
     outcome.tests.push_back(
         {"spread of " + effect.name, p_of(scatter_test),
-         fmt::format("units do not differ in {} by as much as its scatter says", effect.name),
-         "The scatter between units that is known or believed is not that of these units: see what "
-         "it was taken for, or give it a wider prior."});
+         fmt::format("the variation of {} between units does not match its scatter", effect.name),
+         "The stated scatter between units is not that of these units: check what it refers to, or "
+         "give it a wider prior."});
     outcome.tests.push_back(
         {"middle of " + effect.name, p_of(location_test),
-         fmt::format("{} of the units does not lie about its middle", effect.name),
-         "See what is known of the middle of the population: the data say another one."});
+         fmt::format("{} of the units is not centered at the population's middle", effect.name),
+         "Check the prior of the population's middle: the data contradict it."});
     outcome.tests.push_back(
         {"outermost unit by " + effect.name, p_of(outsider_test),
-         fmt::format("{} lies farther out by its {} than the others let expect",
-                     effect.of[farthest], effect.name),
-         "Look whether that unit is of another kind, or its rows of another unit; if not, the law "
-         "by which units differ cannot expect it."});
+         fmt::format("{} is an outlier in {} compared with the other units", effect.of[farthest],
+                     effect.name),
+         "Check whether that unit is of another kind, or whether its rows belong to another unit; "
+         "if not, the distribution of the random effect does not describe it."});
     begin += count;
   }
 }
 
 std::string suspect(const FitData& data, std::size_t row) {
-  return fmt::format("{} {} lies farther out than the others let expect", data.noun, row + 1);
+  return fmt::format("{} {} is an outlier compared with the others", data.noun, row + 1);
 }
 
 // How far out the outermost observation lies: by its law given all others where that is known.
 FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& residuals,
                 const std::vector<std::vector<double>>& scores) {
-  FitTest result{
-      "extreme residual", 1, "",
-      fmt::format("Look whether that {} is a mistake of reading, typing or unit; if not, "
-                  "the law cannot expect it.",
-                  data.noun)};
+  FitTest result{"extreme residual", 1, "",
+                 fmt::format("Check that {} for an error of reading, typing or unit; if it is "
+                             "correct, the model does not describe it.",
+                             data.noun)};
   if (data.terms && data.cheap && loo.terms.size() == residuals.size()) {
     // One impossible observation may make the others impossible too: of these the farthest.
     constexpr double impossible = 1e-100;
@@ -228,11 +228,10 @@ void add_copies(const CopiedRows& copies, Findings& findings) {
   findings.add(
       many ? Verdict::fail : Verdict::warn,
       fmt::format(
-          "{} of {} exact rows repeat another row in every number, where {:.2g} would by chance",
+          "{} of {} exact rows repeat another row in every number; {:.2g} are expected by chance",
           copies.rows, copies.of, copies.expected),
-      "Remove copies: each counts as an observation of its own, and intervals become too narrow. "
-      "Where "
-      "several were really alike, a column `count` says so.");
+      "Remove copies: each counts as a separate observation, and intervals become too narrow. If "
+      "several observations were really equal, state it in a column `count`.");
 }
 
 }  // namespace
@@ -284,16 +283,18 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   judge_effects(data, effects, outcome);
   if (data.rise) {
     const std::string impossible =
-        "No parameters of the law can do that. Look whether signs, columns or units were mistaken, "
-        "and whether what was measured is wear at all.";
+        "No parameters of the model can produce this. Check signs, columns and units, and whether "
+        "the measured quantity is wear.";
     outcome.tests.push_back(
         {"fall", fall_test(*data.rise),
-         fmt::format("by the law {}, in the data it falls", data.rise->expected), impossible});
+         fmt::format("in the model {}, but in the data it decreases", data.rise->expected),
+         impossible});
     if (data.rise->from_zero) {
-      outcome.tests.push_back({"sign", sign_test(*data.rise),
-                               fmt::format("by the law {} from zero, in the data it goes below",
-                                           data.rise->expected),
-                               impossible});
+      outcome.tests.push_back(
+          {"sign", sign_test(*data.rise),
+           fmt::format("in the model {} from zero, but in the data it is negative",
+                       data.rise->expected),
+           impossible});
     }
   }
   for (FitTest& test : outcome.tests) test.share = 1 / static_cast<double>(outcome.tests.size());
@@ -318,11 +319,11 @@ Check fit_check(const FitOutcome& outcome) {
   const FitTest& least = *std::min_element(
       sorted.begin(), sorted.end(), [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
   std::string passed =
-      fmt::format("of {} tests of the residuals the smallest p value is {:.2g} ({})",
+      fmt::format("the smallest p value of {} tests of the residuals is {:.2g} ({})",
                   outcome.tests.size(), least.p, least.name);
   // Within chance among so many tests, but what an engineer sees.
   if (least.p < noted_below && !least.finding.empty())
-    passed += fmt::format("; possible, though not beyond chance: {}", least.finding);
+    passed += fmt::format("; not significant among so many tests, but note: {}", least.finding);
   return findings.result(passed);
 }
 

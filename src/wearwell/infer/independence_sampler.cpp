@@ -252,8 +252,8 @@ class IndependenceChain {
     }
     chain.accept_rate = accept / settings.draws;
     chain.notes.push_back(
-        fmt::format("Before each transition {} leaps to a mixture about earlier "
-                    "draws are proposed; {:.0f} % are taken",
+        fmt::format("Before each transition {} independence proposals from a mixture about earlier "
+                    "draws are made; {:.0f} % are accepted",
                     proposals_, 100 * share_taken(settings)));
     return chain;
   }

@@ -180,7 +180,7 @@ class Lattice {
       const std::size_t before = lines_.size();
       std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
       ring.clear();
-      if (highest_ > 300 && !set_reference()) return "the density grows without bound";
+      if (highest_ > 300 && !set_reference()) return "the density is unbounded";
       for (std::size_t i = before; i < lines_.size(); ++i) {
         const Line& line = lines_[i];
         if (line.highest < highest_ + log_negligible_) continue;
@@ -190,7 +190,7 @@ class Lattice {
             next.index = line.index;
             next.index[a] = static_cast<std::int16_t>(next.index[a] + way);
             if (std::abs(next.index[a]) > farthest) {
-              return "its mass does not end: it is improper or far too wide";
+              return "its mass is unbounded: the posterior is improper or far too wide";
             }
             next.middle = line.middle;
             next.width = line.width;

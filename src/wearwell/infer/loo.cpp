@@ -74,11 +74,11 @@ Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
   Findings findings("leave-one-out");
   if (!(loo.p_loo() <= p_loo_warns_above(parameters))) {
     findings.add(loo.p_loo() <= p_loo_fails_above(parameters) ? Verdict::warn : Verdict::fail,
-                 fmt::format("the effective number of parameters, {:.4g}, goes far beyond the {} "
-                             "that there are",
+                 fmt::format("the effective number of parameters, {:.4g}, is much larger than the "
+                             "number of parameters, {}",
                              loo.p_loo(), parameters),
-                 fmt::format("The model does not expect some {}, or the search for the posterior "
-                             "failed: look at the residuals and at the data's digits.",
+                 fmt::format("The model does not describe some {}, or the computation failed: "
+                             "examine the residuals and the digits of the data.",
                              noun));
   }
   std::vector<std::string> doubtful, refitted;
@@ -97,11 +97,11 @@ Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
   };
   if (!doubtful.empty()) {
     findings.add(Verdict::warn,
-                 fmt::format("leaving out one observation changes the posterior too much for its "
-                             "draws to say how well it is predicted: Pareto k above {:.2f} for {}",
+                 fmt::format("leaving out one observation changes the posterior too much to "
+                             "estimate its prediction from the draws: Pareto k above {:.2f} for {}",
                              loo.threshold, list(doubtful)),
-                 fmt::format("Do not compare models by elpd here; look whether such a {} is a "
-                             "mistake, or whether the model cannot expect it.",
+                 fmt::format("Do not compare models by elpd here; check each such {} for an error, "
+                             "or whether the model does not describe it.",
                              noun));
   }
   return findings.result(

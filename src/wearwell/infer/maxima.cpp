@@ -267,7 +267,7 @@ std::string description(const Posterior& posterior, const Maxima& maxima) {
   const std::size_t others = order.size() - places.size();
   if (others > 0) {
     places.push_back(
-        fmt::format("{} more of {} % together", others,
+        fmt::format("{} more with {} % together", others,
                     rest < reported ? "less than 0.1" : fmt::format("{:.1f}", 100 * rest)));
   }
   const std::string last = places.back();

@@ -50,45 +50,44 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
                     tail.towards_bound ? (tail.upward ? "its upper bound" : "its lower bound")
                     : tail.upward      ? "large values"
                                        : "minus infinity");
-    const std::string give_prior =
-        fmt::format("The data alone do not hold {}. Say what is known of it, as bounds or like {}",
-                    parameter.name, prior_line(parameter));
+    const std::string give_prior = fmt::format(
+        "The data alone do not determine {}. State prior knowledge as bounds or a prior such as {}",
+        parameter.name, prior_line(parameter));
     if (!tail.known) {
-      findings.add(Verdict::fail,
-                   fmt::format("the posterior may be improper: how it ends with {} could not be "
-                               "measured",
-                               where),
-                   give_prior);
+      findings.add(
+          Verdict::fail,
+          fmt::format("the posterior may be improper: the tail of {} could not be measured", where),
+          give_prior);
       continue;
     }
     const std::string power =
-        tail.towards_bound
-            ? fmt::format("its density grows like distance^{:.2f}", -tail.index)
-            : fmt::format("its density goes like {}^{:.2f} far out", parameter.name, -tail.index);
+        tail.towards_bound ? fmt::format("its density increases like distance^{:.2f}", -tail.index)
+                           : fmt::format("its density behaves like {}^{:.2f} in the tail",
+                                         parameter.name, -tail.index);
     if (!tail.integrable()) {
       findings.add(Verdict::fail,
-                   fmt::format("the posterior is improper: {}, {}, which has no finite integral; "
-                               "every number depends "
-                               "on where it was cut",
+                   fmt::format("the posterior is improper: {}, {}, whose integral is infinite; "
+                               "every number depends on where it is truncated",
                                where, power),
                    give_prior);
     } else if (!tail.has_moment(1)) {
       findings.add(
           Verdict::fail,
           fmt::format(
-              "the mean of {} does not exist: {}, {}, so the mean depends on where it was cut",
+              "the mean of {} does not exist: {}, {}, so the mean depends on where it is truncated",
               parameter.name, where, power),
           give_prior);
     } else if (!tail.has_moment(2)) {
       findings.add(
           Verdict::warn,
           fmt::format(
-              "the standard deviation of {} does not exist: {}, {}; read its quantiles instead",
+              "the standard deviation of {} does not exist: {}, {}; use its quantiles instead",
               parameter.name, where, power),
           give_prior);
     }
   }
-  return findings.result("every tail of every parameter falls fast enough for means and variances");
+  return findings.result(
+      "the tails of all parameters decrease fast enough for means and variances");
 }
 
 namespace {
@@ -180,10 +179,9 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
       with_cut_moved(posterior, index, fit.exact->mean[static_cast<Eigen::Index>(index)]);
   const LeftOut out = left_out(wider, posterior, fit, index);
   if (out.shift < without_error) {
-    return {Verdict::pass,
-            fmt::format("the bounds of {} at twice the distance from its mean would take in less "
-                        "than {:.1g} of the posterior",
-                        parameter.name, std::max(out.share, 1e-12))};
+    return {Verdict::pass, fmt::format("moving the bounds of {} to twice the distance from its "
+                                       "mean would add less than {:.1g} of the posterior",
+                                       parameter.name, std::max(out.share, 1e-12))};
   }
   // A thousandth of a standard deviation is enough to see a quarter.
   const ExactPosterior exact = integrate(wider, whitening_of(wider, posterior, fit),
@@ -225,14 +223,13 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
       passed.push_back(each[i].detail);
       continue;
     }
-    findings.add(
-        *each[i].verdict, each[i].detail,
-        fit.exact ? fmt::format("Say what is known of {}: a bound or a law that means something. "
-                                "More data make the bound matter less.",
-                                posterior.parameters()[i].name)
-                  : "Fit again with other bounds and compare.");
+    findings.add(*each[i].verdict, each[i].detail,
+                 fit.exact ? fmt::format("State a meaningful bound or distribution for {}. More "
+                                         "data make the bound matter less.",
+                                         posterior.parameters()[i].name)
+                           : "Fit again with other bounds and compare.");
   }
-  return findings.result(passed.empty() ? "no flat or uniform prior was cut"
+  return findings.result(passed.empty() ? "no flat or uniform prior has bounds"
                                         : fmt::format("{}", fmt::join(passed, "; ")));
 }
 
@@ -322,14 +319,13 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
           fmt::format("the density of {} at its {}{} bound {} is {:.0f} % of its highest",
                       parameter.name, natural ? "physical " : "", lower ? "lower" : "upper",
                       in_unit(parameter, bound), 100 * std::min(1.0, ratio)),
-          natural
-              ? fmt::format("The data do not tell {} from its bound.", parameter.name)
-              : fmt::format("The answer rests on the bound of {}. If the bound is not knowledge, "
-                            "move it.",
-                            parameter.name));
+          natural ? fmt::format("The data do not distinguish {} from its bound.", parameter.name)
+                  : fmt::format("The results depend on the bound of {}. If the bound is not prior "
+                                "knowledge, move it.",
+                                parameter.name));
     }
   }
-  return findings.result("no parameter piles up at a bound");
+  return findings.result("no parameter accumulates at a bound");
 }
 
 namespace {
@@ -437,7 +433,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     const PowerScalingVerdict scaling = verdict(sensitivity);
     if (scaling == PowerScalingVerdict::unknown) {
       findings.add(Verdict::warn, fmt::format("{}: unknown", parameter.name),
-                   "The draws are not finite or do not vary.");
+                   "The draws are not finite or all equal.");
       continue;
     }
     auto [width, p] = against_prior(parameter.prior, {draws.begin(), draws.end()});
@@ -447,30 +443,29 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
       p = std::max(p, against_prior(parameter.prior, {some.begin(), some.end()}).p_value);
     }
     if (p < far_out) {
-      findings.add(
-          p < excluded ? Verdict::fail : Verdict::warn,
-          fmt::format("{}; its prior {} what the data say: so far out with a probability of {}",
-                      numbers, p < excluded ? "excludes" : "hardly expects",
-                      p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
-          fmt::format(
-              "Prior and data cannot both be right about {}. Ask whether the prior describes "
-              "this component and these conditions, and look at its units and the data's.",
-              parameter.name));
+      findings.add(p < excluded ? Verdict::fail : Verdict::warn,
+                   fmt::format("{}; its prior {} the estimate from the data: tail probability {}",
+                               numbers, p < excluded ? "excludes" : "barely allows",
+                               p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
+                   fmt::format("Prior and data contradict each other about {}. Check whether the "
+                               "prior describes this component and these conditions, and check the "
+                               "units of the prior and of the data.",
+                               parameter.name));
     } else if (scaling == PowerScalingVerdict::none) {
       passed.push_back(numbers);
     } else if (parameter.is_default) {
       findings.add(Verdict::warn, numbers,
-                   fmt::format("The data are so few that the default prior of {} is of weight: "
-                               "state what you know of it, or test more.",
+                   fmt::format("With so few data the default prior of {} influences the results: "
+                               "state your own prior, or test more.",
                                parameter.name));
     } else if (width > hardly_narrower) {
       findings.add(
           Verdict::warn, numbers,
           fmt::format(
-              "The posterior of {} is mostly its prior: the data narrow it by {:.0f} % only.",
+              "The posterior of {} is mostly its prior: the data narrow it by only {:.0f} %.",
               parameter.name, std::max(0.0, 100 * (1 - width))));
     } else {
-      passed.push_back(numbers + " (prior and data both inform, and agree)");
+      passed.push_back(numbers + " (prior and data both contribute, and agree)");
     }
   }
   return findings.result(fmt::format("{}", fmt::join(passed, "; ")));

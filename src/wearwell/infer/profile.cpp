@@ -154,7 +154,7 @@ class Search {
     if (summit.value == -std::numeric_limits<double>::infinity()) return INFINITY;
     const double fall = highest_ - summit.value;
     if (!summit.converged || std::isnan(fall)) {
-      problem_ = "a search under a held value did not come to an end";
+      problem_ = "a search with a fixed value did not converge";
       return nothing;
     }
     if (fall < -1e-6 * (1 + std::abs(highest_))) {
@@ -251,7 +251,7 @@ class Profiler {
       const Place held = up ? Place::upper_bound : Place::lower_bound;
       (up ? interval.upper : interval.lower) =
           mode_.place[static_cast<std::size_t>(i)] == held
-              ? ProfileEnd{nothing, "the mode lies on the bound"}
+              ? ProfileEnd{nothing, "the mode is at the bound"}
               : Search(density_, box_, unit_, target, mode_, root_).end(up ? 1 : -1);
     }
     return interval;

@@ -55,44 +55,41 @@ std::string description(const ResidualShapeFound& found, std::size_t count) {
     case ResidualShape::short_tails:
       break;
   }
-  return "they are too flat in the middle";
+  return "the center is too flat";
 }
 
 std::string advice_on(ResidualShape shape, const Remedies& remedies) {
   switch (shape) {
     case ResidualShape::two_groups:
     case ResidualShape::short_tails:
-      return remedies.life
-                 ? "Try a mixture of two failure modes: if a column can say which mode ended each "
-                   "life, fit each "
-                   "mode with the lives of the other as censored, or fit the two groups apart."
-                 : "Look for two groups that were taken for one (machines, batches, operators): "
-                   "name "
-                   "the column that tells them apart, or fit them apart.";
+      return remedies.life ? "Try a mixture of two failure modes: if a column can state the mode "
+                             "of each failure, fit each mode with the lives of the other as "
+                             "censored, or fit the two groups separately."
+                           : "Look for two mixed groups (machines, batches, operators): name the "
+                             "column that distinguishes them, or fit them separately.";
     case ResidualShape::long_lower:
       return remedies.life ? "More early failures than the distribution expects. Try a mixture of "
                              "two failure modes: early "
                              "failures beside wear-out (fit each mode with the lives of the other "
-                             "as censored), or "
-                             "another family, as lognormal and Weibull differ in this tail."
+                             "as censored), or another family, because lognormal and Weibull have "
+                             "different lower tails."
                            : "Try a family with a longer lower tail (smallest-extreme-value), or "
-                             "look what the lowest "
-                             "readings have in common.";
+                             "check what the lowest readings have in common.";
     case ResidualShape::long_upper:
       return remedies.life
                  ? "Fewer early failures than the distribution expects. Try a threshold (no "
                    "failure before t0: threshold of the "
-                   "Weibull family), left truncation (units that failed before a table began are "
-                   "not in it: "
-                   "data.columns.entry), or a family with a longer upper tail (lognormal)."
+                   "Weibull family), left truncation (the table does not contain units that failed "
+                   "before it began: data.columns.entry), or a family with a longer upper tail "
+                   "(lognormal)."
                  : "Try a family with a longer upper tail: lognormal, or a response in logarithms.";
     case ResidualShape::long_tails:
       break;
   }
-  return remedies.heavy_tails.empty() ? "Look at the outermost rows for mistakes; if there are "
-                                        "none, try a family with longer tails, or a "
-                                        "mixture of two modes or populations."
-                                      : remedies.heavy_tails;
+  return remedies.heavy_tails.empty()
+             ? "Check the outermost rows for errors; if there are none, try a family with longer "
+               "tails, or a mixture of two modes or populations."
+             : remedies.heavy_tails;
 }
 
 }  // namespace wearwell

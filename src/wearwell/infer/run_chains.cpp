@@ -32,8 +32,8 @@ Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
       return u;
   }
   throw InputError(
-      "no start with a positive posterior density and a finite gradient in 100 attempts: are the "
-      "units of data and priors right?");
+      "no start with a positive posterior density and a finite gradient in 100 attempts; check the "
+      "units of data and priors");
 }
 
 // About the maximum that is chain c's, in the coordinates of `whitening`.

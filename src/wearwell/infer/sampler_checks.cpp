@@ -18,8 +18,8 @@ std::string draw_more(const Fit& fit) {
   if (fit.method == Method::metropolis) {
     return "Draw more (--draws, --warmup), or use --method nuts.";
   }
-  return "Draw more (--draws, --warmup); if that does not help, priors that say more make the "
-         "posterior easier to walk.";
+  return "Draw more (--draws, --warmup); if that does not help, more informative priors make the "
+         "posterior easier to sample.";
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ Check divergences(const Fit& fit, bool agrees_with_exact) {
                  fmt::format("{} of {} transitions diverged{}", divergent, total,
                              agrees_with_exact ? ", but quadrature agrees with the draws" : ""),
                  agrees_with_exact
-                     ? "Nothing to do: the numbers are those of quadrature."
+                     ? "No action is needed: the numbers are those of quadrature."
                      : fmt::format("The sampler may have missed a narrow region: raise [sampler] "
                                    "target_accept{}.",
                                    fit.exact ? ", or use --method exact" : ""));
@@ -118,11 +118,11 @@ Check exact_agreement(const Posterior& posterior, const Fit& fit) {
     findings.add(Verdict::fail,
                  fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature",
                              each.number, posterior.parameters()[each.parameter].name, each.errors),
-                 "Believe the numbers by quadrature, and draw more.");
+                 "Use the numbers by quadrature, and draw more.");
   }
   return findings.result(
       fmt::format("within {:.1f} Monte Carlo standard errors of quadrature{}", worst,
-                  fit.redrawn ? "; the first draws were not, and were drawn again" : ""));
+                  fit.redrawn ? "; the first draws disagreed and were repeated" : ""));
 }
 
 }  // namespace wearwell

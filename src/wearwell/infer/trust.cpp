@@ -56,20 +56,19 @@ std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior,
           {Stage::quadrature, Verdict::fail,
            fmt::format("at the mode the density is e^{:.1f} times that of any node",
                        there - fit.exact->highest),
-           "The posterior has a narrow peak that quadrature missed: believe no number."});
+           "The posterior has a narrow peak that quadrature missed: do not use any number."});
     }
   }
   if (mode.fell_short) {
     // Where it climbed hardly above the draws it is on a plateau or an edge (a scatter of zero), and they missed nothing.
     const bool missed = !(mode.above_draws < most_above_draws);
-    found.push_back(
-        {Stage::constrained_mode, missed ? Verdict::fail : Verdict::warn,
-         missed ? mode.problem
-                : fmt::format(
-                      "{}; nothing is missed: it climbed to e^{:.1f} times the density of draws",
-                      mode.problem, mode.above_draws),
-         "Do not compare with published maximum likelihood fits; give priors that hold "
-         "every parameter."});
+    found.push_back({Stage::constrained_mode, missed ? Verdict::fail : Verdict::warn,
+                     missed ? mode.problem
+                            : fmt::format("{}; the draws do not miss mass: the search reached only "
+                                          "e^{:.1f} times their density",
+                                          mode.problem, mode.above_draws),
+                     "Do not compare with published maximum likelihood fits; give informative "
+                     "priors for all parameters."});
   }
   return found;
 }

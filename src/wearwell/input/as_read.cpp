@@ -7,7 +7,7 @@
 namespace wearwell {
 namespace {
 
-// How the file is written, as far as the section says.
+// The layout settings of the section.
 std::string settings_text(const TomlReader& section) {
   const TableSettings settings = read_table_settings(section);
   std::string words;

@@ -32,7 +32,7 @@ bool is_one_of(const std::array<std::string_view, N>& words, std::string_view te
   return std::find(words.begin(), words.end(), capitals(text)) != words.end();
 }
 
-/// Takes "<", ">=", "≤" off the front; 0 where there is none.
+/// Removes a leading "<", ">=" or "≤" and returns its sign; 0 if there is none.
 char take_sign(std::string_view& text) {
   constexpr std::array<std::pair<std::string_view, char>, 6> signs = {
       {{"<=", '<'}, {">=", '>'}, {"<", '<'}, {">", '>'}, {"\u2264", '<'}, {"\u2265", '>'}}};
@@ -48,7 +48,8 @@ bool is_number(std::string_view text) {
   return number_form(text).kind == NumberForm::Kind::number;
 }
 
-/// Where a number ends and its unit begins: at a letter that is no exponent, or a sign of a unit.
+/// Where a number ends and its unit begins: at a letter that is not an exponent, or at a unit
+/// symbol.
 std::size_t unit_begin(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -67,7 +68,7 @@ std::size_t unit_begin(std::string_view text) {
 }  // namespace
 
 std::optional<CellText> cell_text(std::string_view cell) {
-  // Names of limits of detection and of determination, in English, German and French.
+  // Names of the limits of detection and quantification, in English, German and French.
   constexpr std::array<std::string_view, 9> limits = {"LOD", "LOQ", "LLOD", "LLOQ", "MDL",
                                                       "DL",  "BG",  "NWG",  "LD"};
   std::string_view text = trimmed(cell);
@@ -82,7 +83,7 @@ std::optional<CellText> cell_text(std::string_view cell) {
   if (at == text.npos || at == 0) return {};
   found.number = trimmed(text.substr(0, at));
   found.unit = text.substr(at);
-  // "304L" names a steel: one letter needs its blank.
+  // "304L" is the name of a steel, so a unit of one letter needs a space before it.
   const bool apart = found.number.size() < at || found.unit.size() > 1 || found.unit == "%";
   if (!apart || !is_number(found.number) || !is_unit_cell(found.unit)) return {};
   return found;

@@ -5,18 +5,18 @@
 
 namespace wearwell {
 
-/// A number in a cell with what people write around it: "<0.5", ">5.000.000", "12 mm", "≤0,05 mm".
-/// "<LOD" states no number.
+/// A number in a cell with its sign of a limit and its unit: "<0.5", ">5.000.000", "12 mm", "≤0,05
+/// mm". "<LOD" states no number.
 struct CellText {
-  char sign = 0;            ///< '<' or '>' of a limit; 0 of a value
-  std::string_view number;  ///< "0.5"; empty where the cell does not state its limit
-  std::string_view unit;    ///< "mm"; empty where there is none
+  char sign = 0;            ///< '<' or '>' for a limit; 0 for a value
+  std::string_view number;  ///< "0.5"; empty if the cell does not state its limit
+  std::string_view unit;    ///< "mm"; empty without a unit
 };
 
-/// Nothing where the cell holds something else, or a number alone.
+/// Empty if the cell holds anything else, or only a number.
 std::optional<CellText> cell_text(std::string_view cell);
 
-/// Whether a cell says that there is no value: "NA", "n/a", "#NV", "-".
+/// Whether a cell marks a missing value: "NA", "n/a", "#NV", "-".
 bool is_missing_mark(std::string_view cell);
 
 }  // namespace wearwell

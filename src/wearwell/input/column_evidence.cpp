@@ -61,7 +61,7 @@ void look_at(std::string_view cell, std::size_t row, std::size_t line, ColumnEvi
   if (form.doubtful) note(seen.doubtful[mark_place(form.doubtful)]);
   if (form.decimal) note(seen.decimal[mark_place(form.decimal)]);
   if (form.thousands) seen.thousands.insert(form.thousands);
-  // A mark for thousands cannot be the decimal mark.
+  // The thousands separator cannot be the decimal mark.
   if (form.thousands == '.' && !form.decimal) note(seen.decimal[1]);
   if (form.thousands == ',' && !form.decimal) note(seen.decimal[0]);
   if (form.thousands || cell.front() == '+' || static_cast<unsigned char>(cell.front()) >= 0x80 ||
@@ -92,7 +92,7 @@ const CellWitness& witness_of(const std::vector<ColumnEvidence>& all, std::size_
   for (const ColumnEvidence& each : all) {
     if (!each.any_text && each.shows(mark)) return *each.decimal[mark];
   }
-  return *all.front().decimal[mark];  // nobody asks where there is none
+  return *all.front().decimal[mark];  // called only if there is one
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ void decide_marks(const ColumnEvidence& seen, char of_all, const std::vector<Col
     const CellWitness &point = *seen.decimal[0], &comma = *seen.decimal[1];
     const bool first = comma.row < point.row;
     column.doubt = fmt::format(
-        "{}: '{}' has a decimal {} and '{}' in row {} a decimal {}; a column has one of them (say "
-        "which in [data], as in decimal = \".\")",
+        "{}: '{}' has a decimal {} and '{}' in row {} a decimal {}; a column must have one decimal "
+        "mark (state it in [data], for example decimal = \".\")",
         at(first ? point : comma, column.name), (first ? point : comma).cell,
         first ? "point" : "comma", (first ? comma : point).cell, (first ? comma : point).row,
         first ? "comma" : "point");
@@ -124,14 +124,15 @@ void decide_marks(const ColumnEvidence& seen, char of_all, const std::vector<Col
     return;
   }
   if (!seen.doubtful[0] && !seen.doubtful[1]) {
-    // Of whole numbers the others' mark, for what people are told.
+    // Whole numbers get the mark of the other columns, for messages.
     column.marks.decimal = of_all == ',' ? ',' : '.';
     return;
   }
   const auto doubt = [&](const std::string& why) {
     const CellWitness& witness = *seen.doubtful[seen.doubtful[0] ? 0 : 1];
-    column.doubt = fmt::format("{}: {}{}; or say in [data] which it is, as in decimal = \",\"",
-                               at(witness, column.name), two_readings(witness.cell), why);
+    column.doubt =
+        fmt::format("{}: {}{}; or state the decimal mark in [data], for example decimal = \",\"",
+                    at(witness, column.name), two_readings(witness.cell), why);
   };
   const auto others = [&](std::size_t mark) {
     const CellWitness& other = witness_of(all, mark);
@@ -140,7 +141,7 @@ void decide_marks(const ColumnEvidence& seen, char of_all, const std::vector<Col
   };
   if (seen.doubtful[0] && seen.doubtful[1]) return doubt("");
   if (of_all == '?') return doubt(others(seen.doubtful[0] ? 1 : 0));
-  // Where commas separate the columns, the point is the decimal mark of most files.
+  // Most files with commas between columns use the decimal point.
   if (of_all == ',' && seen.doubtful[0] && delimiter == ',') return doubt(others(1));
   if (of_all == 0 && seen.doubtful[0] && delimiter == ',') {
     column.marks.decimal = '.';
@@ -165,8 +166,8 @@ void decide_unit(const ColumnEvidence& seen, TextColumn& column) {
   const CellWitness& first = *seen.with_unit;
   const auto refuse = [&](const CellWitness& other, const std::string& has) {
     column.doubt = fmt::format(
-        "{}: '{}' has the unit {} and '{}' in {} has {}; write the numbers of a column in "
-        "one unit, and the unit once, as in '{} [{}]' as the heading",
+        "{}: '{}' has the unit {} and '{}' in {} has {}; write all numbers of a column in one "
+        "unit, and state it once in the heading: '{} [{}]'",
         at(first, column.name), first.cell, seen.unit, other.cell, row_name(other.row, other.line),
         has, column.name, seen.unit);
   };

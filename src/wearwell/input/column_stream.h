@@ -9,8 +9,8 @@
 
 namespace wearwell {
 
-/// Reads columns of numbers in batches, in the order of the file, so that a file larger than memory
-/// passes through: CSV, Parquet, JSON, whatever DuckDB reads.
+/// Reads number columns in batches, in the order of the file, so that the file can be larger than
+/// memory: CSV, Parquet, JSON, and other formats of DuckDB.
 class ColumnStream {
  public:
   /// Throws InputError: no such file, unreadable, empty.
@@ -20,14 +20,14 @@ class ColumnStream {
   ColumnStream& operator=(const ColumnStream&) = delete;
 
   const std::string& source() const;
-  /// All there are.
+  /// All columns.
   const std::vector<std::string>& headings() const;
-  /// The columns without their rows: headings, and units from a row of them.
+  /// The columns without rows: headings, and units from a units row.
   Table columns() const;
 
-  /// Chooses columns, in this order, before the first batch. The column `named`, if there is one, may
-  /// hold words, which come as their places among `words()`, from 1, beginning with `known`. Throws
-  /// InputError for another column that does not hold numbers.
+  /// Chooses columns, in this order, before the first batch. The column `named`, if given, may hold
+  /// words; they are read as indices into `words()`, from 1, which begins with `known`. Throws
+  /// InputError for any other column that does not hold numbers.
   void select(const std::vector<std::string>& columns, const std::string& named = "",
               std::vector<std::string> known = {});
   bool has_words() const;                         ///< whether the column `named` holds words
@@ -36,9 +36,9 @@ class ColumnStream {
   struct Batch {
     std::size_t first_row = 0;  ///< 0-based, of the file
     std::size_t rows = 0;
-    std::vector<std::vector<double>> columns;  ///< NaN where there is no value; storage is reused
+    std::vector<std::vector<double>> columns;  ///< NaN for missing values; storage is reused
   };
-  /// The next rows; false at the end. Throws InputError where a row cannot be read.
+  /// The next rows; false at the end. Throws InputError if a row cannot be read.
   bool next(Batch& batch);
 
  private:

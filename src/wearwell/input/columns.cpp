@@ -18,9 +18,9 @@ namespace {
 
 constexpr double most_repeated = 1e6;  // rows
 
-/// What a table says of the unit of a column.
+/// The unit of a column according to the table.
 struct WrittenUnit {
-  std::string text = {};      ///< empty where there is none
+  std::string text = {};      ///< empty without a unit
   bool may_be_index = false;  ///< "radius_m" may be the mean radius
 };
 
@@ -37,7 +37,7 @@ bool same(const Unit& a, const Unit& b) {
   return near(a.scale, b.scale) && near(a.offset, b.offset);
 }
 
-/// Where a column has its unit.
+/// Where a column states its unit.
 const char* unit_place(const Column& column) {
   if (column.unit.empty()) return "heading";
   return column.unit_in_cells ? "cells" : "row of units";
@@ -95,8 +95,8 @@ const Column& study_column(const TomlReader& columns, const std::string& name,
 std::string no_unit_of(const Table& table, const Column& column, const std::string& name,
                        const std::string& unit, const std::string& why) {
   return fmt::format(
-      "{}, column '{}': {}. What stands in brackets{} is the column's unit; where it is a remark, "
-      "state the unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
+      "{}, column '{}': {}. Text in brackets{} is the column's unit; if it is a remark, state the "
+      "unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
       table.source, column.name, why, column.unit.empty() ? "" : " or in the row of units", name,
       column.name, unit);
 }
@@ -108,7 +108,8 @@ Unit column_unit(const Table& table, const Column& column, const std::string& si
     if (written.text.empty()) return Unit{"1", 1, 0};
     return read_written(table, column, written.text, si);
   }
-  // In brackets there may stand what is no unit: "volume [corrected]". A factor is part of one.
+  // Brackets may contain a remark instead of a unit: "volume [corrected]". A factor is part of a
+  // unit.
   const std::string text = without_times(written.text);
   if (text.empty() || !is_any_unit(text)) return *given;
   if (written.may_be_index) return *given;
@@ -117,7 +118,7 @@ Unit column_unit(const Table& table, const Column& column, const std::string& si
     throw InputError(fmt::format(
         "{0}, column '{1}' is in {2} by its {3}, and {4} is given as its unit (1 {2} is {5:.6g} "
         "{4}); "
-        "which is right? Keep one, or write both alike",
+        "keep one of them, or make both equal",
         table.source, column.name, written.text, unit_place(column), given->text,
         read.scale / given->scale));
   return *given;
@@ -181,15 +182,15 @@ std::string label_word(const Table& table, const Column& column, std::size_t row
   throw InputError(fmt::format(
       "{}: no value; a label must not be empty{}", place(table, column.name, row),
       above.empty() ? std::string()
-                    : fmt::format(": it can be that of the rows above, '{}', or none; write "
-                                  "it in each row, or a word of its own for none",
+                    : fmt::format(": it can mean '{}', the label of the rows above, or no label; "
+                                  "write the label in each row, or a separate word for no label",
                                   printable(above))));
 }
 
 CensoredNumbers censored_numbers(const Table& table, const ColumnChoice& choice) {
   const Column& column = table.column(choice.column);
   CensoredNumbers all;
-  Table values;  // of which limits are values
+  Table values;  // the limits as values
   values.source = table.source;
   values.rows = table.rows;
   values.layout = table.layout;
@@ -238,7 +239,7 @@ Table with_counts(const TomlReader& columns, Table table) {
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(
         counts[i] >= 1 && counts[i] == std::floor(counts[i]) && (sum += counts[i]) <= most_repeated,
-        table, *count, i, "a whole number from 1, and all of them together at most 1000000");
+        table, *count, i, "a whole number from 1, with a sum of at most 1000000");
     rows.insert(rows.end(), static_cast<std::size_t>(counts[i]), i);
   }
   for (Column& column : table.columns) {

@@ -59,7 +59,7 @@ bool CsvReader::read_row(std::vector<std::string>& cells) {
     }
     std::string& cell = cells[count - 1];
     if (c == '"') {
-      if (closed) cell += '"';  // a doubled quote is one quote
+      if (closed) cell += '"';  // a doubled quote means one quote
       closed = quoted;
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
@@ -80,7 +80,7 @@ bool CsvReader::next() {
   if (!read_row(cells_)) return false;
   ++row_;
   if (cells_.size() != heading_.size()) {
-    throw InputError(fmt::format("{}, {} {}: it should hold {} {}", file_, noun_, row_,
+    throw InputError(fmt::format("{}, {} {}: should have {} {}", file_, noun_, row_,
                                  heading_.size(), cells_are_));
   }
   return true;

@@ -7,23 +7,23 @@
 
 namespace wearwell {
 
-/// Row by row through a CSV file: a heading, then rows of as many cells; quotes as RFC 4180 has
-/// them; lines that begin with '#' are comments. What is wrong throws InputError with file, row (from
-/// 1, below the heading) and column.
+/// Reads a CSV file row by row: a heading, then rows with as many cells; quotes follow RFC 4180;
+/// lines that begin with '#' are comments. Errors throw InputError with file, row (from 1, below
+/// the heading) and column.
 class CsvReader {
  public:
-  /// `row` and `cells`: what messages call them.
+  /// `row` and `cells` are their names in messages.
   explicit CsvReader(const std::filesystem::path& file, const char* row = "row",
                      const char* cells = "cells");
 
   const std::vector<std::string>& heading() const { return heading_; }
-  /// Throws unless the heading has this column.
+  /// The index of a column. Throws if the heading does not have it.
   std::size_t column(const std::string& name) const;
 
   bool next();  ///< false after the last row
   std::size_t row() const { return row_; }
   const std::string& text(std::size_t column) const { return cells_[column]; }
-  double number(std::size_t column) const;  ///< "inf" and "nan" are numbers too
+  double number(std::size_t column) const;  ///< accepts "inf" and "nan"
   long long integer(std::size_t column) const;
   bool flag(std::size_t column) const;  ///< 0 or 1
 
@@ -39,10 +39,10 @@ class CsvReader {
   std::size_t row_ = 0;
 };
 
-/// A cell, in quotes where it needs them.
+/// A cell, quoted if necessary.
 std::string csv_cell(const std::string& text);
 
-/// The same of a file that people get: nothing in it commands a terminal (base/printable.h).
+/// The same for files that people read: control characters are escaped (base/printable.h).
 std::string printable_csv_cell(const std::string& text);
 
 }  // namespace wearwell

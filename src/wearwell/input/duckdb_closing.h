@@ -4,10 +4,10 @@
 
 namespace wearwell {
 
-/// Disconnects from a DuckDB within the program by `disconnect`, which must not throw. While an exception is on its
-/// way through the thread that disconnects, DuckDB does not wait for the threads that work for it: they go on in memory
-/// that is freed (ClientContext::~ClientContext). So that is left to a thread without one; where none is to be had the
-/// database stays open, and what works for it has its memory.
+/// Disconnects from an embedded DuckDB by `disconnect`, which must not throw. If the disconnecting
+/// thread is handling an exception, DuckDB does not wait for its worker threads, which then use
+/// freed memory (ClientContext::~ClientContext). So another thread disconnects. If none can be
+/// started, the database stays open and its memory stays valid.
 void close_duckdb(const std::function<void()>& disconnect);
 
 }  // namespace wearwell

@@ -13,12 +13,12 @@ namespace {
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  // Regular expressions of the standard library go down a call a character.
+  // Standard regular expressions recurse once per character, so long lines are cut.
   for (std::string line; std::getline(stream, line);) lines.push_back(line.substr(0, 2000));
   return lines;
 }
 
-/// Without "Binder Error: " and its like.
+/// Removes error classes such as "Binder Error: ".
 std::string without_class(std::string text) {
   static const std::regex kind(R"(^([A-Z][A-Za-z/-]*( [A-Za-z/-]+){0,4}) (Error|Exception): )");
   std::smatch found;
@@ -26,7 +26,7 @@ std::string without_class(std::string text) {
   return text;
 }
 
-/// "CSV Error on Line: 7", "Original Line: ...", and what is wrong.
+/// Builds a sentence from "CSV Error on Line: 7", "Original Line: ..." and the cause.
 std::string csv_sentence(const std::vector<std::string>& lines, const std::string& number) {
   std::string cause;
   for (std::size_t i = 1; i < lines.size() && cause.empty(); ++i) {
@@ -40,8 +40,8 @@ std::string csv_sentence(const std::vector<std::string>& lines, const std::strin
     cause = fmt::format("{} values where the heading has {}", found[2].str(), found[1].str());
   } else if (std::regex_search(cause, found, conversion)) {
     const std::string type = found[3].str();
-    cause = fmt::format("'{}' in column '{}' is no {}, as the cells before it are", found[2].str(),
-                        found[1].str(),
+    cause = fmt::format("'{}' in column '{}' is not a {}, unlike the cells above it",
+                        found[2].str(), found[1].str(),
                         type == "BIGINT"   ? "whole number"
                         : type == "DOUBLE" ? "number"
                                            : type);
@@ -61,15 +61,14 @@ std::string duckdb_sentence(const std::string& message) {
   static const std::regex extension(R"re(with name "(.*)" is not in the catalog, but it exists)re");
   std::smatch found;
   if (first.starts_with("Error when sniffing file"))
-    return "no table of text can be made of it; do all quotes close?";
+    return "it cannot be read as a table of text; check that all quotes are closed";
   if (std::regex_search(first, found, csv_line)) return csv_sentence(lines, found[1].str());
   if (std::regex_search(first, found, access))
-    return fmt::format("it may read no file but the one that is named as data, not '{}'",
-                       found[1].str());
+    return fmt::format("it may read only the data file, not '{}'", found[1].str());
   if (std::regex_search(first, found, no_table))
-    return fmt::format("there is no table '{}'; the file is the table data", found[1].str());
+    return fmt::format("there is no table '{}'; the file is the table 'data'", found[1].str());
   if (std::regex_search(first, found, extension))
-    return fmt::format("there is no function '{}'; extensions of SQL are off", found[1].str());
+    return fmt::format("there is no function '{}'; SQL extensions are disabled", found[1].str());
   return first;
 }
 

@@ -4,8 +4,8 @@
 
 namespace wearwell {
 
-/// What DuckDB says, as one sentence without its classes of errors and its options: "line 7:
-/// 'oops' in column 'v' is no number, as the cells before it are".
+/// A DuckDB message as one sentence, without error classes and options: "line 7: 'oops' in column
+/// 'v' is not a number, unlike the cells above it".
 std::string duckdb_sentence(const std::string& message);
 
 }  // namespace wearwell

@@ -25,7 +25,7 @@ void refuse_doubt(const std::string& source, const std::string& doubt) {
   if (!doubt.empty()) throw InputError(fmt::format("{}, {}", source, doubt));
 }
 
-/// What a text says of its column.
+/// The column of a text layout.
 void describe(const DuckdbSession& session, Column& column) {
   const TextColumn* const known = session.column(column.name);
   if (!known) return;
@@ -35,15 +35,15 @@ void describe(const DuckdbSession& session, Column& column) {
   column.unit_in_cells = known->unit_in_cells;
 }
 
-/// Appends texts as they are shown everywhere (base/printable.h), so that a label is the same in the
-/// study, in what is written, and where a command asks for it.
+/// Appends texts in printable form (base/printable.h), so that a label is the same in the study, in
+/// output and in options of commands.
 void append_words(duckdb_vector vector, idx_t count, std::vector<std::string>& words) {
   const std::size_t before = words.size();
   append_text(vector, count, words);
   for (std::size_t i = before; i < words.size(); ++i) words[i] = printable(words[i], "\n\t");
 }
 
-/// Adds the columns of the table `result`: all numbers as double, all else as text.
+/// Adds the columns of the table `result`: numbers as double, everything else as text.
 void add_result(const DuckdbSession& session, bool described, Table& table) {
   std::vector<std::string> selected;
   {
@@ -99,7 +99,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
 
 namespace {
 
-/// As a text has it, so that it is read back to the bit.
+/// The shortest text that reads back to the same double.
 std::string written_cell(const Table& table, const Column& column, bool numbers, std::size_t row) {
   if (!numbers) return csv_cell(column.text[row]);
   const double number = cell_number(table, column, row);
@@ -139,7 +139,7 @@ Table query_table(const Table& table, const std::string& sql, const QueryLimits&
   return result;
 }
 
-/// Rows come as they are asked for instead of all at once.
+/// Rows are fetched on demand instead of all at once.
 struct ColumnStream::State {
   TableFile file;
   DuckdbSession session;
@@ -148,7 +148,7 @@ struct ColumnStream::State {
   duckdb_prepared_statement statement = nullptr;
   duckdb_result result{};
   bool running = false;
-  // Of the column that holds words, where there is one.
+  // For the column of words, if there is one.
   std::optional<std::size_t> named;
   std::vector<std::string> words;
   std::unordered_map<std::string, double> place_of_word;
@@ -221,7 +221,7 @@ void ColumnStream::select(const std::vector<std::string>& columns, const std::st
       refuse_doubt(source(), text->doubt);
     if (at == state_->headings.end() ||
         !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())]) {
-      // Without rows there is nothing to tell numbers by.
+      // Without rows, column types are unknown.
       DuckdbResult any(state_->session, "select 1 from data limit 1");
       duckdb_data_chunk chunk = any.next();
       const bool has_rows = chunk && duckdb_data_chunk_get_size(chunk) > 0;

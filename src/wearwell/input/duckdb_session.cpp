@@ -24,16 +24,16 @@
 namespace wearwell {
 namespace {
 
-// Without BOOLEAN: a column of the letter F alone (failures) would be read as false. Without BIGINT:
-// where the first thousands of cells are whole numbers, 2.5 would be read as 3.
+// Without BOOLEAN, because a column with only the letter F (failures) would be read as false.
+// Without BIGINT, because 2.5 after thousands of whole numbers would be read as 3.
 constexpr const char* csv_types = "['DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
 
-/// Half of the machine's memory, in MB; what a table may take within DuckDB.
+/// The memory limit of DuckDB: half of the machine's memory, in MB.
 long memory_limit() {
   return sysconf(_SC_PHYS_PAGES) / 2 * (sysconf(_SC_PAGESIZE) / 1024) / 1024;
 }
 
-/// Interrupts what runs on a connection when its time is over.
+/// Interrupts the query of a connection at its deadline.
 class Deadline {
  public:
   Deadline(duckdb_connection connection, double seconds)
@@ -61,20 +61,19 @@ class Deadline {
   std::thread thread_;
 };
 
-/// What a study may say of this kind of table, and what a sheet says itself. Throws InputError.
+/// Checks that the settings apply to this kind of table. Throws InputError.
 TableSettings settings_for(const TableFile& file, TableSettings settings) {
   const bool workbook = file.format() == TableFormat::workbook;
   if (!workbook && (settings.sheet || settings.range || settings.hidden_rows))
     throw InputError(fmt::format(
-        "{} is no workbook: sheet, range and hidden_rows are keys for .xlsx", file.source()));
+        "{} is not a workbook; sheet, range and hidden_rows are keys for .xlsx", file.source()));
   if (workbook && (settings.delimiter || settings.encoding))
     throw InputError(fmt::format(
         "{}: delimiter and encoding are keys for tables of text (.csv, .txt)", file.source()));
   if (file.format() != TableFormat::text && !workbook &&
       (settings.decimal || settings.thousands || settings.delimiter || settings.encoding))
     throw InputError(fmt::format(
-        "{}: its numbers need no marks: decimal, thousands, delimiter and encoding are keys for "
-        "tables of text (.csv, .txt)",
+        "{}: decimal, thousands, delimiter and encoding are keys for tables of text (.csv, .txt)",
         file.source()));
   if (file.format() != TableFormat::text && !workbook &&
       (settings.header_row || settings.units_row || settings.summary_rows || settings.comment))
@@ -189,7 +188,7 @@ DuckdbSession::~DuckdbSession() {
   close();
 }
 
-/// Ends a query that still runs, and the threads that work for it.
+/// Ends a running query and its worker threads.
 void DuckdbSession::close() {
   if (connection_) duckdb_interrupt(connection_);
   close_duckdb([this] {
@@ -200,14 +199,15 @@ void DuckdbSession::close() {
 
 void DuckdbSession::fail(const std::string& message) const {
   if (message.starts_with("Out of Memory"))
-    throw MachineError(fmt::format("{} does not fit into the {} MB that a table may take here",
+    throw MachineError(fmt::format("{} exceeds the memory limit of {} MB for tables",
                                    file_.source(), memory_limit()));
   if (layout_ && !rewritten_) {
-    // Far below what was looked at there may be a line that is none.
+    // A line far below the inspected ones may be invalid UTF-8.
     const TextLayout whole = find_layout(read(), settings_, true);
     if (whole.encoding != layout_->encoding)
-      throw InputError(fmt::format("{} is not UTF-8 in all lines; say encoding = \"{}\" in [data]",
-                                   file_.source(), encoding_name(whole.encoding)));
+      throw InputError(
+          fmt::format("{} is not UTF-8 in all lines; state encoding = \"{}\" in [data]",
+                      file_.source(), encoding_name(whole.encoding)));
   }
   const std::string what = sentence(message);
   throw InputError(
@@ -232,8 +232,8 @@ const TextColumn* DuckdbSession::column(const std::string& name) const {
   return found == layout_->columns.end() ? nullptr : &*found;
 }
 
-// DuckDB gives the second of two columns of one name another name. The schema is a tree, its root first; what lies within a
-// column is no column.
+// DuckDB renames the second of two columns with one name, so names are read from the Parquet
+// schema. It is a tree, root first; children of a column are not columns.
 void DuckdbSession::refuse_equal_columns() const {
   DuckdbResult schema(*this, fmt::format("select cast(name as varchar), "
                                          "cast(coalesce(num_children, 0) as double) "
@@ -254,8 +254,8 @@ void DuckdbSession::refuse_equal_columns() const {
   refuse_equal_names(names, file_.source());
 }
 
-/// The text that makes DuckDB read the file. Nothing is left to guessing that could drop or join
-/// lines: comments, leading lines, ragged lines, patterns in names, columns out of folders.
+/// The SQL that reads the file. Disables all detection that could drop or join lines: comments,
+/// leading lines, ragged lines, patterns in names, columns from folder names.
 std::string DuckdbSession::reader() const {
   const std::string path = quoted(read().path(), '\'');
   const char* packed = file_.gzip() ? "gzip" : "uncompressed";
@@ -299,7 +299,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     const char* error = duckdb_extract_statements_error(statements);
     reason = error ? describe(error) : "it is empty";
   } else if (count > 1) {
-    reason = "it must be one SELECT, and nothing behind it";
+    reason = "it must be one SELECT, with nothing after it";
   } else {
     duckdb_prepared_statement statement = nullptr;
     const bool prepared = duckdb_prepare_extracted_statement(session.connection(), statements, 0,
@@ -307,7 +307,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     if (!prepared) {
       reason = describe(duckdb_prepare_error(statement));
     } else if (duckdb_prepared_statement_type(statement) != DUCKDB_STATEMENT_TYPE_SELECT) {
-      reason = "it must be one SELECT; nothing else is possible";
+      reason = "it must be one SELECT";
     } else if (duckdb_nparams(statement) > 0) {
       reason = "it has a parameter ('?' or '$'), for which there is no value";
     }
@@ -327,9 +327,9 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     const std::string message =
         duckdb_result_error(&result) ? duckdb_result_error(&result) : "an unknown error";
     if (message.starts_with("INTERRUPT")) {
-      reason = fmt::format("it takes more than the {:g} seconds that it may", limits.seconds);
+      reason = fmt::format("it exceeds the time limit of {:g} seconds", limits.seconds);
     } else if (message.starts_with("Out of Memory")) {
-      reason = fmt::format("it takes more than the {} MB of memory that it may", memory_limit());
+      reason = fmt::format("it exceeds the memory limit of {} MB", memory_limit());
     } else {
       reason = describe(message.c_str());
     }

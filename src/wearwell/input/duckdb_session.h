@@ -14,8 +14,8 @@
 
 namespace wearwell {
 
-/// A database in memory that can read one file and nothing else: no other file, no network, no
-/// extension, no file of its own; its configuration is locked. The file is its view `data`.
+/// An in-memory database that can read one file and nothing else: no other file, no network, no
+/// extension, no temporary file; its configuration is locked. The file is its view `data`.
 class DuckdbSession {
  public:
   /// Throws InputError: the file cannot be read as a table.
@@ -26,17 +26,17 @@ class DuckdbSession {
 
   duckdb_connection connection() const { return connection_; }
   const TableFile& file() const { return file_; }
-  /// Of a text or a sheet.
+  /// The layout of a text or a sheet.
   const std::optional<TextLayout>& layout() const { return layout_; }
-  TableLayout layout_text() const;  ///< empty of other files
+  TableLayout layout_text() const;  ///< empty for other files
   const TextColumn* column(const std::string& name) const;
-  /// Where each row stands, where that is not in the line behind the row before it.
+  /// The line of each row, if rows are not in consecutive lines.
   std::vector<std::size_t>& lines() { return lines_; }
 
-  /// A message of DuckDB in the words of the user's file.
+  /// Translates a message of DuckDB to the user's file and columns.
   std::string sentence(const std::string& message) const;
 
-  /// Throws InputError that says what is wrong with the file, MachineError without memory.
+  /// Throws InputError that states the problem of the file, or MachineError if memory runs out.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -58,7 +58,7 @@ class DuckdbSession {
 /// Rows of a query.
 class DuckdbResult {
  public:
-  /// Throws as DuckdbSession::fail does.
+  /// Throws like DuckdbSession::fail.
   DuckdbResult(const DuckdbSession& session, const std::string& query);
   ~DuckdbResult() { duckdb_destroy_result(&result_); }
   DuckdbResult(const DuckdbResult&) = delete;
@@ -74,13 +74,13 @@ class DuckdbResult {
 };
 
 bool is_number(duckdb_type type);
-/// NaN where there is no value.
+/// NaN for a missing value.
 void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out);
-/// Empty where there is no value.
+/// Empty for a missing value.
 void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& out);
 
-/// Makes the user's query the table `result`. Throws QueryError: it is not one SELECT, it asks for
-/// what it may not, it fails, or it takes more memory or time than `limits`.
+/// Runs the user's query into the table `result`. Throws QueryError if it is not one SELECT, is
+/// forbidden, fails, or exceeds `limits`.
 void run_query(const DuckdbSession& session, const std::string& query, const QueryLimits& limits);
 
 }  // namespace wearwell

@@ -54,7 +54,7 @@ class Database {
   Database() {
     if (duckdb_open(nullptr, &database_) != DuckDBSuccess ||
         duckdb_connect(database_, &connection_) != DuckDBSuccess)
-      throw MachineError("DuckDB does not start");
+      throw MachineError("cannot start DuckDB");
   }
   ~Database() {
     duckdb_disconnect(&connection_);
@@ -63,7 +63,7 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// What DuckDB says of a failure; empty where there is none.
+  /// DuckDB's error message; empty if there is none.
   std::string run(const std::string& query) {
     duckdb_result result;
     const bool done = duckdb_query(connection_, query.c_str(), &result) == DuckDBSuccess;

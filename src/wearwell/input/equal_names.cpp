@@ -19,10 +19,10 @@ void refuse_equal_names(const std::vector<std::string>& names, const std::string
     if (names[other->second] == name)
       throw InputError(fmt::format("{} has two columns named '{}': columns {} and {}; rename one",
                                    source, name, other->second + 1, i + 1));
-    throw InputError(fmt::format(
-        "{} has two columns, '{}' (column {}) and '{}' (column {}), that differ by capital "
-        "letters only; rename one",
-        source, names[other->second], other->second + 1, name, i + 1));
+    throw InputError(
+        fmt::format("{} has two columns, '{}' (column {}) and '{}' (column {}), whose names differ "
+                    "only in case; rename one",
+                    source, names[other->second], other->second + 1, name, i + 1));
   }
 }
 

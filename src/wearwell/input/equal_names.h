@@ -5,8 +5,8 @@
 
 namespace wearwell {
 
-/// Throws InputError, which names `source` and both columns, where two of a table's headings are the same or differ by capital letters
-/// only: a name would mean either. Empty headings have no name.
+/// Throws InputError that names `source` and both columns if two headings of a table are equal or
+/// differ only in case, because a name would be ambiguous. Ignores empty headings.
 void refuse_equal_names(const std::vector<std::string>& names, const std::string& source);
 
 }  // namespace wearwell

@@ -30,7 +30,7 @@ std::string ReadFile::sha1() const {
   if (!before_) return {};
   std::string digits = wearwell::sha1(file_);
   if (look() != before_)
-    throw InputError(fmt::format("{} was changed while it was read: try again", file_.string()));
+    throw InputError(fmt::format("{} changed while it was read; try again", file_.string()));
   return digits;
 }
 

@@ -8,16 +8,16 @@
 
 namespace wearwell {
 
-/// SHA-1 of a file, 40 hexadecimal digits, as `sha1sum` prints it: says whether two people have the
-/// same data. Throws InputError when the file cannot be read.
+/// SHA-1 of a file, 40 hexadecimal digits as printed by `sha1sum`, to compare data files. Throws
+/// InputError if the file cannot be read.
 std::string sha1(const std::filesystem::path& file);
 
-/// A file while it is read by others: made before, asked after. Of what is no plain file (a pipe,
-/// several files) nothing can be said: the SHA-1 is empty.
+/// Detects changes of a file while other code reads it: construct it before reading, check it
+/// after. The SHA-1 is empty for anything but a regular file (a pipe, several files).
 class ReadFile {
  public:
   explicit ReadFile(std::filesystem::path file);
-  /// Throws InputError when the file was changed since.
+  /// Throws InputError if the file has changed.
   std::string sha1() const;
 
  private:
@@ -32,8 +32,8 @@ class ReadFile {
   std::optional<State> before_;
 };
 
-/// SHA-1 of what was observed, to 12 digits (so that the unit of a column does not matter): equal
-/// for studies of the same data, however they read them.
+/// SHA-1 of the observed values, rounded to 12 digits so that the unit of a column does not matter.
+/// Equal for studies of the same data.
 std::string fingerprint(const std::string& quantity, const std::vector<double>& observed);
 
 }  // namespace wearwell

@@ -1,7 +1,8 @@
 #pragma once
 
-// The only way to toml++. Some text that is no TOML ("[.=") breaks an assertion of it, and without its assertions the
-// behaviour is undefined. So they are on here, and throw: in the headers, because Debian's library is built without.
+// Includes toml++; use no other include. Some invalid TOML ("[.=") fails an assertion of toml++,
+// and without assertions the behavior is undefined. So its assertions are enabled and throw. It is
+// used as headers because Debian's library is built without assertions.
 namespace wearwell {
 
 struct NoToml {};

@@ -16,7 +16,7 @@ std::string trimmed(std::string_view text) {
   return boost::algorithm::trim_copy(std::string(text));
 }
 
-/// A factor that people write for a unit, 1000 or 10^6; not the number of a column.
+/// A factor written as a unit, 1000 or 10^6; not the number of a column.
 bool is_power_of_ten(const std::string& text) {
   const auto unit = parse_unit(text);
   if (!unit || !unit->dimension.empty() || !(unit->scale > 1)) return false;
@@ -38,7 +38,7 @@ bool is_unit(const std::string& text, std::string_view si, bool suffix = false) 
   }
 }
 
-/// The bracket that the last one closes.
+/// The bracket that matches the last closing one.
 std::size_t opening(std::string_view text, char open, char close) {
   int depth = 0;
   for (std::size_t i = text.size(); i-- > 0;) {
@@ -57,7 +57,7 @@ std::optional<Heading> in_brackets(std::string_view text, char open, char close)
                  false};
 }
 
-/// Square brackets with words behind: "depth [um] (left)", but not "a (log10[MPa])".
+/// Square brackets followed by words: "depth [um] (left)", but not "a (log10[MPa])".
 std::optional<Heading> within(const std::string& text) {
   const std::size_t last = text.rfind(']');
   if (last == text.npos) return {};
@@ -87,7 +87,7 @@ Heading read_heading(std::string_view heading, std::string_view si) {
     found->certain = without_times(found->unit) != found->unit;
     if (found->certain || is_unit(found->unit, si)) return *found;
   }
-  // The longest unit first: "speed in 1/min" is no "speed in 1" in minutes.
+  // Tries the longest unit first: "speed in 1/min" is not "speed in 1" per minute.
   constexpr std::array<std::string_view, 4> separators = {" / ", " in ", ", ", "/"};
   for (const std::string_view separator : separators) {
     const std::size_t at = text.find(separator);

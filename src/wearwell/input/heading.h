@@ -8,24 +8,23 @@
 
 namespace wearwell {
 
-/// A heading and the unit that stands in it: "volume [mm³]", "volume [mm³] (left)", "volume (mm³)",
+/// A heading split into name and unit: "volume [mm³]", "volume [mm³] (left)", "volume (mm³)",
 /// "volume / mm³", "volume in mm³", "volume, mm³", "volume_mm3".
 struct Heading {
   std::string name;  ///< "volume"
-  std::string unit;  ///< "mm³"; empty where there is none
-  /// Whether the heading says that it is a unit, by square brackets or, as in "life (x1000)", by a
-  /// factor: it is one or an error. The other ways may mean something else, as in "life (N)" or
-  /// "stress_a".
+  std::string unit;  ///< "mm³"; empty without a unit
+  /// Whether the text must be a unit: it is in square brackets, or has a factor as in "life
+  /// (x1000)". The other forms are ambiguous, as in "life (N)" or "stress_a".
   bool certain = false;
-  bool suffix = false;  ///< the unit stands behind '_', where an index may stand as well
+  bool suffix = false;  ///< the unit follows '_', where an index is possible too
 };
-/// `si`: the dimension that a unit in an uncertain place must have to be one; empty for any unit.
+/// `si`: the dimension that an ambiguous unit must have; empty for any.
 Heading read_heading(std::string_view heading, std::string_view si);
 
-/// Whether a cell can be the unit of its column: "mm", "[mm]", "(mm)".
+/// Whether a cell may be the unit of its column: "mm", "[mm]", "(mm)".
 bool is_unit_cell(std::string_view cell);
 
-/// Without brackets around it; "1" for "-".
+/// The unit without brackets; "1" for "-".
 std::string bare_unit(std::string_view text);
 
 }  // namespace wearwell

@@ -40,7 +40,7 @@ bool all(const Words& words, const Property& property) {
   return std::all_of(words.begin(), words.end(), property);
 }
 
-// What its cells hold, in small letters; nothing where these are too many to be kinds of an end.
+// The distinct cells in lower case; empty if there are too many to be statuses.
 std::optional<Words> kinds_in(const Column& column, std::size_t rows) {
   constexpr std::size_t most = 6;
   Words words;
@@ -56,7 +56,7 @@ std::optional<Words> kinds_in(const Column& column, std::size_t rows) {
   return words;
 }
 
-// A heading that says how something ended, whatever stands around the word.
+// Whether a heading contains a word for a status.
 bool is_named_status(const std::string& heading) {
   if (failure_code_of(heading)) return true;
   const std::string letters = letters_of(heading);
@@ -66,13 +66,13 @@ bool is_named_status(const std::string& heading) {
          letters.find("cens") != letters.npos || letters.find("suspen") != letters.npos;
 }
 
-// Whether it calls every row a failure, as the study takes them.
+// Whether it marks every row as a failure, which is the default of the study.
 bool says_failure_throughout(const Column& column, const Words& kinds) {
   if (kinds.size() != 1) return false;
   const std::string& word = *kinds.begin();
   if (is_failure(word)) return true;
   if (!is_code(word)) return false;
-  // Of a heading that does not tell, that all lives were cut off is no reading.
+  // An unclear heading cannot mean that all lives are censored.
   const std::optional<int> code = failure_code_of(column.name);
   return !code || truth_in(word) == (*code == 1);
 }
@@ -90,7 +90,7 @@ bool looks_like_status(const Column& column, const Words& kinds, RowKind kind) {
   return truth_values || both_ends;
 }
 
-// Headings that keys of [data.columns] name.
+// Headings named by keys of [data.columns].
 std::set<std::string> named_columns(const TomlReader& columns, const Table& table) {
   std::set<std::string> names;
   for (const std::string& key : columns.keys()) {
@@ -103,7 +103,7 @@ std::set<std::string> named_columns(const TomlReader& columns, const Table& tabl
     if (!heading) continue;
     try {
       names.insert(table.column(*heading).name);
-    } catch (const InputError&) {  // its reader says so
+    } catch (const InputError&) {  // its reader reports this error
     }
   }
   return names;
@@ -123,8 +123,8 @@ std::string reading_as_status(const Column& column, const Words& kinds) {
   const auto truth = std::find_if(kinds.begin(), kinds.end(),
                                   [](const std::string& each) { return truth_in(each) == true; });
   return fmt::format(
-      "status = {{ column = \"{}\", failure = 1 }} where {} is a failure, or failure = 0 where it "
-      "is a runout",
+      "status = {{ column = \"{}\", failure = 1 }} if {} is a failure, or failure = 0 if it is a "
+      "runout",
       column.name, truth == kinds.end() ? "1" : *truth);
 }
 
@@ -144,13 +144,12 @@ void refuse_idle_status(const TomlReader& data, const Table& table, RowKind kind
     if (!sql.empty() && boost::algorithm::icontains(sql, bare(column))) continue;
     const std::optional<Words> kinds = kinds_in(column, table.rows);
     if (!kinds || !looks_like_status(column, *kinds, kind)) continue;
-    columns.fail(
-        "status",
-        fmt::format("is missing, and column '{}' of {} ({}) looks as if it said how each life "
-                    "ended: without it all {} rows are taken for failures. If it says that, write "
-                    "{}. If it says something else, write unused = [\"{}\"] under [data]",
-                    column.name, table.source, fmt::join(*kinds, ", "), table.rows,
-                    reading_as_status(column, *kinds), column.name));
+    columns.fail("status",
+                 fmt::format("is missing, and column '{}' of {} ({}) may state how each life "
+                             "ended; without it all {} rows count as failures. If it states that, "
+                             "write {}. If not, write unused = [\"{}\"] under [data]",
+                             column.name, table.source, fmt::join(*kinds, ", "), table.rows,
+                             reading_as_status(column, *kinds), column.name));
   }
 }
 

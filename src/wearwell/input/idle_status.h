@@ -5,14 +5,14 @@
 
 namespace wearwell {
 
-/// What the rows of a table are: of lives, any column of two truth values may say how they ended; of
-/// other measurements, one whose heading says so.
+/// The meaning of a table's rows. For lives, any column of two truth values may be a status; for
+/// other measurements, only a column with such a heading.
 enum class RowKind { life, measurement };
 
-/// Refuses a table with a column that looks as if it said how each life ended (life_status.h) where no key of [data.columns] and
-/// no `sql` names it: all lives would be taken for failures. `data` is the section [data], whose list `unused` names
-/// columns that say nothing of that. A column that calls every row a failure changes nothing and is let pass. Throws
-/// InputError with both readings.
+/// Refuses a table with a column that looks like a status (life_status.h) but is not named by a key
+/// of [data.columns] or by `sql`, because all lives would count as failures. The list `unused` of
+/// the section `data` names columns to ignore. A column that marks every row as a failure is
+/// accepted. Throws InputError that explains both readings.
 void refuse_idle_status(const TomlReader& data, const Table& table, RowKind kind);
 
 }  // namespace wearwell

@@ -15,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Our files need less than a dozen; what walks over a tree later does so by recursion.
+// Files of wearwell need less than a dozen levels; later code recurses over the tree.
 constexpr int deepest = 64;
 
-// Where in the text, as editors count.
+// Line and column of the text, as in editors.
 std::string place_of(const std::string& text, std::size_t byte) {
   std::size_t line = 1, column = 1;
   for (std::size_t i = 0; i + 1 < std::min(byte, text.size()); ++i) {
@@ -66,11 +66,11 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file) {
   try {
     return Json::parse(text, bounded);
   } catch (const Json::parse_error& error) {
-    throw InputError(fmt::format("{} is not JSON: it ends or goes wrong at {}", file.string(),
+    throw InputError(fmt::format("{} is not valid JSON: error at {}", file.string(),
                                  place_of(text, error.byte)));
   } catch (const Json::out_of_range&) {
     throw InputError(
-        fmt::format("{} is not JSON that can be read: a number is too large", file.string()));
+        fmt::format("{} cannot be read as JSON: a number is too large", file.string()));
   }
 }
 

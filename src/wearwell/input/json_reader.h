@@ -13,28 +13,28 @@
 
 namespace wearwell {
 
-/// Throws InputError with the file, and line and column of what is no JSON or nested beyond reason.
+/// Throws InputError with file, line and column of invalid or too deeply nested JSON.
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
-/// A value in a JSON file that anybody may have written. What is asked of it is checked; where it is
-/// something else, InputError names the file, the key ("parameters.k.mean", "stages[3].rows") and
-/// what may stand there. Refers to the JSON it was made of.
+/// A value in an untrusted JSON file. Every access is checked; InputError names the file, the key
+/// ("parameters.k.mean", "stages[3].rows") and the allowed values. Refers to the JSON it was made
+/// from.
 class JsonReader {
  public:
   using Json = nlohmann::ordered_json;
 
   JsonReader(const Json& json, const std::filesystem::path& file);
 
-  /// A member of an object.
+  /// The member of an object.
   JsonReader at(const std::string& key) const;
   std::optional<JsonReader> find(const std::string& key) const;  ///< when it is there
   std::vector<JsonReader> items() const;                         ///< of a list
   std::vector<std::pair<std::string, JsonReader>> members() const;
 
   double number() const;                ///< finite
-  double number(double least) const;    ///< finite, and not below
+  double number(double least) const;    ///< finite, at least `least`
   double positive() const;              ///< finite
-  double number_or(double null) const;  ///< `null` is how JSON writes what is not finite
+  double number_or(double null) const;  ///< JSON writes values that are not finite as null
   std::vector<double> numbers_or(double null) const;
   std::vector<double> numbers() const;  ///< each finite
   long long integer(long long least, long long most = std::numeric_limits<long long>::max()) const;

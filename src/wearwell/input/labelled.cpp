@@ -37,11 +37,11 @@ ColumnChoice find_labelled(const Table& table, std::string_view name, std::strin
     names.push_back(read_heading(column.name, si).name);
     if (column.name != name && names.back() != name) continue;
     if (found)
-      throw InputError(fmt::format(
-          "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): which is right? "
-          "Rename or remove the other",
-          table.source, name, found->name, found - table.columns.data() + 1, column.name,
-          names.size()));
+      throw InputError(
+          fmt::format("{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): rename "
+                      "or remove one of them",
+                      table.source, name, found->name, found - table.columns.data() + 1,
+                      column.name, names.size()));
     found = &column;
   }
   if (found) return labelled(table, *found, name, si);

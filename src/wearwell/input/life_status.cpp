@@ -15,7 +15,7 @@ namespace wearwell {
 
 namespace {
 
-// Where a failure is 0, the code tells how a life is censored; where it is 1, whether it ended.
+// With failure = 0 the code states how a life is censored; with failure = 1, whether it ended.
 std::optional<Censoring> find_code(int failure, const std::string& word) {
   if (const auto truth = truth_in(word))
     return *truth == (failure == 1) ? Censoring::none : Censoring::right;
@@ -37,7 +37,7 @@ std::optional<Censoring> find_own(const LifeStatus& status, const std::string& w
   return {};
 }
 
-// The words that the study has for each of the ends.
+// The study's words for each status.
 void add_own_words(const TomlReader& choice, LifeStatus& status) {
   const std::pair<const char*, Censoring> ends[] = {{"failure", Censoring::none},
                                                     {"runout", Censoring::right},
@@ -47,7 +47,7 @@ void add_own_words(const TomlReader& choice, LifeStatus& status) {
     if (choice.is_integer(key)) continue;
     for (const std::string& word : choice.texts(key)) {
       if (const auto before = find_own(status, word); before && before != seen)
-        choice.fail(key, fmt::format("'{}' stands for two ends", word));
+        choice.fail(key, fmt::format("'{}' is given for two statuses", word));
       status.words.emplace_back(folded_word(word), seen);
     }
   }
@@ -94,9 +94,9 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
       if (status.failure_code) return status;
       columns.fail(
           "status",
-          fmt::format("{}: {} can be read two ways: 0 a failure and 1 a runout (\"censored\"), or "
-                      "1 a failure and 0 a runout (\"event\"); write status = "
-                      "{{ column = \"{}\", failure = 0 }} or failure = 1, or words",
+          fmt::format("{}: {} is ambiguous: either 0 is a failure and 1 a runout (\"censored\"), "
+                      "or 1 is a failure and 0 a runout (\"event\"); write status = {{ column = "
+                      "\"{}\", failure = 0 }} or failure = 1, or use words",
                       place(table, status.column, i), word, status.column));
     }
   }
@@ -112,11 +112,11 @@ Censoring seen_in(const Table& table, const LifeStatus& status, std::size_t row)
   }
   if (word.empty())
     throw InputError(
-        fmt::format("{}: no value; how did this test end?", place(table, status.column, row)));
+        fmt::format("{}: no value; state how this test ended", place(table, status.column, row)));
   const auto near = near_status_word(word);
   throw InputError(fmt::format(
-      "{}: '{}' is no status; it is failure, runout (or right), left or interval (or F, S{}){}; a "
-      "word of yours is named in the study: status = {{ column = \"{}\", failure = \"{}\" }}, or "
+      "{}: '{}' is not a status; use failure, runout (or right), left or interval (or F, S{}){}; "
+      "or define your own word in the study: status = {{ column = \"{}\", failure = \"{}\" }}, or "
       "runout, left or interval = \"{}\"",
       place(table, status.column, row), word,
       !status.failure_code        ? "; or codes"

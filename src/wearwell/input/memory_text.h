@@ -8,7 +8,7 @@
 
 namespace wearwell {
 
-/// A CSV that is written to memory and then read as a file.
+/// A CSV written to memory and then read as a file.
 class MemoryText {
  public:
   /// Throws MachineError.
@@ -18,7 +18,7 @@ class MemoryText {
   MemoryText& operator=(const MemoryText&) = delete;
 
   void add_line(std::string_view line);
-  /// What was written; once. `source` is its name in messages.
+  /// The written text; call once. `source` is its name in messages.
   std::unique_ptr<TableFile> table(const std::string& source);
 
  private:

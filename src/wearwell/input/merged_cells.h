@@ -7,15 +7,15 @@
 
 namespace wearwell {
 
-/// Repeats what is merged over several rows in each of them.
+/// Repeats the content of cells merged over several rows in each of these rows.
 class MergedCells {
  public:
   explicit MergedCells(const std::vector<SheetRange>& ranges)
       : ranges_(ranges), values_(ranges.size()) {}
 
-  /// Of each row, in their order.
+  /// Call for each row, in order.
   void fill(SheetRow& row);
-  /// "merged cells A2:A4, A5:A7 read in each of their rows"; empty where none were.
+  /// "merged cells A2:A4, A5:A7 read in each of their rows"; empty if there are none.
   std::string description() const;
 
  private:

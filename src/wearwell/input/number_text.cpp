@@ -14,23 +14,23 @@ namespace {
 
 constexpr std::size_t longest_number = 64;
 
-/// A character of several bytes that stands for one.
+/// A multi-byte character and its ASCII equivalent.
 struct Stand {
   std::string_view bytes;
   char meant;
 };
-constexpr std::array<Stand, 6> stands = {{{"\xC2\xA0", ' '},        // does not break
-                                          {"\xE2\x80\xAF", ' '},    // narrow, does not break
-                                          {"\xE2\x80\x89", ' '},    // thin
-                                          {"\xE2\x80\x87", ' '},    // as wide as a digit
+constexpr std::array<Stand, 6> stands = {{{"\xC2\xA0", ' '},        // no-break space
+                                          {"\xE2\x80\xAF", ' '},    // narrow no-break space
+                                          {"\xE2\x80\x89", ' '},    // thin space
+                                          {"\xE2\x80\x87", ' '},    // figure space
                                           {"\xE2\x80\x99", '\''},   // typographic apostrophe
-                                          {"\xE2\x88\x92", '-'}}};  // minus
+                                          {"\xE2\x88\x92", '-'}}};  // minus sign
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The cell in ASCII and without blanks around it; nothing where other characters are in it.
+/// The cell in ASCII without surrounding blanks; empty if it has other characters.
 std::optional<std::string> in_ascii(std::string_view cell) {
   std::string text;
   for (std::size_t i = 0; i < cell.size();) {
@@ -52,12 +52,12 @@ std::optional<std::string> in_ascii(std::string_view cell) {
   return text;
 }
 
-/// The digits of a number: groups with one mark between each two.
+/// The digits of a number: groups separated by marks.
 struct Groups {
   static constexpr std::size_t most = 24;
   std::size_t count = 0;  ///< of groups
   std::array<std::size_t, most> length{};
-  std::array<char, most> mark{};  ///< mark[i] stands behind group i
+  std::array<char, most> mark{};  ///< mark[i] follows group i
   bool leading_zero = false, exponent = false;
 };
 
@@ -98,7 +98,7 @@ std::optional<Groups> groups_of(std::string_view text) {
   return groups;
 }
 
-/// Whether the first `count` groups are those of thousands: "1", "234", "567".
+/// Whether the first `count` groups are groups of thousands: "1", "234", "567".
 bool in_thousands(const Groups& groups, std::size_t count) {
   if (groups.length[0] < 1 || groups.length[0] > 3 || groups.leading_zero) return false;
   for (std::size_t i = 1; i < count; ++i) {
@@ -148,7 +148,7 @@ std::string shown_without(std::string text, char mark) {
 }  // namespace
 
 NumberForm number_form(std::string_view cell) {
-  // Most cells are numbers as C has them: no text is made of these.
+  // Most cells are numbers in C format and need no copy.
   bool simple = true;
   for (const char c : cell)
     simple = simple && static_cast<unsigned char>(c) < 0x80 && c != ' ' && c != '\t';
@@ -197,14 +197,14 @@ std::string two_readings(std::string_view cell) {
   const char mark = text.find(',') == text.npos ? '.' : ',';
   std::string decimal = text;
   std::replace(decimal.begin(), decimal.end(), ',', '.');
-  // "35.000" is 35, "1.250" is 1.25; "1.234.567" has the one reading only.
+  // "35.000" becomes 35 and "1.250" becomes 1.25; "1.234.567" is not ambiguous.
   if (std::count(decimal.begin(), decimal.end(), '.') == 1) {
     decimal.erase(decimal.find_last_not_of('0') + 1);
     if (decimal.back() == '.') decimal.pop_back();
   }
-  return fmt::format("'{}' can mean {} or, with a mark for thousands, {}; {}", text, decimal,
+  return fmt::format("'{}' can mean {} or, with a thousands separator, {}; {}", text, decimal,
                      shown_without(text, mark),
-                     "write it without the mark, or with one decimal more or less");
+                     "write it without the separator, or with one decimal more or less");
 }
 
 std::string not_a_number(std::string_view cell) {
@@ -216,11 +216,11 @@ std::string not_a_number(std::string_view cell) {
       readings.push_back(*plain);
   }
   if (readings.empty()) return refused;
-  // The larger first: the one without the mark.
+  // The reading without the mark first.
   std::sort(readings.begin(), readings.end(),
             [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
   return fmt::format("{}; it may mean {}: {}", refused, fmt::join(readings, " or "),
-                     "write numbers without marks for thousands and with a dot before decimals");
+                     "write numbers without thousands separators and with a decimal point");
 }
 
 }  // namespace wearwell

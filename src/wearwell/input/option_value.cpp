@@ -11,7 +11,7 @@ namespace wearwell {
 
 double checked_option(const std::string& option, const std::string& text, double value,
                       Allowed allowed) {
-  const char* reason = !std::isfinite(value) ? "is no finite number in SI units"
+  const char* reason = !std::isfinite(value)                           ? "is not finite in SI units"
                        : allowed == Allowed::positive && !(value > 0)  ? "must be positive"
                        : allowed == Allowed::not_negative && value < 0 ? "must not be negative"
                                                                        : nullptr;

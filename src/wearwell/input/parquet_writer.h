@@ -5,7 +5,7 @@
 
 namespace wearwell {
 
-/// A column of numbers to be written; NaN is no value.
+/// A column of numbers; NaN is a missing value.
 struct NumberColumn {
   std::string name;
   std::vector<double> values;
@@ -17,9 +17,9 @@ struct WordColumn {
   std::vector<std::string> values;
 };
 
-/// A Parquet file of columns of equal length, as its bytes. Throws MachineError.
+/// The bytes of a Parquet file with columns of equal length. Throws MachineError.
 std::string parquet_of(const std::vector<NumberColumn>& columns);
-/// The texts first. There is one column at least.
+/// Text columns come first. At least one column is required.
 std::string parquet_of(const std::vector<WordColumn>& texts,
                        const std::vector<NumberColumn>& columns);
 

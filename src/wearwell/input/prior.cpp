@@ -13,7 +13,7 @@
 namespace wearwell {
 namespace {
 
-// Each once, in the order of the list.
+// Unique names, in the order of the list.
 const std::vector<std::string>& names() {
   static const auto all = [] {
     std::vector<std::string> found;
@@ -26,7 +26,7 @@ const std::vector<std::string>& names() {
   return all;
 }
 
-// Families on the whole line; flat and uniform among them.
+// Families on the whole real line, including flat and uniform.
 std::vector<std::string> names_of_logarithms() {
   std::vector<std::string> found;
   for (const ResponseForm& form : prior_forms()) {
@@ -35,7 +35,7 @@ std::vector<std::string> names_of_logarithms() {
   return found;
 }
 
-// Reads one prior, and remembers the unit it was written in.
+// Reads one prior and keeps the unit of its quantities.
 class PriorReader {
  public:
   PriorReader(const TomlReader& table, const ParameterSpec& spec) : table_(table), spec_(spec) {
@@ -69,16 +69,16 @@ class PriorReader {
   Unit unit() const {
     if (unit_) return *unit_;
     if (may_be_plain(spec_.si)) return Unit{"1", 1, 0};
-    table_.fail(
-        "",
-        fmt::format("no quantity here has a unit; add unit = \"{}\", or any other of its dimension",
-                    spec_.si));
+    table_.fail("", fmt::format("no quantity of this prior has a unit; add unit = \"{}\" or "
+                                "another unit of its dimension",
+                                spec_.si));
   }
 
  private:
-  // That of its parameter forms whose parameters are given; else that of which the most are, which then says what is missing.
+  // The parameter form whose parameters are given; else the form with the most given parameters,
+  // for the message about missing ones.
   const ResponseForm& stated_form(const std::string& distribution) const {
-    // Not by table_.has, after which a key that the form does not have counts as one that was asked for.
+    // Does not use table_.has, which would mark keys of other forms as used.
     const std::vector<std::string> keys = table_.keys();
     const auto has = [&](std::string_view key) {
       return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -100,7 +100,8 @@ class PriorReader {
   void refuse_form(const ResponseForm& form) const {
     if (form.family == ResponseFamily::uniform) {
       for (const char* end : {"lower", "upper"}) {
-        if (!table_.has(end)) table_.fail(end, "is missing: a uniform law has both bounds");
+        if (!table_.has(end))
+          table_.fail(end, "is missing; a uniform distribution needs both bounds");
       }
     }
     if (is_logarithm(spec_.si) && form.positive) {
@@ -108,11 +109,12 @@ class PriorReader {
                                               fmt::join(names_of_logarithms(), ", "), form.name));
     }
     if (form.family == ResponseFamily::beta && spec_.si != "1") {
-      table_.fail("distribution", "a beta law lies between 0 and 1: it is only for a plain number");
+      table_.fail("distribution",
+                  "a beta distribution lies between 0 and 1; use it only for a plain number");
     }
   }
 
-  // Of a logarithm sizes are plain numbers.
+  // For a logarithm, scale parameters are plain numbers.
   double parameter(const char* key, ParameterKind kind) {
     const bool dimensional =
         kind == ParameterKind::place || (kind == ParameterKind::size && !is_logarithm(spec_.si));
@@ -148,7 +150,7 @@ class PriorReader {
   std::optional<Unit> unit_;
 };
 
-// A value strictly inside the support, the guess where that is possible.
+// A value strictly inside the support; the guess if possible.
 double start_inside(const Distribution& distribution, double guess) {
   if (distribution.lower < guess && guess < distribution.upper) return guess;
   if (std::isfinite(distribution.lower) && std::isfinite(distribution.upper))
@@ -173,7 +175,7 @@ struct StatedPrior {
   Unit unit;
 };
 
-// `fail(key, message)` refuses what the study says, or the default where it says nothing.
+// `fail(key, message)` reports an error of the stated prior, or of the default.
 Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, const auto& fail) {
   Parameter parameter{spec.name, spec.si, stated.unit, stated.distribution, {}};
   parameter.natural_lower = spec.natural_lower;
@@ -193,7 +195,7 @@ Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, c
     parameter.start = start_inside(parameter.prior, spec.guess);
     parameter.scale = spread(parameter.prior, parameter.start);
   } catch (const std::runtime_error&) {  // of Boost's quantiles
-    fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
+    fail("", "the distribution is too wide or too narrow: its quantiles are not finite");
   }
   if (!(parameter.prior.lower < parameter.start && parameter.start < parameter.prior.upper)) {
     fail("", fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
@@ -201,30 +203,30 @@ Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, c
                          from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
   }
   if (!(parameter.scale > 0 && std::isfinite(parameter.scale))) {
-    fail("", "the law is so wide or so narrow that its spread is no number to count with");
+    fail("",
+         "the distribution is too wide or too narrow: its spread is not a positive finite number");
   }
   return parameter;
 }
 
-// `table` is where the study says nothing of it, under `key` or as a whole.
+// `table` lacks the prior, under `key` or as a whole.
 Parameter default_parameter(const TomlReader& table, const char* key, const ParameterSpec& spec) {
   if (!spec.fallback) {
     table.fail(
-        key,
-        fmt::format("no prior for {}; write {} = {{ distribution = \"flat\", unit = \"{}\" }} if "
-                    "nothing is known",
-                    spec.name, spec.name, spec.si));
+        key, fmt::format("no prior for {}; write {} = {{ distribution = \"flat\", unit = \"{}\" }} "
+                         "if you have no prior knowledge",
+                         spec.name, spec.name, spec.si));
   }
   const DefaultPrior& prior = *spec.fallback;
-  Parameter parameter =
-      make_parameter(spec,
-                     {prior.distribution, prior.family, prior.lower,
-                      std::numeric_limits<double>::infinity(), read_unit(prior.unit, spec.si)},
-                     [&](const char*, const std::string& message) {
-                       table.fail(key, fmt::format("the data have no size for a default prior of "
-                                                   "{}: {}; state one",
-                                                   spec.name, message));
-                     });
+  Parameter parameter = make_parameter(
+      spec,
+      {prior.distribution, prior.family, prior.lower, std::numeric_limits<double>::infinity(),
+       read_unit(prior.unit, spec.si)},
+      [&](const char*, const std::string& message) {
+        table.fail(key,
+                   fmt::format("the data do not determine a default prior of {}: {}; state a prior",
+                               spec.name, message));
+      });
   parameter.is_default = true;
   return parameter;
 }

@@ -9,16 +9,16 @@
 
 namespace wearwell {
 
-/// The prior of a parameter of which the study says nothing: weak, what the field knows or what units
-/// and the size of the data say, never what a fit says. docs/reference/priors.md has them all.
+/// The default prior of a parameter: weak, from knowledge of the field or from the units and
+/// magnitude of the data, never from a fit. docs/reference/priors.md lists all.
 struct DefaultPrior {
-  std::string distribution;  ///< as in study files: "lognormal"
+  std::string distribution;  ///< name in study files: "lognormal"
   Family family;             ///< SI
   std::string unit;
   double lower = -std::numeric_limits<double>::infinity();
 };
 
-/// What a model says of one of its parameters, before any belief.
+/// A model's specification of one of its parameters.
 struct ParameterSpec {
   std::string name;
   std::string si;  ///< SI unit
@@ -28,21 +28,22 @@ struct ParameterSpec {
   std::optional<DefaultPrior> fallback = {};
 };
 
-/// The size of positive data for a default: 1, 2 or 5 times a power of ten, not below `x`.
+/// The magnitude of positive data for a default prior: 1, 2 or 5 times a power of ten, at least
+/// `x`.
 double rounded_up(double x);
 
-/// Reads [prior] NAME = { distribution = ..., ... } and makes the parameter. The parameter's unit is the one
-/// its prior is written in.
+/// Reads [prior] NAME = { distribution = ..., ... } and makes the parameter. The parameter has the unit of
+/// its prior.
 ///
 ///   flat       lower, upper (both optional)
 ///   uniform    lower, upper
-///   any family of prior_forms() (prob/family_form.h) with its parameters, a place or a size as a
-///              quantity of the parameter's dimension, all else as plain numbers
+///   any family of prior_forms() (prob/family_form.h) with its parameters, a location or a scale
+///              as a quantity of the parameter's dimension, all else as plain numbers
 ///
-/// each truncated by lower and upper; `unit` where no quantity names one. Where nothing stands there,
-/// or distribution = "default", it is the model's default; without one that is refused.
+/// each truncated by lower and upper; `unit` if no quantity names one. Without an entry, or with
+/// distribution = "default", it is the model's default; an error if there is none.
 Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec);
-/// The same where [prior] may be missing from `root`.
+/// The same if [prior] may be missing from `root`.
 Parameter read_prior(const TomlReader& root, const std::optional<TomlReader>& priors,
                      const ParameterSpec& spec);
 

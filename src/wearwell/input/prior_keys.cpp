@@ -11,7 +11,7 @@
 namespace wearwell {
 namespace {
 
-// Forms of priors by name without those with a threshold, which is never needed.
+// Forms of priors by name, except those with a threshold, which is optional.
 std::vector<const ResponseForm*> forms_of(std::string_view name) {
   std::vector<const ResponseForm*> found;
   for (const ResponseForm& form : prior_forms()) {
@@ -31,7 +31,8 @@ void add_new(std::vector<std::string>& conditions, const std::string& each) {
     conditions.push_back(each);
 }
 
-// When a law needs the slot: of two parameter forms the first where another of its slots is given, else the last.
+// When a distribution needs the parameter: for the first of two parameter forms if another of its
+// parameters is given, else for the last.
 void add_conditions(std::string_view distribution, const ParameterForm& slot, StudyKey& key) {
   const std::vector<const ResponseForm*> forms = forms_of(distribution);
   const ResponseForm &first = *forms.front(), &last = *forms.back();
@@ -61,7 +62,7 @@ StudyKey key_of(const ParameterForm& slot) {
   static const std::map<std::string_view, const char*> meanings = {
       {"sd", "standard deviation"},
       {"log_sd", "standard deviation of the natural logarithm"},
-      {"log10_sd", "standard deviation of the decadic logarithm"},
+      {"log10_sd", "standard deviation of the decimal logarithm"},
       {"df", "degrees of freedom"},
       {"alpha", "first shape"},
       {"beta", "second shape"},
@@ -89,8 +90,8 @@ StudyKey key_of(const ParameterForm& slot) {
 
 StudyKeys prior_keys() {
   StudyKeys keys = {
-      needed_key("prior.*.distribution", "\"normal\"", "law: see [priors.md](priors.md)"),
-      {"prior.*.unit", "\"mm^3\"", "unit to report in; needed where no quantity has one"},
+      needed_key("prior.*.distribution", "\"normal\"", "distribution: see [priors.md](priors.md)"),
+      {"prior.*.unit", "\"mm^3\"", "unit of reports; needed if no quantity has one"},
       needed_key("prior.*.lower", "\"0 mm^3\"", "lower bound; needed by uniform", {},
                  {".distribution=uniform"}),
       needed_key("prior.*.upper", "\"15 mm^3\"", "upper bound; needed by uniform", {},

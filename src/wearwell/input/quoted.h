@@ -4,7 +4,7 @@
 
 namespace wearwell {
 
-/// A name or a text of SQL between quotes, those within it doubled.
+/// Quotes a name or a text for SQL; doubles quotes inside.
 inline std::string quoted(const std::string& text, char quote) {
   std::string out(1, quote);
   for (const char c : text) out += c == quote ? std::string(2, c) : std::string(1, c);

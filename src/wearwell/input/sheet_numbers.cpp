@@ -27,7 +27,7 @@ void SheetNumbers::look_at(std::size_t column, std::size_t row, const std::strin
   if (number.empty()) return;
   const NumberForm form = number_form(number);
   char shown = form.decimal;
-  // A mark for thousands cannot be the decimal mark.
+  // The thousands separator cannot be the decimal mark.
   if (!shown && form.thousands == '.') shown = ',';
   if (!shown && form.thousands == ',') shown = '.';
   if (!shown && !form.doubtful) return;
@@ -67,11 +67,13 @@ std::map<std::size_t, std::string> SheetNumbers::doubts() const {
     if (seen.point && seen.comma) {
       all[column] = fmt::format(
           "the text '{}' in row {} of the sheet has a decimal comma and '{}' in row {} a decimal "
-          "point; a column has one of them (say which in [data], as in decimal = \",\")",
+          "point; a column must have one decimal mark (state it in [data], for example decimal = "
+          "\",\")",
           seen.comma->cell, seen.comma->row, seen.point->cell, seen.point->row);
     } else if (seen.doubtful) {
       all[column] = fmt::format(
-          "row {} of the sheet: the text {}; or say in [data] which it is, as in decimal = \",\"",
+          "row {} of the sheet: the text {}; or state the decimal mark in [data], for example "
+          "decimal = \",\"",
           seen.doubtful->row, two_readings(number_part(seen.doubtful->cell)));
     }
   }

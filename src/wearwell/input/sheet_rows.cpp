@@ -19,8 +19,8 @@ SheetRange read_sheet_range(const std::string& text, const std::string& source) 
   if (!rest.empty() || !has_columns || range.last.column > most_sheet_columns ||
       range.last.row > most_sheet_rows || range.first.column > range.last.column ||
       range.first.row > range.last.row)
-    throw InputError(
-        fmt::format("{}: '{}' is no range of a sheet; write one like B3:F20 or B:F", source, text));
+    throw InputError(fmt::format("{}: '{}' is not a range of a sheet; write one like B3:F20 or B:F",
+                                 source, text));
   return range;
 }
 

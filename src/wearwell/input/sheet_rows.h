@@ -10,11 +10,11 @@ namespace wearwell {
 
 inline constexpr std::size_t most_sheet_columns = 16'384, most_sheet_rows = 1'048'576;
 
-/// A cell that holds something.
+/// A non-empty cell.
 struct SheetCell {
   std::size_t column = 0;
   std::string text;
-  bool is_text = false;  ///< and no number, date or truth value
+  bool is_text = false;  ///< not a number, date or truth value
 };
 
 struct SheetRow {
@@ -23,7 +23,7 @@ struct SheetRow {
   std::vector<SheetCell> cells;  ///< by column
 };
 
-/// A part of a sheet, both ends included.
+/// A range of a sheet, both ends included.
 struct SheetRange {
   CellName first{1, 1}, last{most_sheet_columns, most_sheet_rows};
 };

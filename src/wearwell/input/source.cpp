@@ -19,8 +19,8 @@ Source source_of(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, ignored) &&
       std::find(tables.begin(), tables.end(), file.extension().string()) != tables.end()) {
     throw InputError(
-        fmt::format("{} is a table, not a study; a study (TOML) names it: data.file = \"{}\" "
-                    "(wearwell new writes one to start from)",
+        fmt::format("{} is a table, not a study; name it in a study (TOML) with data.file = \"{}\" "
+                    "(wearwell new writes a first study)",
                     valid_utf8(file.string()), valid_utf8(file.filename().string())));
   }
   return {read_text_file(file)};
@@ -45,7 +45,7 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
 std::filesystem::path required_file(const TomlReader& section, const std::string& key,
                                     const std::filesystem::path& folder) {
   const std::string name = section.required_text(key);
-  if (name.empty() || name.find('\0') != name.npos) section.fail(key, "names no file");
+  if (name.empty() || name.find('\0') != name.npos) section.fail(key, "is not given");
   std::filesystem::path file = folder / name;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
@@ -78,11 +78,11 @@ TableSettings read_table_settings(const TomlReader& section) {
   settings.decimal = one_sign(section, "decimal", {".", ","});
   settings.thousands = one_sign(section, "thousands", {".", ",", "'", " ", "none"});
   if (settings.decimal && settings.thousands == settings.decimal)
-    section.fail("thousands", "is the decimal mark as well");
+    section.fail("thousands", "is also the decimal mark");
   settings.delimiter = one_sign(section, "delimiter", {",", ";", "\t", "tab", "|"});
   if (const auto encoding = section.choice(
           "encoding", {"utf-8", "utf-16", "cp1252", "latin-1", "iso-8859-1", "windows-1252"})) {
-    // Latin-1 has no characters where cp1252 has them, and files that claim it mean those.
+    // Files that claim Latin-1 usually contain cp1252, which extends it.
     settings.encoding = *encoding == "utf-8"    ? Encoding::utf8
                         : *encoding == "utf-16" ? Encoding::utf16_le
                                                 : Encoding::cp1252;
@@ -98,7 +98,7 @@ TableSettings read_table_settings(const TomlReader& section) {
     settings.hidden_rows = *rows == "read";
   settings.comment = section.text("comment");
   if (settings.comment && settings.comment->empty())
-    section.fail("comment", "is empty: with what do comment lines begin?");
+    section.fail("comment", "is empty; state how comment lines begin");
   if (section.has("sheet"))
     settings.sheet = section.is_text("sheet")
                          ? *section.text("sheet")
@@ -114,7 +114,8 @@ Table read_table(const TomlReader& section, const Source& source) {
   const auto sql = section.text("sql");
   const TableSettings settings = read_table_settings(section);
   if (in_memory != source.tables.end()) {
-    if (sql) section.fail("sql", "cannot be asked of a table in memory: hand over its result");
+    if (sql)
+      section.fail("sql", "cannot be applied to a table in memory; pass the result of the query");
     for (const char* key :
          {"decimal", "thousands", "delimiter", "encoding", "header_row", "units_row",
           "summary_rows", "hidden_rows", "comment", "sheet", "range"}) {

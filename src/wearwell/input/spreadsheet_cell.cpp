@@ -10,7 +10,7 @@
 namespace wearwell {
 namespace {
 
-constexpr double last_day = 2958466;  // behind 9999-12-31
+constexpr double last_day = 2958466;  // after 9999-12-31
 constexpr std::size_t most_columns = 16'384, most_rows = 1'048'576;
 
 bool is_letter(char c) {
@@ -23,7 +23,7 @@ std::string clock(long long seconds) {
 
 std::string day(long long serial, bool from_1904) {
   using namespace std::chrono;
-  // Day 60 of 1900 is a 29th of February that never was.
+  // Day 60 of 1900 is the nonexistent February 29 of spreadsheets.
   const sys_days zero = from_1904     ? sys_days(year(1904) / 1 / 1)
                         : serial < 60 ? sys_days(year(1899) / 12 / 31)
                                       : sys_days(year(1899) / 12 / 30);
@@ -47,7 +47,7 @@ CellFormat built_in_format(int number) {
 
 CellFormat format_of_code(std::string_view code) {
   bool days = false, hours = false, months_or_minutes = false, percent = false;
-  code = code.substr(0, code.find(';'));  // of numbers above 0
+  code = code.substr(0, code.find(';'));  // the format of positive numbers
   for (std::size_t i = 0; i < code.size(); ++i) {
     const char c = code[i];
     if (c == '"') {
@@ -81,7 +81,7 @@ std::string formatted(const std::string& number, CellFormat format, bool from_19
   const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (failure != std::errc{} || end != number.data() + number.size()) return number;
   if (format == CellFormat::percent) return fmt::format("{:.12g} %", 100 * value);
-  if (!(value >= 0 && value < last_day)) return "#####";  // as spreadsheets show it
+  if (!(value >= 0 && value < last_day)) return "#####";  // as in spreadsheets
   const auto seconds = static_cast<long long>(std::llround(value * 86'400));
   if (format == CellFormat::duration) return clock(seconds);
   const bool has_time = seconds % 86'400 != 0;

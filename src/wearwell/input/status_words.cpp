@@ -12,7 +12,7 @@
 namespace wearwell {
 namespace {
 
-/// Letters of the second half of Latin-1 (U+00C0 to U+00FF, each behind the byte C3) without accents.
+/// Letters of the upper half of Latin-1 (U+00C0 to U+00FF, each after the byte C3) without accents.
 constexpr std::array<std::string_view, 64> latin_letters = {
     "a", "a", "a", "a", "a", "a", "ae", "c", "e", "e", "e", "e", "i", "i", "i", "i",
     "d", "n", "o", "o", "o", "o", "o",  "",  "o", "u", "u", "u", "u", "y", "t", "ss",
@@ -80,9 +80,9 @@ std::string folded_word(std::string_view word) {
       folded += latin_letters[next - 0x80u];
       ++i;
     } else if ((c == 0xCC && next >= 0x80) || (c == 0xCD && next >= 0x80 && next < 0xB0)) {
-      ++i;  // an accent that stands behind its letter
+      ++i;  // a combining accent
     } else if (c == 0xC2 && next == 0xA0) {
-      ++i;  // a blank that does not break
+      ++i;  // a no-break space
     } else {
       folded += word[i];
     }

@@ -8,18 +8,19 @@
 
 namespace wearwell {
 
-/// A word as it is compared: small letters and digits, without accents, blanks and punctuation ("Läufer",
-/// "laufer"; "Run-Out", "runout"). A word of nothing but other signs stays as it is.
+/// A word in normalized form: lower-case letters and digits, without accents, blanks and
+/// punctuation ("Läufer" becomes "laufer", "Run-Out" becomes "runout"). A word of other characters
+/// only is unchanged.
 std::string folded_word(std::string_view word);
 
-/// What a word of a table says of how a test ended ("failed", "S", "Durchläufer", "censuré"), in
-/// English, German, French and Spanish; nothing where it says nothing of that, or is a code.
+/// The status that a word of a table means ("failed", "S", "Durchläufer", "censuré"), in English,
+/// German, French and Spanish; empty for other words and for codes.
 std::optional<Censoring> censoring_by_word(std::string_view word);
 
-/// The word of that list that was probably meant; nothing where none is near.
+/// The nearest known word; empty if none is near.
 std::optional<std::string> near_status_word(std::string_view word);
 
-/// Of a word of truth ("1", "True", "yes", "WAHR", "oui") whether it is true; nothing of other words.
+/// The truth value of a word ("1", "True", "yes", "WAHR", "oui"); empty for other words.
 std::optional<bool> truth_in(std::string_view word);
 
 }  // namespace wearwell

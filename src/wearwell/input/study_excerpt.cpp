@@ -9,13 +9,13 @@
 namespace wearwell {
 namespace {
 
-constexpr std::size_t widest = 100;  // characters of a line that are shown
+constexpr std::size_t widest = 100;  // maximum number of characters shown
 
 bool begins_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
 }
 
-/// The byte at which character `column` begins, from 1; the end where there are fewer.
+/// The byte at which character `column` (from 1) begins; the end if there are fewer.
 std::size_t byte_of(std::string_view line, std::size_t column) {
   std::size_t at = 0;
   for (; at < line.size(); ++at) {
@@ -28,7 +28,7 @@ std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
 }
 
-/// Lines are UTF-8 where this is asked: TOML is.
+/// Lines are UTF-8, because TOML is.
 std::string plain(std::string_view text) {
   std::string blank(text);
   std::replace(blank.begin(), blank.end(), '\t', ' ');
@@ -44,7 +44,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Whether the word at `at` does not go on to either side; of a number its decimals are a part.
+/// Whether the text at `at` is a whole word; decimals belong to a number.
 bool stands_alone(std::string_view line, std::size_t at, std::string_view word) {
   const std::size_t end = at + word.size();
   const auto goes_on = [](char last, char next) {
@@ -60,7 +60,7 @@ std::size_t find_behind(std::string_view line, std::size_t place, std::string_vi
   return at;
 }
 
-/// A key stands in front of its value; of a table both begin at the bracket.
+/// A key precedes its value; for a table both begin at the bracket.
 std::size_t find_wrong(std::string_view line, std::size_t place, const Repair& repair) {
   const std::string_view front = line.substr(0, place);
   for (std::size_t at = repair.is_key ? front.rfind(repair.wrong) : front.npos; at != front.npos;
@@ -89,7 +89,7 @@ std::string study_excerpt(std::string_view text, std::size_t line, std::size_t c
   const std::string before = plain(whole.substr(indent, place - indent)),
                     behind = plain(whole.substr(place));
   if (width(before) + width(behind) > widest) {
-    // The end of what stands in front, and as much as fits behind.
+    // Shows the end of the preceding text, and as much of the following text as fits.
     const std::size_t shown = std::min(width(before), widest / 2);
     const std::size_t cut = byte_of(before, width(before) - shown + 1);
     const std::size_t end = std::min(byte_of(behind, widest - shown + 1), behind.size());

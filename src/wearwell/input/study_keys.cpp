@@ -9,7 +9,8 @@
 
 #include "wearwell/base/nearest.h"
 
-// Longer than others: the keys that all models share, and what a study lacks or has too many of them.
+// Longer than others: the keys that all models share, and the search for missing and unknown
+// keys.
 namespace wearwell {
 namespace {
 
@@ -48,7 +49,7 @@ class Keys {
   // "12:3: predict.limt: unknown key; did you mean 'limit'? (possible: ...)", each.
   std::vector<std::string> unknown() {
     std::vector<std::string> faults;
-    std::string_view last;  // of a table that is unknown, what is in it does not matter
+    std::string_view last;  // skips the keys of an unknown table
     for (const Present& each : present_) {
       if (!last.empty() && is_below(each.path, last)) continue;
       if (is_known(each.path)) continue;
@@ -61,26 +62,26 @@ class Keys {
     return faults;
   }
 
-  // Known, but not asked for.
+  // Known keys without effect.
   std::vector<std::string> idle() {
     std::vector<std::string> faults;
     for (const Present& each : present_) {
       const std::string table(parent_of(each.path));
       const bool table_was_read = table.empty() || asked_.contains(table);
       if (!table_was_read || asked_.contains(each.path)) continue;
-      faults.push_back(fmt::format(
-          "{}: {}: has no effect beside the rest of this study; take it out, or give what it "
-          "needs (docs/reference/study-keys.md)",
-          each.place, each.path));
+      faults.push_back(
+          fmt::format("{}: {}: has no effect in this study; remove it, or add the keys that it "
+                      "needs (docs/reference/study-keys.md)",
+                      each.place, each.path));
       add_excerpt(each, {});
     }
     return faults;
   }
 
-  // The lines of the study that the faults are in.
+  // The lines of the study with faults.
   const std::string& excerpts() const { return excerpts_; }
 
-  // After `unknown`: what it named is not missing too.
+  // Call after `unknown`: keys reported there are not reported as missing.
   StudyKeys missing() const {
     StudyKeys result;
     for (const StudyKey& key : keys_) {
@@ -99,7 +100,7 @@ class Keys {
     return result;
   }
 
-  // Whether the reader's words are about a value that stands there.
+  // Whether the reader's message is about an existing value.
   bool is_of_a_value(std::string_view refusal) const {
     return std::any_of(present_.begin(), present_.end(), [&](const Present& each) {
       return !each.is_table &&
@@ -120,12 +121,12 @@ class Keys {
     if (asked_.contains(std::string(path))) return true;
     return std::any_of(keys_.begin(), keys_.end(), [&](const StudyKey& key) {
       if (matches_key(key.path, path)) return true;
-      // A table of known keys; where it is the user who names it, it has an entry of its own.
+      // Whether this is a table of known keys; a table named by the user has its own entry.
       return is_below(key.path, path) && path.find('*') == path.npos;
     });
   }
 
-  // Names that may stand in a table.
+  // Names allowed in a table.
   std::vector<std::string> possible(std::string_view table) const {
     std::set<std::string> names;
     const auto add = [&](std::string_view path) {
@@ -146,7 +147,7 @@ class Keys {
     return {names.begin(), names.end()};
   }
 
-  // Tables that may hold a key of this name.
+  // Tables that may contain a key of this name.
   std::vector<std::string> homes(std::string_view leaf) const {
     std::vector<std::string> tables;
     for (const StudyKey& key : keys_) {
@@ -176,13 +177,13 @@ class Keys {
     const std::vector<std::string> elsewhere = homes(leaf);
     if (!elsewhere.empty()) {
       moved_.insert(leaf);
-      return fmt::format("unknown key here; {} stands {}", leaf, fmt::join(elsewhere, " or "));
+      return fmt::format("unknown key here; {} belongs {}", leaf, fmt::join(elsewhere, " or "));
     }
     if (const auto near = near_name(leaf, names)) {
       meant_.insert(under(parent, *near));
       repair = {leaf, *near, true};
     }
-    if (names.empty()) return "unknown key; nothing may stand here";
+    if (names.empty()) return "unknown key; no keys are allowed here";
     return fmt::format("unknown key{} (possible: {})", did_you_mean(leaf, names),
                        fmt::join(names, ", "));
   }
@@ -208,7 +209,7 @@ class Keys {
                             return path == meant || is_below(path, meant);
                           });
     if (misspelt) return false;
-    // Misspelt too: one of the keys instead of which this one is needed.
+    // The misspelled key may be an alternative to this one.
     return std::none_of(key.unless.begin(), key.unless.end(),
                         [&](const std::string& each) { return meant_.contains(each); });
   }
@@ -248,39 +249,39 @@ void add_keys(StudyKeys& keys, const StudyKeys& more) {
 StudyKeys column_keys(const std::string& table) {
   return {needed_key(table + ".columns.*.column", "\"wear\"", "heading of the column"),
           {table + ".columns.*.unit", "\"mm^3\"",
-           "unit of its numbers, where the heading has none; a count needs none"}};
+           "unit of its numbers, if the heading has none; a count needs none"}};
 }
 
 StudyKeys status_keys() {
   return {
       {"data.columns.status.failure", "1",
-       "what a failure is written as: where the column holds codes and its heading does not tell, "
-       "0 (1 is a runout, -1 left, 2 interval) or 1 (0 is a runout, 2 left, 3 interval); or a "
-       "word of the table, or a list of them"},
+       "value that means failure: for codes whose heading is not clear, 0 (1 is a runout, -1 left, "
+       "2 interval) or 1 (0 is a runout, 2 left, 3 interval); or a word of the table, or a list of "
+       "words"},
       {"data.columns.status.runout", "\"unbroken\"", "a word of the table for a runout, or a list"},
       {"data.columns.status.left", "\"before\"",
-       "a word of the table for a life that ended before, or a list"},
+       "a word of the table for a left-censored life, or a list"},
       {"data.columns.status.interval", "\"between\"",
-       "a word of the table for a life that ended within an interval, or a list"}};
+       "a word of the table for an interval-censored life, or a list"}};
 }
 
 StudyKey unused_columns_key() {
   return {"data.unused", "[\"event\"]",
-          "headings of columns that look like a status and are none "
+          "headings of columns that look like a status but are not "
           "([tables.md](tables.md#how-a-test-ended))"};
 }
 
 StudyKeys layout_keys(const std::string& table) {
   return {{table + ".decimal", "\",\"", "decimal mark"},
-          {table + ".thousands", "\".\"", "mark for thousands, or none"},
-          {table + ".delimiter", "\";\"", "what separates the columns"},
+          {table + ".thousands", "\".\"", "thousands separator, or none"},
+          {table + ".delimiter", "\";\"", "separator of columns"},
           {table + ".encoding", "\"cp1252\"", "of the text: utf-8, utf-16 or cp1252"},
           {table + ".header_row", "5", "line of the headings, from 1"},
           {table + ".units_row", "\"below\"", "units stand in the row below the headings, or none"},
           {table + ".summary_rows", "\"last\"",
-           "the last rows are means, sums and the like and are left out, or none are"},
+           "whether the last rows are means, sums and the like and are omitted: last, or none"},
           {table + ".hidden_rows", "\"skip\"", "hidden rows of a sheet: skip, or read (read)"},
-          {table + ".comment", "\"#\"", "lines that begin so are left out"},
+          {table + ".comment", "\"#\"", "lines that begin with this are omitted"},
           {table + ".sheet", "\"Messung\"", "of a workbook: name or number"},
           {table + ".range", "\"B4:G22\"", "of that sheet"}};
 }
@@ -323,7 +324,7 @@ std::string key_faults(const TomlReader& root, const StudyKeys& keys, std::strin
                                             : "; and {} keys are missing: {}";
     message += fmt::format(fmt::runtime(are), missing.size(), fmt::join(examples, "; "));
   }
-  // A value that is wrong does not follow from what is missing.
+  // A wrong value is not a consequence of missing keys.
   if (unknown.empty() && all.is_of_a_value(refusal)) message += fmt::format("; and {}", refusal);
   return message + all.excerpts();
 }

@@ -24,7 +24,7 @@ bool is_summary_word(std::string_view cell) {
       "moyenne", "moy", "somme", "ecarttype", "mediane",
       // Spanish
       "media", "promedio", "suma", "desviacionestandar", "desviaciontipica", "desvest", "mediana"};
-  if (cell == "\u00d8" || cell == "\u2300") return true;  // the sign of a mean in German tables
+  if (cell == "\u00d8" || cell == "\u2300") return true;  // the symbol of a mean in German tables
   return words.contains(folded_word(cell));
 }
 

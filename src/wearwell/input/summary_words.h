@@ -8,11 +8,12 @@
 
 namespace wearwell {
 
-/// "Mittelwert" of a row that such a word begins (mean, sum, standard deviation, in English, German, French and
-/// Spanish) and that holds a number; empty of other rows, and where `settings` say that all rows are data.
+/// The word ("Mittelwert") of a summary row: it begins with a word for mean, sum or standard
+/// deviation, in English, German, French or Spanish, and contains a number. Empty for other rows,
+/// and if `settings` state that all rows are data.
 std::string summary_in(const std::vector<std::string_view>& cells, const TableSettings& settings);
 
-/// Whether a cell names a row of units: "Unit", "Einheit", "Unité".
+/// Whether a cell marks a units row: "Unit", "Einheit", "Unité".
 bool is_units_word(std::string_view cell);
 
 }  // namespace wearwell

@@ -23,9 +23,8 @@ const Column& Table::column(std::string_view name) const {
   const Column *of_name = nullptr, *other = nullptr, *exact = nullptr;
   const auto refuse_two = [&](const Column& a, const Column& b) {
     throw InputError(fmt::format(
-        "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): which is right? Name "
-        "one "
-        "by its whole heading, or rename one where both are the same",
+        "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}). Use the whole heading "
+        "of one, or rename one if both are the same",
         source, name, a.name, &a - columns.data() + 1, b.name, &b - columns.data() + 1));
   };
   for (const Column& each : columns) {
@@ -67,7 +66,7 @@ double c_number(std::string_view text) {
   const std::string& text = column.text[index];
   const bool other_marks = column.marks && number_form(text).kind == NumberForm::Kind::number;
   throw InputError(fmt::format("{}: {}", place(table, column.name, index),
-                               other_marks ? fmt::format("'{}' is no number with a decimal {}",
+                               other_marks ? fmt::format("'{}' is not a number with a decimal {}",
                                                          text, mark_name(column.marks->decimal))
                                            : not_a_number(text)));
 }
@@ -93,7 +92,7 @@ CellValue cell_value(const Table& table, const Column& column, std::size_t index
     value.number = c_number(*plain);
     return value;
   }
-  const bool foreign_unit = found && !found->unit.empty();  // of which the table says nothing
+  const bool foreign_unit = found && !found->unit.empty();  // the table has no such unit
   const auto [rest, failure] =
       std::from_chars(number.data(), number.data() + number.size(), value.number);
   if (failure != std::errc{} || rest != number.data() + number.size() || foreign_unit)
@@ -104,25 +103,24 @@ CellValue cell_value(const Table& table, const Column& column, std::size_t index
 double cell_number(const Table& table, const Column& column, std::size_t index) {
   const CellValue value = cell_value(table, column, index);
   if (value.sign == 0) return value.number;
-  throw InputError(fmt::format(
-      "{}: '{}' is a limit: the value lies {} it, and a value is needed here. Such rows are "
-      "{}-censored; they are read in the life of a test and in what a formula (model = "
-      "\"formula\") "
-      "measures (docs/reference/tables.md)",
-      place(table, column.name, index), column.text[index], value.sign == '<' ? "below" : "above",
-      value.sign == '<' ? "left" : "right"));
+  throw InputError(
+      fmt::format("{}: '{}' is a limit (the value lies {} it), but a value is needed here. Such "
+                  "{}-censored rows are allowed for the life of a test and for the response of a "
+                  "formula (model = \"formula\") (docs/reference/tables.md)",
+                  place(table, column.name, index), column.text[index],
+                  value.sign == '<' ? "below" : "above", value.sign == '<' ? "left" : "right"));
 }
 
 namespace {
 
-/// Of numbers that came as text (in JSON, through SQL): refuses dots all of which may be marks for
-/// thousands.
+/// For numbers that arrive as text (JSON, SQL): refuses them if every dot may be a thousands
+/// separator.
 void refuse_thousands_marks(const Table& table, const Column& column) {
   std::optional<std::size_t> doubtful;
   for (std::size_t i = 0; i < table.rows; ++i) {
     const std::string& text = column.text[i];
     if (text.find('.') == text.npos) continue;
-    if (number_form(text).doubtful != '.') return;  // a dot that is a decimal mark
+    if (number_form(text).doubtful != '.') return;  // this dot is a decimal point
     if (!doubtful) doubtful = i;
   }
   if (doubtful)
@@ -134,15 +132,16 @@ void refuse_thousands_marks(const Table& table, const Column& column) {
 
 namespace {
 
-// Cubes of what is measured, and their reciprocals, are doubles. Plain numbers may be of any size.
+// Limits for which cubes of measured values and their reciprocals are finite. Plain numbers may
+// have any size.
 constexpr double smallest_si = 1e-100, largest_si = 1e100;
 
-// A file can be read without such rows.
+// The message of a missing value, with a query that omits such rows.
 std::string no_value(const Table& table, const Column& column) {
   std::string words = "no value (empty or NaN)";
   if (!table.layout.text.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
     words += fmt::format(
-        "; to leave such rows out: sql = 'select * from data where \"{}\" is not null' in [data], "
+        "; to omit such rows: sql = 'select * from data where \"{}\" is not null' in [data], "
         "or "
         "--sql of select",
         column.name);
@@ -170,9 +169,8 @@ std::vector<double> si_numbers(const Table& table, std::string_view name, const 
                                    values[i], unit.text));
     if (measured && si != 0 && std::abs(si) < smallest_si)
       throw InputError(
-          fmt::format("{}: {} {} is too small a number to compute with, {:.3g} in SI units (0, or "
-                      "from {:.0e} on); "
-                      "is the unit right?",
+          fmt::format("{}: {} {} is too small to compute with: {:.3g} in SI units (0, or at least "
+                      "{:.0e}); check the unit",
                       place(table, name, i), values[i], unit.text, si, smallest_si));
     values[i] = si;
   }

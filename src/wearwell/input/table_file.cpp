@@ -39,17 +39,18 @@ TableFormat format_of(std::string name, bool& gzip, const std::string& source) {
   }
   for (const char* other : {".xls", ".xlsb", ".ods"}) {
     if (name.ends_with(other))
-      throw InputError(fmt::format("{}: {} is not read; save it as .xlsx or .csv", source, other));
+      throw InputError(
+          fmt::format("{}: {} is not supported; save it as .xlsx or .csv", source, other));
   }
   throw InputError(
-      fmt::format("{}: its ending does not say what it holds; a table is .csv, .tsv, .txt, .dat, "
+      fmt::format("{}: its extension is unknown; a table is .csv, .tsv, .txt, .dat, "
                   ".asc, .json, .ndjson, "
-                  ".jsonl (each also with .gz behind), .parquet or .xlsx",
+                  ".jsonl (each also with .gz), .parquet or .xlsx",
                   source));
 }
 
-/// Reads all of a gzip: its checksum and length are at its end. DuckDB looks at neither, and would
-/// stop at some ends of a stream though another follows.
+/// Reads a whole gzip file to verify the checksum and length at its end. DuckDB checks neither, and
+/// may stop at the end of a stream although another follows.
 void check_gzip(const std::string& path, const std::string& source) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
@@ -73,7 +74,7 @@ void check_gzip(const std::string& path, const std::string& source) {
       ended = outcome == Z_STREAM_END;
       if (outcome != Z_OK && !ended)
         throw InputError(
-            fmt::format("{}: damaged, or no gzip: {}", source,
+            fmt::format("{}: damaged, or not a gzip file: {}", source,
                         stream.msg ? stream.msg : "its compressed data cannot be unpacked"));
     }
     if (stream.avail_in > 0)
@@ -89,7 +90,7 @@ void check_gzip(const std::string& path, const std::string& source) {
 }  // namespace
 
 TableFile::TableFile(const std::filesystem::path& file) : source_(valid_utf8(file.string())) {
-  // Not blocking: a pipe without a writer would wait for ever.
+  // Non-blocking, because a pipe without a writer would block forever.
   descriptor_ = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) {
     if (errno == ENOENT || errno == ENOTDIR)
@@ -103,7 +104,7 @@ TableFile::TableFile(const std::filesystem::path& file) : source_(valid_utf8(fil
       throw InputError(fmt::format("{} is a folder, not a file", source_));
     if (!S_ISREG(status.st_mode))
       throw InputError(
-          fmt::format("{} is a pipe or a device; save what it gives to a file first", source_));
+          fmt::format("{} is a pipe or a device; save its output to a file first", source_));
     if (status.st_size == 0) throw InputError(fmt::format("{} is empty", source_));
     format_ = format_of(file.filename(), gzip_, source_);
     if (gzip_) check_gzip(path(), source_);

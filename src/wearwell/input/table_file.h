@@ -7,11 +7,11 @@ namespace wearwell {
 
 enum class TableFormat { text, json, parquet, workbook };
 
-/// A table file, opened once: what is read is this file, whatever else its name could mean.
+/// A table file, opened once, so that later changes of the name do not matter.
 class TableFile {
  public:
-  /// Throws InputError: no such file, a folder, no regular file, unreadable, empty, an ending that
-  /// does not say what it holds, a .gz that is cut off or damaged.
+  /// Throws InputError: missing file, a folder, not a regular file, unreadable, empty, unknown
+  /// extension, a truncated or damaged .gz.
   explicit TableFile(const std::filesystem::path& file);
   /// A text in memory; closes the descriptor.
   TableFile(int descriptor, std::string source)
@@ -20,11 +20,11 @@ class TableFile {
   TableFile(const TableFile&) = delete;
   TableFile& operator=(const TableFile&) = delete;
 
-  const std::string& source() const { return source_; }  ///< the name, for messages
+  const std::string& source() const { return source_; }  ///< name in messages
   TableFormat format() const { return format_; }
   bool gzip() const { return gzip_; }
   int descriptor() const { return descriptor_; }
-  /// A path without patterns or folders that mean something: "/proc/self/fd/7".
+  /// A path without patterns or meaningful folder names: "/proc/self/fd/7".
   std::string path() const;
 
  private:

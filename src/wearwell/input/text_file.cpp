@@ -24,15 +24,15 @@ TextFile read_text_file(const std::filesystem::path& file) {
   }
   if (!std::filesystem::is_regular_file(file, ignored))
     throw InputError(fmt::format(
-        "{} is a pipe or a device; a study is a file, beside which its data lie", name));
+        "{} is a pipe or a device; a study must be a file, with its data beside it", name));
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{} cannot be read (permissions?)", name));
   TextFile read{file, std::string(largest + 1, '\0')};
   stream.read(read.text.data(), static_cast<std::streamsize>(read.text.size()));
-  if (stream.bad()) throw InputError(fmt::format("{} cannot be read to its end", name));
+  if (stream.bad()) throw InputError(fmt::format("{} cannot be read completely", name));
   read.text.resize(static_cast<std::size_t>(stream.gcount()));
   if (read.text.size() > largest)
-    throw InputError(fmt::format("{} is larger than 1 MB, and so no study file", name));
+    throw InputError(fmt::format("{} is larger than 1 MB, the limit for a study file", name));
   return read;
 }
 

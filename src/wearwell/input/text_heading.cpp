@@ -18,9 +18,9 @@ namespace wearwell {
 namespace {
 
 constexpr std::size_t sampled_records = 1000;
-constexpr std::size_t farthest_heading = 200;  // records of a preamble
+constexpr std::size_t farthest_heading = 200;  // maximum number of records before the heading
 
-// In the order in which they are tried.
+// In the order of trial.
 constexpr char delimiters[] = {'\t', ';', '|', ','};
 
 struct Record {
@@ -38,32 +38,32 @@ std::string trimmed(std::string_view cell) {
   return boost::algorithm::trim_copy(std::string(cell));
 }
 
-/// Values of a record without those of a comma too many at its end.
+/// The number of values in a record without trailing empty ones.
 std::size_t filled(const Record& record) {
   std::size_t count = record.cells.size();
   while (count > 0 && record.cells[count - 1].empty()) --count;
   return count;
 }
 
-/// Words in every place, as headings are and rows of data are not.
+/// Whether every value is a word, as in headings but not in rows of data.
 bool looks_like_heading(const Record& record) {
   return !has_number(record) && std::none_of(record.cells.begin(), record.cells.end(),
                                              [](const std::string& cell) { return cell.empty(); });
 }
 
-/// Words in most places: of merged headings only the first has one.
+/// Whether most values are words; of merged headings only the first is not empty.
 bool looks_like_merged_heading(const Record& record) {
   const auto words = std::count_if(record.cells.begin(), record.cells.end(),
                                    [](const std::string& cell) { return !cell.empty(); });
   return !has_number(record) && 2 * static_cast<std::size_t>(words) > record.cells.size();
 }
 
-/// One way to cut the text.
+/// One way to split the text into cells.
 struct Cut {
   char delimiter = ',';
   std::vector<Record> records;
-  std::size_t heading = 0;  ///< among them
-  bool even = false;        ///< as many values in every record from the heading on
+  std::size_t heading = 0;  ///< index of the heading record
+  bool even = false;        ///< all records from the heading on have equally many values
 };
 
 std::vector<Record> sample(const TableFile& file, Encoding encoding, const TableSettings& settings,
@@ -76,7 +76,7 @@ std::vector<Record> sample(const TableFile& file, Encoding encoding, const Table
     try {
       if (!records.next()) break;
     } catch (const OpenQuote&) {
-      break;  // a quote that never ends is told of when the delimiter is known
+      break;  // an unclosed quote is reported later, when the delimiter is known
     }
     sampled.push_back({{}, records.line()});
     for (const std::string_view cell : records.cells())
@@ -85,18 +85,18 @@ std::vector<Record> sample(const TableFile& file, Encoding encoding, const Table
   return sampled;
 }
 
-/// How many values most records have.
+/// The most frequent number of values in a record.
 std::size_t usual_count(const std::vector<Record>& records) {
   std::map<std::size_t, std::size_t> seen;
   for (const Record& record : records) ++seen[record.cells.size()];
-  // Of equal ones the larger: words above a table are shorter than its lines.
+  // Ties go to the larger number, because text above a table has fewer values than its lines.
   return std::max_element(seen.rbegin(), seen.rend(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
-/// The first record that has words where those below have values; what stands above it must be no
-/// part of a table. The first of all where there is none such.
+/// The first record with words where those below have values, if the records above it cannot belong
+/// to the table; else the first record.
 std::size_t find_heading(const std::vector<Record>& records, std::size_t count) {
   if (count < 2) return 0;
   for (std::size_t i = 0; i < std::min(records.size(), farthest_heading); ++i) {
@@ -147,8 +147,8 @@ Cut find_cut(const TableFile& file, const TableSettings& settings, Encoding enco
                                           [](const Cut& cut) { return cut.even; });
   if (even - candidates.begin() > 1)
     throw InputError(fmt::format(
-        "{}: its columns can be separated by '{}' and by '{}'; say which in [data], as in "
-        "delimiter = \"{}\", or put cells with the other sign in double quotes",
+        "{}: both '{}' and '{}' can separate its columns; state which in [data], for example "
+        "delimiter = \"{}\", or put cells with the other character in double quotes",
         file.source(), delimiter_name(candidates[0].delimiter),
         delimiter_name(candidates[1].delimiter), delimiter_name(candidates[0].delimiter)));
   return std::move(candidates.front());
@@ -160,21 +160,22 @@ TextHeading find_heading(const TableFile& file, const TableSettings& settings, E
   Cut cut = find_cut(file, settings, encoding);
   if (cut.records.empty())
     throw InputError(settings.header_row
-                         ? fmt::format("{} has no line {}, where its headings should be",
+                         ? fmt::format("{} has no line {}, where the headings should be",
                                        file.source(), *settings.header_row)
-                         : fmt::format("{} holds no line with headings", file.source()));
+                         : fmt::format("{} has no line with headings", file.source()));
   Record& heading = cut.records[cut.heading];
   if (settings.header_row && heading.line != *settings.header_row)
-    throw InputError(fmt::format("{}, line {}: it is empty; it must hold the headings (header_row)",
-                                 file.source(), *settings.header_row));
+    throw InputError(fmt::format(
+        "{}, line {}: the line is empty, but header_row states that it has the headings",
+        file.source(), *settings.header_row));
   for (const std::string& name : heading.cells) {
     if (name.find('\0') != name.npos)
-      throw InputError(
-          fmt::format("{} is no text: it has zero bytes in line {}", file.source(), heading.line));
+      throw InputError(fmt::format("{} is not a text file: line {} has zero bytes", file.source(),
+                                   heading.line));
     if (name.find('\r') != name.npos)
-      throw InputError(
-          fmt::format("{}: its lines end with carriage returns alone; save it with usual line ends",
-                      file.source()));
+      throw InputError(fmt::format(
+          "{}: its lines end with only a carriage return; save it with standard line endings",
+          file.source()));
   }
   refuse_equal_names(heading.cells, file.source());
   return {cut.delimiter, heading.line, std::move(heading.cells)};

@@ -8,14 +8,14 @@
 
 namespace wearwell {
 
-/// Where a text has its headings, and what separates its columns.
+/// The position of the headings in a text, and the column separator.
 struct TextHeading {
   char delimiter = ',';
   std::size_t line = 1;
-  std::vector<std::string> names;  ///< without blanks around them; an empty one has no heading
+  std::vector<std::string> names;  ///< trimmed; empty for a column without heading
 };
 
-/// Throws InputError: no heading, two columns of one name, columns that can be separated in two ways.
+/// Throws InputError: no heading, duplicate column names, ambiguous separator.
 TextHeading find_heading(const TableFile& file, const TableSettings& settings, Encoding encoding);
 
 }  // namespace wearwell

@@ -19,17 +19,17 @@
 #include "wearwell/input/text_heading.h"
 #include "wearwell/input/text_records.h"
 
-// Longer than others: one survey of the marks in a text, and what it settles.
+// Longer than others: one survey of the marks in a text, and its conclusions.
 namespace wearwell {
 namespace {
 
-constexpr std::size_t most_to_see = 8 << 20;  // bytes, where more could change nothing
+constexpr std::size_t most_to_see = 8 << 20;  // bytes; enough if the rest cannot change the result
 
-/// A line that is no UTF-8.
+/// A line that is not UTF-8.
 struct NotUtf8 {
   std::size_t line = 0;
   std::string text;
-  bool others_are = false;  ///< lines above it hold characters of UTF-8
+  bool others_are = false;  ///< lines above it contain UTF-8 characters
 };
 
 class Survey {
@@ -45,8 +45,8 @@ class Survey {
       layout_.plain = false;
     }
     if (heading_.names.empty())
-      throw InputError(fmt::format("{}: line {} is empty; it must hold the headings", file.source(),
-                                   heading_.line));
+      throw InputError(fmt::format("{}: line {} is empty, but it should have the headings",
+                                   file.source(), heading_.line));
     evidence_.resize(heading_.names.size());
   }
 
@@ -99,7 +99,7 @@ class Survey {
   }
 
  private:
-  /// A row that may be of means or sums, until it is known whether data follow.
+  /// A row that may contain means or sums; undecided until it is known whether data follow.
   struct PendingRow {
     std::vector<std::string> cells;
     std::size_t line = 0;
@@ -112,8 +112,8 @@ class Survey {
     for (std::size_t c = 0; c < evidence_.size(); ++c) look_at(cells[c], rows_, line, evidence_[c]);
   }
 
-  /// Leaves the last rows out where they are means, sums and the like. Such a word below labels may be
-  /// one of them.
+  /// Omits the last rows if they are means, sums and the like. In a column of labels such a word
+  /// may be a label.
   void settle_summary() {
     const bool left_out =
         !pending_.empty() && rows_ > 0 &&
@@ -130,10 +130,9 @@ class Survey {
     const auto column = static_cast<std::size_t>(word - first.cells.begin());
     if (!settings_.summary_rows && evidence_[column].any_text)
       throw InputError(fmt::format(
-          "{}, line {}: '{}' can mean that this row is no data but computed from the rows above, "
-          "or a "
-          "name like the others in column '{}'; say which in [data], as in summary_rows = \"last\" "
-          "(the last rows are left out) or \"none\" (all are data)",
+          "{}, line {}: '{}' is ambiguous: either this row is computed from the rows above, or it "
+          "is data with a name like the others in column '{}'; state which in [data]: summary_rows "
+          "= \"last\" (the last rows are omitted) or \"none\" (all are data)",
           file_.source(), first.line, *word, heading_.names[column]));
     std::vector<std::string> words;
     for (const PendingRow& each : pending_) words.push_back(each.word);
@@ -156,8 +155,8 @@ class Survey {
     if (lines.last) return;
     if (returns.value_or(lines.has_return) != lines.has_return)
       throw InputError(
-          fmt::format("{}, line {} ends in another way than those before it (with or without a "
-                      "carriage return)",
+          fmt::format("{}, line {}: its line ending (with or without a carriage return) is not "
+                      "that of the lines above",
                       file_.source(), lines.number));
     returns = lines.has_return;
   }
@@ -176,18 +175,18 @@ class Survey {
     const bool comment = records_->line() > 1 &&
                          (text.starts_with("#") || text.starts_with("%") || text.starts_with("//"));
     throw InputError(fmt::format(
-        "{}, line {}: {} value{} where the heading has {}: '{}'{}", file_.source(),
-        records_->line(), cells.size(), cells.size() == 1 ? "" : "s", wanted, shortened(text, 200),
-        comment ? fmt::format(" (a table has no comment lines; to leave them out write comment = "
-                              "\"{}\" into [data])",
+        "{}, line {}: {} value{} but the heading has {}: '{}'{}", file_.source(), records_->line(),
+        cells.size(), cells.size() == 1 ? "" : "s", wanted, shortened(text, 200),
+        comment ? fmt::format(" (comment lines are not allowed by default; to omit them write "
+                              "comment = \"{}\" in [data])",
                               text.starts_with("//") ? "//" : text.substr(0, 1))
         : wanted == 1 ? " (the first line must be the heading)"
         : layout_.delimiter == ',' && cells.size() > wanted
-            ? " (a number with a decimal comma needs quotes where commas separate the columns)"
+            ? " (if commas separate the columns, quote numbers with a decimal comma)"
             : ""));
   }
 
-  /// Units where the rows below have numbers, and nothing else.
+  /// Whether the row has only units, in columns that have numbers below.
   bool is_units_row(const std::vector<std::string_view>& cells) const {
     if (settings_.units_row) return *settings_.units_row;
     if (cells.size() < heading_.names.size()) return false;
@@ -201,7 +200,7 @@ class Survey {
     return any && numbers_follow(cells);
   }
 
-  /// Whether the next record has a number wherever this one has a unit.
+  /// Whether the next record has a number in every column in which this one has a unit.
   bool numbers_follow(const std::vector<std::string_view>& units) const {
     TextLines lines(file_.path(), file_.source(), layout_.encoding);
     TextRecords records(lines, layout_.delimiter, layout_.comment, heading_.line);
@@ -245,7 +244,7 @@ class Survey {
     }
   }
 
-  /// For people: what stands in the cells of a column beside numbers.
+  /// Remarks about other content in the cells of a number column.
   void add_notes(const ColumnEvidence& seen, const TextColumn& column, bool no_heading) {
     if (no_heading && (seen.any_number || seen.any_text))
       layout_.notes.push_back(fmt::format("a column without a heading, read as '{}'", column.name));
@@ -266,7 +265,7 @@ class Survey {
           fmt::format("the unit {} in the cells of '{}'", column.unit, column.name));
   }
 
-  /// For people: the marks that numbers have.
+  /// Records the marks of numbers for the description.
   void tell(const ColumnEvidence& seen, const TextColumn& column) {
     if (seen.any_text || !seen.any_number || !column.doubt.empty()) return;
     const auto add = [](std::string& to, char mark) {
@@ -305,7 +304,7 @@ const char* delimiter_words(char delimiter) {
     case '|':
       return "bars";
     default:
-      return delimiter == ',' ? "commas" : "other signs";
+      return delimiter == ',' ? "commas" : "other characters";
   }
 }
 
@@ -315,7 +314,7 @@ TextLayout find_layout(const TableFile& file, const TableSettings& settings, boo
   if (TextLines(file.path(), file.source(), Encoding::utf8).unpacks() && !file.gzip())
     throw InputError(fmt::format("{} is compressed; name it .gz at the end", file.source()));
   const Encoding shown = first_encoding(file.path());
-  // Which of the two halves comes first, a study does not say.
+  // A study does not state the byte order of UTF-16.
   const bool shows_utf16 = shown == Encoding::utf16_le || shown == Encoding::utf16_be;
   const bool wants_utf16 = settings.encoding == Encoding::utf16_le;
   const Encoding first = wants_utf16 && shows_utf16 ? shown : settings.encoding.value_or(shown);
@@ -325,7 +324,7 @@ TextLayout find_layout(const TableFile& file, const TableSettings& settings, boo
     if (settings.encoding || fault.others_are)
       throw InputError(fmt::format("{}, line {}: '{}' is not UTF-8{}; save the file as UTF-8",
                                    file.source(), fault.line, shortened(fault.text),
-                                   fault.others_are ? ", as lines above it are" : ""));
+                                   fault.others_are ? ", unlike the lines above it" : ""));
   }
   return Survey(file, settings, Encoding::cp1252).run(whole);
 }

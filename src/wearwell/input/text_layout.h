@@ -10,41 +10,40 @@
 
 namespace wearwell {
 
-/// One column of a text, after all of it was seen.
+/// One column of a text, after the survey.
 struct TextColumn {
-  std::string name;       ///< its heading; "column3" where there is none
-  std::string unit;       ///< from a row of units, or from the cells
-  bool is_number = true;  ///< every cell that is not empty is one, or says that there is none
+  std::string name;       ///< its heading; "column3" without a heading
+  std::string unit;       ///< from a units row or from the cells
+  bool is_number = true;  ///< every non-empty cell is a number or marks a missing value
   bool unit_in_cells = false;
   NumberMarks marks;
   std::string doubt;  ///< "row 1, column 'life': ...": why its numbers cannot be read
 };
 
-/// How a text holds a table: as a study says, or as the text itself shows.
+/// The layout of a table in a text: stated by the study, or detected.
 struct TextLayout {
   Encoding encoding = Encoding::utf8;
   char delimiter = ',';
-  std::string comment;           ///< with which lines begin that are left out
-  std::size_t heading_line = 1;  ///< where the record of the headings begins
+  std::string comment;           ///< prefix of omitted lines
+  std::size_t heading_line = 1;  ///< line of the heading record
   bool units_row = false;
-  std::optional<std::size_t> summary_line = {};  ///< from there on rows are means and sums
+  std::optional<std::size_t> summary_line = {};  ///< first row of means and sums
   std::vector<TextColumn> columns;
-  /// Whether DuckDB can read the file as it stands.
+  /// Whether DuckDB can read the file directly.
   bool plain = true;
-  // What was left out, for people.
+  // Numbers of omitted rows, for the description.
   std::size_t comments = 0, empty_rows = 0;
-  std::vector<std::string>
-      notes;                  ///< what else was seen: "column 'V': 2 cells without a value ('NA')"
-  std::string decimal_marks;  ///< that numbers have: "", ".", "," or both
-  std::string thousands_marks;  ///< likewise
+  std::vector<std::string> notes;  ///< remarks: "column 'V': 2 cells without a value ('NA')"
+  std::string decimal_marks;       ///< in the numbers: "", ".", "," or both
+  std::string thousands_marks;     ///< likewise
 };
 
-/// Finds it out. Throws InputError naming the line: no text, no heading, two columns of one name, columns
-/// that can be separated in two ways, a line with more or fewer values than the heading. `whole`:
-/// looks at every line; else stops where nothing that comes could change what was found.
+/// Detects the layout. Throws InputError that names the line: not a text, no heading, duplicate
+/// column names, ambiguous separator, a line with more or fewer values than the heading. `whole`
+/// inspects every line; otherwise it stops as soon as later lines cannot change the result.
 TextLayout find_layout(const TableFile& file, const TableSettings& settings, bool whole = false);
 
-/// "semicolons, decimal comma, thousands point, cp1252, headings in line 5"; of a sheet its name.
+/// "semicolons, decimal comma, thousands point, cp1252, headings in line 5"; for a sheet its name.
 std::string description(const TextLayout& layout, const std::string& sheet);
 
 }  // namespace wearwell

@@ -34,8 +34,8 @@ void append_utf8(std::string& out, std::uint32_t code) {
   }
 }
 
-// Windows-1252 from 0x80 to 0x9F (https://encoding.spec.whatwg.org/index-windows-1252.txt); 0 where
-// it has no character.
+// Windows-1252 from 0x80 to 0x9F (https://encoding.spec.whatwg.org/index-windows-1252.txt); 0 for
+// unassigned codes.
 constexpr std::array<std::uint16_t, 32> cp1252_high = {
     0x20AC, 0,      0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0,      0x017D, 0,      0,      0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
@@ -61,10 +61,10 @@ void TextLines::decode(std::string_view bytes) {
       const auto c = static_cast<unsigned char>(byte);
       const std::uint32_t code = c >= 0x80 && c < 0xA0 ? cp1252_high[c - 0x80] : c;
       if (code == 0 && c != 0)
-        throw InputError(fmt::format(
-            "{} is neither UTF-8 nor cp1252 (Windows): a byte {:#04x} stands behind line {}; save "
-            "it as UTF-8",
-            source_, c, number));
+        throw InputError(
+            fmt::format("{} is neither UTF-8 nor cp1252 (Windows): there is a byte {:#04x} after "
+                        "line {}; save it as UTF-8",
+                        source_, c, number));
       append_utf8(text_, code);
     }
     return;
@@ -78,7 +78,7 @@ void TextLines::decode(std::string_view bytes) {
   std::size_t i = 0;
   const auto refuse = [&] {
     throw InputError(
-        fmt::format("{}: damaged UTF-16 behind line {}; save it as UTF-8", source_, number));
+        fmt::format("{}: invalid UTF-16 after line {}; save it as UTF-8", source_, number));
   };
   for (; i + 1 < bytes.size(); i += 2) {
     std::uint32_t code = unit(i);
@@ -99,10 +99,10 @@ void TextLines::decode(std::string_view bytes) {
 void TextLines::fill() {
   const int count =
       gzread(file_.get(), raw_.data() + kept_, static_cast<unsigned>(raw_.size() - kept_));
-  if (count < 0) throw InputError(fmt::format("{} cannot be read to its end", source_));
+  if (count < 0) throw InputError(fmt::format("{} cannot be read completely", source_));
   if (count == 0) {
     if (kept_ > 0)
-      throw InputError(fmt::format("{} is cut off within a character of UTF-16", source_));
+      throw InputError(fmt::format("{} is truncated within a UTF-16 character", source_));
     ended_ = true;
     return;
   }
@@ -124,8 +124,8 @@ bool TextLines::next(std::string_view& line) {
       return true;
     }
     if (left > longest_line)
-      throw InputError(fmt::format("{}, line {}: a line of more than {} MB is no line of a table",
-                                   source_, number + 1, longest_line >> 20));
+      throw InputError(fmt::format("{}, line {}: the line exceeds the limit of {} MB", source_,
+                                   number + 1, longest_line >> 20));
     if (ended_) {
       if (left == 0) return false;
       line = {begin, left};
@@ -141,7 +141,7 @@ bool TextLines::next(std::string_view& line) {
 }
 
 void TextLines::refuse_open_quote(std::size_t line) const {
-  throw OpenQuote(fmt::format("{}, line {}: a quote is opened and never closed", source_, line));
+  throw OpenQuote(fmt::format("{}, line {}: a quote is not closed", source_, line));
 }
 
 Encoding first_encoding(const std::string& path) {
@@ -151,7 +151,7 @@ Encoding first_encoding(const std::string& path) {
   const std::string_view text(bytes.data(), static_cast<std::size_t>(std::max(count, 0)));
   if (text.starts_with("\xFF\xFE")) return Encoding::utf16_le;
   if (text.starts_with("\xFE\xFF")) return Encoding::utf16_be;
-  // Of letters and digits every second byte is zero.
+  // Every second byte of letters and digits is zero in UTF-16.
   std::array<std::size_t, 2> zeros{};
   for (std::size_t i = 0; i < text.size(); ++i) zeros[i % 2] += text[i] == '\0';
   const auto mostly = [&](std::size_t i) {
@@ -163,7 +163,7 @@ Encoding first_encoding(const std::string& path) {
 }
 
 bool is_ascii(std::string_view text) {
-  unsigned bits = 0;  // without an early end, so that many bytes are looked at together
+  unsigned bits = 0;  // no early exit, so that the loop is vectorized
   for (const char c : text) bits |= static_cast<unsigned char>(c);
   return bits < 0x80;
 }

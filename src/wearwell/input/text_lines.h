@@ -14,30 +14,30 @@ namespace wearwell {
 
 inline constexpr std::size_t longest_line = 16 << 20;
 
-/// A quote that no other closes.
+/// An unclosed quote.
 struct OpenQuote : InputError {
   using InputError::InputError;
 };
 
-/// Lines of a text in any encoding, compressed or not, as UTF-8 and without their ends; a mark of
-/// the encoding at its beginning is left out.
+/// Lines of a text in any encoding, compressed or not, as UTF-8 without line endings; a byte-order
+/// mark is omitted.
 class TextLines {
  public:
   /// `source` is the name in messages. Throws InputError.
   TextLines(const std::string& path, std::string source, Encoding encoding);
 
-  /// The next line, which lives until the one after it. Throws InputError: too long, bytes that the
-  /// encoding does not have.
+  /// The next line, valid until the next call. Throws InputError: too long, bytes that are invalid
+  /// in the encoding.
   bool next(std::string_view& line);
 
-  /// Throws OpenQuote: "FILE, line 3: a quote is opened and never closed".
+  /// Throws OpenQuote: "FILE, line 3: a quote is not closed".
   [[noreturn]] void refuse_open_quote(std::size_t line) const;
 
   bool unpacks() const { return gzdirect(file_.get()) == 0; }
 
-  std::size_t number = 0;   ///< of the line that came last, from 1
-  bool has_return = false;  ///< it ended with a carriage return
-  bool last = false;        ///< it had no end
+  std::size_t number = 0;   ///< of the last line, from 1
+  bool has_return = false;  ///< the line ended with a carriage return
+  bool last = false;        ///< the line had no line ending
 
  private:
   void fill();
@@ -50,19 +50,20 @@ class TextLines {
   Encoding encoding_;
   std::unique_ptr<gzFile_s, CloseGzip> file_;
   std::vector<char> raw_;
-  std::size_t kept_ = 0;  // bytes in front of `raw_` that wait for more
+  std::size_t kept_ = 0;  // incomplete bytes before `raw_`
   std::string text_;
   std::size_t at_ = 0;
   bool started_ = false, ended_ = false;
 };
 
-/// The encoding that the first bytes show: UTF-16 by its mark or by its zeros, else UTF-8.
+/// The encoding according to the first bytes: UTF-16 by its byte-order mark or zero bytes, else
+/// UTF-8.
 Encoding first_encoding(const std::string& path);
 
 bool is_ascii(std::string_view text);
 bool is_utf8(std::string_view text);
 
-/// "cp1252": how messages call it.
+/// Its name in messages: "cp1252".
 const char* encoding_name(Encoding encoding);
 
 }  // namespace wearwell

@@ -5,8 +5,8 @@
 namespace wearwell {
 namespace {
 
-/// Whether quotes that opened in front of `text`, or not, are open behind it. A quote opens where a
-/// cell begins, or behind blanks there.
+/// Whether a quote is open after `text`, given whether one is open before it. A quote opens at the
+/// beginning of a cell, or after leading blanks.
 bool open_behind(std::string_view text, char delimiter, bool open) {
   bool at_start = !open;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,9 +35,9 @@ TextRecords::TextRecords(TextLines& lines, char delimiter, std::string comment,
                          std::size_t first_line)
     : lines_(lines), delimiter_(delimiter), comment_(std::move(comment)), first_line_(first_line) {}
 
-/// Cells of `line_` where it has quotes.
+/// Cells of a `line_` with quotes.
 void TextRecords::split_quoted() {
-  // Views into `unquoted_`, which must not move.
+  // Views into `unquoted_`, which must not reallocate.
   unquoted_.clear();
   unquoted_.reserve(line_.size());
   std::size_t begin = 0;

@@ -8,22 +8,22 @@
 
 namespace wearwell {
 
-/// Records of a text: lines cut into cells, as far as quotes hold together also several lines.
+/// Records of a text: lines split into cells; a quoted cell can span several lines.
 class TextRecords {
  public:
-  /// `comment`: lines that begin so are left out; empty for none. `first_line`: those above it are.
+  /// `comment`: prefix of omitted lines; empty for none. Lines above `first_line` are omitted.
   TextRecords(TextLines& lines, char delimiter, std::string comment = "",
               std::size_t first_line = 1);
 
-  /// The next record that is no empty line. Throws InputError where a quote never ends.
+  /// The next non-empty record. Throws InputError if a quote is not closed.
   bool next();
 
-  /// Of the record that came last; they live until the next.
+  /// Of the last record; valid until the next call.
   const std::vector<std::string_view>& cells() const { return cells_; }
-  std::string_view text() const { return line_; }    ///< as it is written, without the last end
-  std::size_t line() const { return line_number_; }  ///< in which it begins
-  bool blank_before_quote() const { return blank_before_quote_; }  ///< so far; "1, \"a\""
-  std::size_t comments() const { return comments_; }               ///< lines left out until here
+  std::string_view text() const { return line_; }    ///< raw text, without the final line ending
+  std::size_t line() const { return line_number_; }  ///< its first line
+  bool blank_before_quote() const { return blank_before_quote_; }  ///< seen so far; "1, \"a\""
+  std::size_t comments() const { return comments_; }               ///< lines omitted so far
 
  private:
   void split_quoted();

@@ -8,9 +8,9 @@
 
 namespace wearwell {
 
-/// The table of a text as the plainest CSV, in memory: UTF-8, one line of headings, commas, points,
-/// and nothing that is no row. Columns that are no numbers, or doubtful ones, stay as they are.
-/// `lines` takes the line of each row.
+/// The table of a text as standard CSV in memory: UTF-8, one line of headings, commas, decimal
+/// points, only data rows. Columns of text or ambiguous numbers are unchanged. `lines` receives the
+/// line of each row.
 std::unique_ptr<TableFile> rewritten(const TableFile& file, const TextLayout& layout,
                                      std::vector<std::size_t>& lines);
 

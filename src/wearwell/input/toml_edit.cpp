@@ -12,7 +12,7 @@
 namespace wearwell {
 namespace {
 
-// Where a place of toml++ lies in the text; columns count characters.
+// The offset of a toml++ position in the text; columns count characters.
 std::size_t offset(const std::string& text, const toml::source_position& at) {
   std::size_t i = 0;
   for (toml::source_index line = 1; line < at.line && i < text.size(); ++line)
@@ -34,7 +34,7 @@ TextFile with_predict(const TextFile& study,
   std::string lines;
   for (const auto& [key, value] : keys) lines += fmt::format("{} = {}\n", key, value);
   TextFile changed = study;
-  static_cast<void>(TomlReader::parse(study));  // says what is no TOML
+  static_cast<void>(TomlReader::parse(study));  // reports invalid TOML
   const toml::table root = toml::parse(study.text);
   if (!root.contains("predict")) {
     changed.text += "\n[predict]\n" + lines;
@@ -43,8 +43,8 @@ TextFile with_predict(const TextFile& study,
   const toml::table* const predict = root["predict"].as_table();
   const std::size_t heading = predict ? offset(study.text, predict->source().begin) : 0;
   if (!predict || predict->is_inline() || study.text.compare(heading, 1, "[") != 0)
-    throw InputError(fmt::format("{}: 'predict' must stand as a table of its own, [predict]",
-                                 study.path.string()));
+    throw InputError(
+        fmt::format("{}: 'predict' must be a separate table, [predict]", study.path.string()));
   std::vector<std::pair<std::size_t, std::size_t>> gone;
   for (const auto& [key, value] : *predict) {
     if (std::any_of(keys.begin(), keys.end(),

@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// The study with other values of keys of [predict], each written as TOML writes it: everything else stays as and
-/// where it was. Throws InputError where [predict] is not a table under a heading of its own.
+/// The study with new values (TOML text) for keys of [predict]; everything else is unchanged.
+/// Throws InputError if [predict] is not a table with its own heading.
 TextFile with_predict(const TextFile& study,
                       const std::vector<std::pair<std::string, std::string>>& keys);
 

@@ -20,7 +20,7 @@
 namespace wearwell {
 namespace {
 
-/// The line at which an assertion fails: no shorter part of the text breaks it.
+/// The line at which an assertion of toml++ fails: the shortest prefix of the text that fails.
 std::size_t line_of_failure(std::string_view text) {
   std::vector<std::size_t> ends;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -55,12 +55,12 @@ std::string not_a(const toml::node& node) {
 }  // namespace
 
 struct TomlReader::State {
-  std::shared_ptr<const toml::table> root;  // keeps `table` alive
+  std::shared_ptr<const toml::table> root;  // owns `table`
   const toml::table* table = nullptr;
   std::string file;
-  std::shared_ptr<const std::string> text;  // of the file
+  std::shared_ptr<const std::string> text;  // text of the file
   std::string name;                         // "prior.k"; empty for the whole file
-  std::map<std::string, std::set<std::string>, std::less<>> asked;  // and as what
+  std::map<std::string, std::set<std::string>, std::less<>> asked;  // and the expected kind
   std::map<std::string, std::shared_ptr<State>, std::less<>> children;
 
   const toml::node* find(std::string_view key, std::string kind = {}) {
@@ -101,9 +101,9 @@ TomlReader TomlReader::parse(const TextFile& file) {
     throw InputError(fmt::format("{}:{}:{}: {}{}", name, at.line, at.column, what,
                                  study_excerpt(valid_utf8(file.text), at.line, at.column)));
   } catch (const NoToml&) {
-    throw InputError(fmt::format(
-        "{}:{}: no TOML: a key or a value is missing where one must stand, behind '[' or '='", name,
-        line_of_failure(file.text)));
+    throw InputError(
+        fmt::format("{}:{}: invalid TOML: a key or a value is missing after '[' or '='", name,
+                    line_of_failure(file.text)));
   }
 }
 
@@ -114,9 +114,9 @@ void TomlReader::fail(std::string_view key, const std::string& message,
   const std::string where = state_->name.empty() ? std::string(key)
                             : key.empty()        ? fmt::format("[{}]", state_->name)
                                                  : fmt::format("{}.{}", state_->name, key);
-  // Of the text of a law the message has its own excerpt.
+  // A message about the text of a formula has its own excerpt.
   const bool has_excerpt = message.find('\n') != message.npos;
-  // A key that is missing stands in no line.
+  // A missing key has no line.
   const bool shows = !has_excerpt && (node || !state_->name.empty());
   throw InputError(fmt::format("{}:{}:{}: {}: {}{}", state_->file, at.line, at.column, where,
                                message, shows ? excerpt(at.line, at.column, repair) : ""));
@@ -174,10 +174,10 @@ std::optional<std::string> TomlReader::choice(std::string_view key,
   auto value = text_as(key, fmt::format("`\"{}\"`", fmt::join(allowed, "\"`, `\"")));
   if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
     if (allowed.size() == 1)
-      fail(key, fmt::format("'{}' is not possible; only '{}' is", *value, allowed.front()));
+      fail(key, fmt::format("'{}' is not allowed; only '{}' is", *value, allowed.front()));
     const std::string nearest = nearest_name(*value, allowed);
     fail(key,
-         fmt::format("'{}' is not possible; it is one of {} (nearest: '{}')", *value,
+         fmt::format("'{}' is not allowed; use one of {} (nearest: '{}')", *value,
                      fmt::join(allowed, ", "), nearest),
          near_name(*value, allowed) ? Repair{*value, nearest} : Repair{});
   }
@@ -194,34 +194,33 @@ std::optional<long long> TomlReader::integer(std::string_view key, long long lea
   if (!node->is_integer()) fail(key, fmt::format("must be a whole number, {}", not_a(*node)));
   const long long value = node->as_integer()->get();
   if (value < least || value > most) {
-    fail(key, fmt::format("{} is out of range, {} to {} is possible", value, least, most));
+    fail(key, fmt::format("{} is out of range; use {} to {}", value, least, most));
   }
   return value;
 }
 
 namespace {
 
-// What a key with such a quantity may hold.
+// The values allowed for a key with such a quantity.
 std::string kind_of_quantity(std::string_view si) {
   if (si == "1") return "number";
   return may_be_plain(si) ? fmt::format("number, or text like `\"1 {}\"`", si)
                           : fmt::format("text like `\"1 {}\"`", si);
 }
 
-// What a node holds as a quantity; throws InputError without a place.
+// The quantity in a node; throws InputError without a position.
 Quantity read_node(const toml::node& node, std::string_view si) {
   if (const auto text = node.value_exact<std::string>()) {
     const Quantity quantity = read_quantity(*text, si);
-    if (!std::isfinite(quantity.si()))
-      throw InputError(fmt::format("'{}' is too large a number", *text));
+    if (!std::isfinite(quantity.si())) throw InputError(fmt::format("'{}' is too large", *text));
     return quantity;
   }
   const auto number = node.value<double>();
   if (!number || node.is_boolean()) {
     throw InputError(may_be_plain(si)
                          ? fmt::format("must be a number, {}", not_a(node))
-                         : fmt::format("must be a number with its unit, a text like '1.5 {}', {}",
-                                       si, not_a(node)));
+                         : fmt::format("must be a number with a unit, a text like '1.5 {}', {}", si,
+                                       not_a(node)));
   }
   if (!std::isfinite(*number)) throw InputError("must be finite");
   if (!may_be_plain(si)) {
@@ -231,7 +230,7 @@ Quantity read_node(const toml::node& node, std::string_view si) {
   return {*number, Unit{"1", 1, 0}};
 }
 
-// A number that lacks its unit, with one.
+// The repair of a number without a unit.
 Repair unit_of_its_own(const toml::node& node, std::string_view si) {
   const auto number = node.value<double>();
   if (!number || node.is_boolean() || may_be_plain(si)) return {};
@@ -357,7 +356,7 @@ void TomlReader::finish() const {
     if (state_->asked.contains(key)) continue;
     std::vector<std::string> allowed;
     for (const auto& [name, kinds] : state_->asked) allowed.push_back(name);
-    if (allowed.empty()) fail(key, "unknown key; nothing may stand here");
+    if (allowed.empty()) fail(key, "unknown key; no keys are allowed here");
     fail(key,
          fmt::format("unknown key; did you mean '{}'? (possible: {})", nearest_name(key, allowed),
                      fmt::join(allowed, ", ")),

@@ -15,14 +15,14 @@
 
 namespace wearwell {
 
-/// One table of a TOML file, read strictly: what is asked for is what may stand there. Every
-/// message begins with file:line:column, names the key and ends with that line (study_excerpt.h);
-/// `finish` refuses what was never asked for. All throw InputError.
+/// One table of a TOML file, read strictly: only requested keys are allowed. Every message begins
+/// with file:line:column, names the key and ends with that line (study_excerpt.h); `finish` refuses
+/// keys that were never requested. All throw InputError.
 class TomlReader {
  public:
-  /// Throws InputError when it is not TOML.
+  /// Throws InputError if it is not TOML.
   static TomlReader parse(const TextFile& file);
-  /// Or when it cannot be read.
+  /// Also if it cannot be read.
   static TomlReader parse_file(const std::filesystem::path& file);
 
   TomlReader(const TomlReader&);
@@ -43,7 +43,7 @@ class TomlReader {
 
   std::optional<long long> integer(std::string_view key, long long least, long long most) const;
 
-  /// "NUMBER UNIT" of the dimension of `si`; where that is a number or a count, a plain number too.
+  /// "NUMBER UNIT" of the dimension of `si`; for a number or a count also a plain number.
   std::optional<Quantity> quantity(std::string_view key, std::string_view si) const;
   Quantity required_quantity(std::string_view key, std::string_view si) const;
   /// One quantity or a list of them.
@@ -52,35 +52,35 @@ class TomlReader {
   std::optional<TomlReader> table(std::string_view key) const;
   TomlReader required_table(std::string_view key) const;
 
-  /// The keys that stand in the table, in the order of the file.
+  /// The keys in the table, in the order of the file.
   std::vector<std::string> keys() const;
 
-  /// Refuses the value of `key`, or the table itself when it has no such key. `repair` is what would
-  /// be right in its line.
+  /// Refuses the value of `key`, or the table itself if it has no such key. `repair` is the
+  /// correction of its line.
   [[noreturn]] void fail(std::string_view key, const std::string& message,
                          const Repair& repair = {}) const;
 
-  /// A key that stands in the file, with its table: "prior.k.distribution".
+  /// A key in the file, with its table: "prior.k.distribution".
   struct Present {
     std::string path;
     bool is_table = false;
-    std::string text;                  ///< its value, where that is a text
+    std::string text;                  ///< its value, if that is a text
     std::string place;                 ///< "12:3", line and column of the value
     std::size_t line = 0, column = 0;  ///< the same
   };
-  /// All that stands here and in the tables below, in the order of the file. Asks for nothing.
+  /// All keys here and in the tables below, in the order of the file. Does not count as a request.
   std::vector<Present> present() const;
 
-  /// What was asked for so far, here and in the tables below, and as what: "predict.limit" as
-  /// {"quantity `m^3`"}. Of a key that was only looked for, nothing is known.
+  /// The keys requested so far, here and in the tables below, with their kinds: "predict.limit"
+  /// with {"quantity `m^3`"}. A key whose presence alone was tested has no kind.
   std::map<std::string, std::set<std::string>> asked() const;
 
   const std::string& file() const;
-  /// What stands in the file, behind a message (study_excerpt.h).
+  /// The excerpt of the file after a message (study_excerpt.h).
   std::string excerpt(std::size_t line, std::size_t column, const Repair& repair = {}) const;
 
-  /// Refuses keys that were never asked for, here and in the tables below, naming the nearest that
-  /// may stand there.
+  /// Refuses keys that were never requested, here and in the tables below, and names the nearest
+  /// allowed key.
   void finish() const;
 
  private:

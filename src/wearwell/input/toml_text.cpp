@@ -10,9 +10,9 @@
 namespace wearwell {
 namespace {
 
-constexpr int most_parts = 32;  // of a dotted key
+constexpr int most_parts = 32;  // limit for the parts of a dotted key
 
-/// The length of the string or comment that begins at `at`; 0 where none does.
+/// The length of the string or comment that begins at `at`; 0 if there is none.
 std::size_t skipped(const std::string& text, std::size_t at) {
   const char quote = text[at];
   if (quote == '#') return std::min(text.find('\n', at), text.size()) - at;
@@ -25,7 +25,7 @@ std::size_t skipped(const std::string& text, std::size_t at) {
     } else if (text.compare(i, end.size(), end) == 0) {
       return i + end.size() - at;
     } else if (text[i] == '\n' && !long_one) {
-      return i - at;  // never closed, which the parser says better
+      return i - at;  // not closed; the parser reports it better
     }
   }
   return text.size() - at;
@@ -41,7 +41,7 @@ bool has_open_quote(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '#') return false;
     if (line[i] != '"' && line[i] != '\'') continue;
-    if (line.compare(i, 3, std::string(3, line[i])) == 0) return false;  // over more than one line
+    if (line.compare(i, 3, std::string(3, line[i])) == 0) return false;  // a multi-line string
     const char quote = line[i++];
     while (i < line.size() && line[i] != quote) i += line[i] == '\\' && quote == '"' ? 2 : 1;
     if (i >= line.size()) return true;
@@ -55,7 +55,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// "0,5" and "9.5 mm" in front of a comment, a comma or a closing bracket.
+// "0,5" and "9.5 mm" before a comment, a comma or a closing bracket.
 std::string slip_of_number(std::string_view value) {
   const auto digits = [&](std::size_t from) {
     return std::min(value.find_first_not_of("0123456789", from), value.size());
@@ -81,23 +81,23 @@ std::string slip_of_number(std::string_view value) {
     mended = fmt::format("\"{} {}\"", mended, unit);
   }
   return fmt::format("'{}': {}{}{}; write {}", written,
-                     has_comma ? "a number has a decimal point, no comma" : "",
+                     has_comma ? "a number needs a decimal point, not a comma" : "",
                      has_comma && has_unit ? ", and " : "",
-                     has_unit ? "a number with its unit stands in quotes" : "", mended);
+                     has_unit ? "a number with a unit needs quotes" : "", mended);
 }
 
 std::string slip_of_value(std::string_view key, std::string_view value) {
-  if (value.empty() || value.starts_with('#')) return "no value stands behind '='";
+  if (value.empty() || value.starts_with('#')) return "there is no value after '='";
   for (const std::string_view curled : {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019"}) {
     if (value.starts_with(curled))
-      return "quotes are straight, \"...\", not curled as a word processor makes them";
+      return "use straight quotes, \"...\", not the curled quotes of a word processor";
   }
   const std::size_t sign = value.find_first_of("+-") == 0;
   if (value.size() > sign && std::isdigit(static_cast<unsigned char>(value[sign])))
     return slip_of_number(value);
   const bool word = std::isalpha(static_cast<unsigned char>(value.front())) != 0;
   if (!word || value.starts_with("true") || value.starts_with("false")) return {};
-  return fmt::format("a text stands in quotes: {} = \"...\"", key);
+  return fmt::format("a text needs quotes: {} = \"...\"", key);
 }
 
 }  // namespace
@@ -115,8 +115,8 @@ void refuse_long_keys(const std::string& text, const std::string& name) {
     const char c = text[i++];
     if (c == '.') {
       if (++parts > most_parts)
-        throw InputError(fmt::format("{}:{}: a key of more than {} parts is none of a study", name,
-                                     line, most_parts));
+        throw InputError(
+            fmt::format("{}:{}: the key has more than {} parts", name, line, most_parts));
     } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
       parts = 1;
       if (c == '\n') ++line;
@@ -129,11 +129,11 @@ std::string common_slip(std::string_view text, std::size_t number_of_line) {
   if (line.find('=') == line.npos) {
     const std::size_t colon = line.find(':');
     return colon != line.npos && line.find_first_of("[{\"'#") > colon
-               ? "'=' stands between a key and its value, not ':'"
+               ? "write '=' between a key and its value, not ':'"
                : "";
   }
   if (has_open_quote(line)) return "a text is not closed: a quote is missing on this line";
-  // More than one key stands on the line of an inline table.
+  // The line of an inline table has more than one key.
   std::size_t from = 0;
   for (std::size_t at = line.find('='); at != line.npos; at = line.find('=', at + 1)) {
     const std::string slip =
@@ -148,9 +148,8 @@ std::string in_our_words(std::string_view description) {
   const std::string_view twice = "cannot redefine existing ";
   const std::size_t at = description.find(twice);
   if (at != description.npos && !description.ends_with("as table")) {
-    return fmt::format(
-        "{} stands here a second time; each [table], and each key in it, stands once",
-        description.substr(at + twice.size()));
+    return fmt::format("{} is defined twice; define each [table], and each key in it, once",
+                       description.substr(at + twice.size()));
   }
   const std::size_t colon = description.find(": ");
   const bool parsing = description.starts_with("Error while parsing ") && colon != description.npos;

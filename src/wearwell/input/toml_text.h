@@ -5,17 +5,17 @@
 
 namespace wearwell {
 
-// What is looked at in the text of a study beside the parser.
+// Checks of a study's text in addition to the parser's.
 
-/// Refuses a dotted key of very many parts: toml++ goes down a call for each, and the stack cannot
-/// hold many thousands. Throws InputError; `name` is the file's.
+/// Refuses a dotted key with very many parts, because toml++ recurses for each part and thousands
+/// overflow the stack. Throws InputError; `name` is the name of the file.
 void refuse_long_keys(const std::string& text, const std::string& name);
 
-/// What is most often wrong with a line (counted from 1) that is no TOML, in words of a study: a
-/// decimal comma, a unit or a word without quotes. Empty where it is something else.
+/// Describes the most common errors of a line (from 1) that is not TOML: a decimal comma, a unit or
+/// a word without quotes. Empty for other errors.
 std::string common_slip(std::string_view text, std::size_t line);
 
-/// What toml++ found, in words of a study.
+/// An error of toml++ in terms of a study.
 std::string in_our_words(std::string_view description);
 
 }  // namespace wearwell

@@ -23,8 +23,8 @@ namespace wearwell {
 namespace {
 
 constexpr std::size_t most_sheet = std::size_t(512) << 20, most_parts = 64 << 20;  // bytes
-constexpr std::size_t most_text = 1 << 16;      // of a cell; Excel has half of it
-constexpr std::size_t most_cells = 50'000'000;  // of what is used, empty ones too
+constexpr std::size_t most_text = 1 << 16;      // limit for a cell; Excel's limit is half of it
+constexpr std::size_t most_cells = 50'000'000;  // limit for the used range, with empty cells
 
 struct SheetName {
   std::string name, part;
@@ -42,7 +42,7 @@ std::string attribute(const XmlHandler::Attributes& attributes, std::string_view
   return found == attributes.end() ? "" : found->second;
 }
 
-/// What an .xlsx holds beside its sheets.
+/// The parts of an .xlsx other than its sheets.
 class Workbook {
  public:
   explicit Workbook(const TableFile& file) : source_(file.source()), zip_(file) {
@@ -54,20 +54,20 @@ class Workbook {
   const std::string& source() const { return source_; }
   const std::vector<SheetName>& sheets() const { return sheets_; }
 
-  /// Calls `row` with each row that holds something. Ranges of merged cells, which stand behind the rows, are
-  /// added to `merged`.
+  /// Calls `row` with each non-empty row. Ranges of merged cells, which follow the rows, are added
+  /// to `merged`.
   void read_rows(const SheetName& sheet, const SheetRange& range,
                  const std::function<void(SheetRow& row)>& row,
                  std::vector<SheetRange>* merged = nullptr) const;
 
  private:
   void read_sheet_names() {
-    std::map<std::string, std::string> parts;  // of each relation
+    std::map<std::string, std::string> parts;  // target of each relation
     const auto nothing = [](std::string_view) {};
     const char* const relations = "xl/_rels/workbook.xml.rels";
     if (!zip_.has("xl/workbook.xml") || !zip_.has(relations))
       throw InputError(
-          fmt::format("{} is no workbook of Excel (.xlsx): it has no xl/workbook.xml", source_));
+          fmt::format("{} is not an Excel workbook (.xlsx): it has no xl/workbook.xml", source_));
     zip_.read(
         relations,
         {[&](std::string_view name, const auto& attributes) {
@@ -101,7 +101,7 @@ class Workbook {
     zip_.read("xl/sharedStrings.xml",
               {[&](std::string_view name, const auto&) {
                  if (name == "si") strings_.emplace_back();
-                 if (name == "rPh") in_reading = true;  // how it is pronounced
+                 if (name == "rPh") in_reading = true;  // phonetic reading
                  in_text = name == "t" && !in_reading;
                },
                [&](std::string_view name) {
@@ -143,7 +143,7 @@ class Workbook {
   friend class SheetParser;
 };
 
-/// Goes through the XML of a sheet.
+/// Parses the XML of a sheet.
 class SheetParser {
  public:
   SheetParser(const Workbook& book, const SheetName& sheet, const SheetRange& range,
@@ -189,7 +189,7 @@ class SheetParser {
     if (!in_value_) return;
     value_ += piece;
     if (value_.size() > most_text)
-      throw InputError(fmt::format("cell {} holds more text than a cell can", here()));
+      throw InputError(fmt::format("cell {} exceeds the maximum length of a text", here()));
   }
 
   void end(std::string_view name) {
@@ -213,14 +213,15 @@ class SheetParser {
       return;
     if (has_formula_ && !has_value_ && type_ != "str")
       throw InputError(
-          fmt::format("cell {} holds a formula and not its value; open the file in Excel or "
-                      "LibreOffice, and save it there",
+          fmt::format("cell {} has a formula without its value; open the file in Excel or "
+                      "LibreOffice and save it",
                       here()));
     std::string text = value_;
     if (type_ == "s") {
       const auto index = static_cast<std::size_t>(std::max(whole(value_), 0));
       if (index >= book_.strings_.size())
-        throw InputError(fmt::format("cell {} names a text that the file has not", here()));
+        throw InputError(
+            fmt::format("cell {} refers to a text that the file does not contain", here()));
       text = book_.strings_[index];
     } else if (type_ == "b") {
       text = value_ == "1" ? "true" : "false";
@@ -258,8 +259,8 @@ void Workbook::read_rows(const SheetName& sheet, const SheetRange& range,
             most_sheet);
 }
 
-/// What is found of a sheet before it is read: its columns, its last row (0 where it is empty), and what its cells of
-/// text and its merged cells say.
+/// The survey of a sheet before it is read: its columns, its last row (0 if empty), its numbers in
+/// text cells and its merged cells.
 struct SheetSurvey {
   std::size_t first = most_sheet_columns + 1, last = 0, last_row = 0;
   SheetNumbers numbers;
@@ -332,19 +333,19 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
       if (!sheet) sheet = &each;
     }
     if (full.size() > 1)
-      throw SeveralSheets(fmt::format("{} has several sheets; say which in [data], as in sheet = "
-                                      "\"{}\" (there are {})",
+      throw SeveralSheets(fmt::format("{} has several sheets; state which in [data], for example "
+                                      "sheet = \"{}\" (it has {})",
                                       file.source(), full.front(), fmt::join(full, ", ")),
                           full);
   }
   if (!sheet || used.last == 0)
-    throw InputError(fmt::format("{} holds nothing{}", file.source(),
+    throw InputError(fmt::format("{} is empty{}", file.source(),
                                  settings.range ? " in the range " + *settings.range : ""));
   const std::size_t width = used.last - used.first + 1;
   if (width * used.last_row > most_cells)
-    throw InputError(
-        fmt::format("{}: sheet '{}' uses {} columns and {} rows, which is no table; give its range",
-                    file.source(), sheet->name, width, used.last_row));
+    throw InputError(fmt::format(
+        "{}: sheet '{}' uses {} columns and {} rows, too many for a table; give its range",
+        file.source(), sheet->name, width, used.last_row));
   MemoryText out;
   std::size_t next_row = 1;
   std::string line;
@@ -353,7 +354,7 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   book.read_rows(*sheet, range, [&](SheetRow& row) {
     if (row.number < next_row)
       throw InputError(
-          fmt::format("row {} of sheet '{}' stands out of order", row.number, sheet->name));
+          fmt::format("row {} of sheet '{}' is out of order", row.number, sheet->name));
     merged.fill(row);
     if (row.hidden) hidden.push_back(row.number);
     if (row.hidden && settings.hidden_rows == false) return;
@@ -371,7 +372,7 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   SheetText found{out.table(file.source()), sheet->name};
   for (auto& [column, doubt] : used.numbers.doubts())
     found.doubts[column - used.first] = std::move(doubt);
-  if (used.numbers.any_comma()) found.notes.emplace_back("decimal comma in cells of text");
+  if (used.numbers.any_comma()) found.notes.emplace_back("decimal comma in text cells");
   if (const std::string words = merged.description(); !words.empty()) found.notes.push_back(words);
   if (!hidden.empty()) found.notes.push_back(hidden_text(hidden, settings.hidden_rows != false));
   return found;

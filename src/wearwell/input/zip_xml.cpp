@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t piece = 1 << 16;
 
-/// What goes through the parser, which is C and must not be thrown through.
+/// The state of the parser. Exceptions are stored here, because they must not pass through C code.
 struct Parse {
   const XmlHandler* handler = nullptr;
   XML_Parser parser = nullptr;
@@ -58,10 +58,10 @@ void character_data(void* data, const XML_Char* text, int length) {
   if (parse.handler->text)
     parse.guard([&] { parse.handler->text({text, static_cast<std::size_t>(length)}); });
 }
-/// Entities of its own could grow without end, and no spreadsheet has any.
+/// Custom entities could expand without limit, and spreadsheets have none.
 void start_doctype(void* data, const XML_Char*, const XML_Char*, const XML_Char*, int) {
   auto& parse = *static_cast<Parse*>(data);
-  parse.guard([] { throw InputError("it declares entities of its own, as no spreadsheet does"); });
+  parse.guard([] { throw InputError("it declares custom entities, which spreadsheets never do"); });
 }
 }
 
@@ -78,7 +78,7 @@ ZipXml::ZipXml(const TableFile& file) : source_(file.source()) {
   std::array<unsigned char, 4> start{};
   if (pread(file.descriptor(), start.data(), start.size(), 0) == 4 && start[0] == 0xD0 &&
       start[1] == 0xCF)
-    refuse("it is protected by a password, or an old .xls; save it anew as .xlsx, without one");
+    refuse("it has a password or is an old .xls; save it as .xlsx without a password");
   const int descriptor = dup(file.descriptor());
   if (descriptor < 0) throw MachineError("no file descriptor is left");
   lseek(descriptor, 0, SEEK_SET);
@@ -90,7 +90,7 @@ ZipXml::ZipXml(const TableFile& file) : source_(file.source()) {
   zip_error_init_with_code(&details, error);
   const std::string why = zip_error_strerror(&details);
   zip_error_fini(&details);
-  refuse(fmt::format("it is cut off, damaged or no .xlsx ({})", why));
+  refuse(fmt::format("it is truncated, damaged or not an .xlsx ({})", why));
 }
 
 ZipXml::~ZipXml() = default;

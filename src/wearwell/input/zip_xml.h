@@ -12,27 +12,26 @@ struct zip;
 
 namespace wearwell {
 
-/// What reads an XML text as it comes; names without their prefix.
+/// Callbacks for an XML text; names have no prefix.
 struct XmlHandler {
   using Attributes = std::map<std::string, std::string, std::less<>>;
   std::function<void(std::string_view name, const Attributes& attributes)> start;
   std::function<void(std::string_view name)> end;
-  std::function<void(std::string_view text)> text = {};  ///< may come in pieces
+  std::function<void(std::string_view text)> text = {};  ///< may be called with pieces of a text
 };
 
-/// A zip of XML texts, as spreadsheets are. Nothing is unpacked but what is read, and of that no more
-/// than a limit.
+/// A zip of XML texts, such as a spreadsheet. Unpacks only the requested part, up to a limit.
 class ZipXml {
  public:
-  /// Throws InputError where it is no zip, or one that is cut off or damaged.
+  /// Throws InputError if it is not a zip, or is truncated or damaged.
   explicit ZipXml(const TableFile& file);
   ~ZipXml();
   ZipXml(const ZipXml&) = delete;
   ZipXml& operator=(const ZipXml&) = delete;
 
   bool has(const std::string& part) const;
-  /// Reads one text from its beginning to its end. Throws InputError where there is none, where it is
-  /// damaged or no XML, or larger than `most` bytes.
+  /// Reads one text completely. Throws InputError if it is missing, damaged, not XML, or larger
+  /// than `most` bytes.
   void read(const std::string& part, const XmlHandler& handler, std::size_t most) const;
 
  private:

@@ -6,20 +6,20 @@
 
 #include "wearwell/math/constants.h"
 
-// Longer than others: one integrand: its mode, its nodes about it, and the sums over them.
+// Longer than others: one integrand, its mode, its nodes, and the sums over them.
 namespace wearwell::latent {
 namespace {
 
-constexpr double negligible = -36;        // of log f below its highest
-constexpr double farthest = 1000;         // of z: beyond there is nothing
-constexpr double most_difference = 3e-6;  // between a rule and every second node of it
+constexpr double negligible = -36;        // of log f relative to its maximum
+constexpr double farthest = 1000;         // of z; the integrand is negligible beyond
+constexpr double most_difference = 3e-6;  // between a rule and the rule with every second node
 constexpr double most_difference_of_colours = 3e-5;
 constexpr int most_halvings = 5, most_steps = 40;
 
-// A pair of numbers for each unit, of which the first counts alone where there is one effect.
+// A pair of numbers for each unit; with one effect only the first is used.
 using Pair = std::array<double, 2>;
 
-// Where the integrand of a unit is highest, about, and how wide it is there.
+// The approximate mode of a unit's integrand, and its width there.
 struct LaplaceApproximation {
   Pair center{};
   // Columns of the lattice: z = center + sinh(s) across[0] + sinh(t) across[1].
@@ -41,7 +41,7 @@ class Search {
     return effects_ == 1 ? along_line(std::vector<Pair>(units_)) : over_plane();
   }
 
-  // One effect: of these units alone, from elsewhere.
+  // One effect: searches again for these units only, from other starts.
   std::vector<LaplaceApproximation> approximations(const std::vector<std::uint8_t>& whose,
                                                    std::vector<Pair> from) {
     wanted_ = whose;
@@ -49,7 +49,7 @@ class Search {
   }
 
  private:
-  // log f and its slopes at `at` for the units that are wanted.
+  // log f and its derivatives at `at` for the wanted units.
   void look(const std::vector<Pair>& at, std::vector<double>& log_f, std::vector<Pair>& slope) {
     for (std::size_t u = 0; u < units_; ++u) {
       for (std::size_t e = 0; e < effects_; ++e) z_[u * effects_ + e] = at[u][e];
@@ -65,7 +65,7 @@ class Search {
     }
   }
 
-  // Units without a density at 0 begin where there is one.
+  // Units with zero density at 0 start elsewhere.
   void begin(std::vector<Pair>& at, std::vector<double>& log_f, std::vector<Pair>& slope) {
     look(at, log_f, slope);
     const std::vector<std::uint8_t> whose = wanted_;
@@ -85,7 +85,7 @@ class Search {
     for (std::size_t u = 0; u < units_; ++u) wanted_[u] = whose[u] && !lost(u);
   }
 
-  // One effect: the root of the slope by the secant's method within a bracket.
+  // One effect: the root of the derivative by the secant method within a bracket.
   std::vector<LaplaceApproximation> along_line(std::vector<Pair> at) {
     std::vector<Pair> slope(units_), next(units_), next_slope(units_);
     std::vector<double> log_f(units_, -infinity), next_f(units_, -infinity);
@@ -114,7 +114,7 @@ class Search {
         if (!wanted_[u]) continue;
         const double moved = next[u][0] - at[u][0];
         if (!(next_f[u] > -infinity) || !std::isfinite(next_slope[u][0])) {
-          (moved > 0 ? high : low)[u] = next[u][0];  // no density there
+          (moved > 0 ? high : low)[u] = next[u][0];  // zero density there
           curvature[u] *= 4;
           if (std::abs(moved) < 1e-12) wanted_[u] = 0;
           continue;
@@ -138,7 +138,7 @@ class Search {
     return approximations;
   }
 
-  // Two effects: Newton's method with the curvature by differences, kept positive.
+  // Two effects: Newton's method, with the curvature from differences, kept positive definite.
   std::vector<LaplaceApproximation> over_plane() {
     std::vector<Pair> at(units_), slope(units_), one(units_), two(units_), probe(units_);
     std::vector<Pair> to_slope(units_);
@@ -158,7 +158,7 @@ class Search {
         double a = -(one[u][0] - slope[u][0]) / width, d = -(two[u][1] - slope[u][1]) / width;
         double b = -0.5 * (one[u][1] - slope[u][1] + two[u][0] - slope[u][0]) / width;
         if (!(std::isfinite(a) && std::isfinite(b) && std::isfinite(d))) a = d = 1, b = 0;
-        // Eigenvalues below that of half the prior are raised to it.
+        // Eigenvalues below half of the prior's are raised to that value.
         const double middle = 0.5 * (a + d), off = std::hypot(0.5 * (a - d), b);
         if (middle - off < 0.5) {
           const double raise = 0.5 - (middle - off);
@@ -205,7 +205,7 @@ class Search {
   std::vector<std::uint8_t> wanted_;
 };
 
-// Sums of exp(log f) over the even and over the odd nodes of a lattice, relative to the highest.
+// Sums of exp(log f) over the even and the odd nodes of a lattice, relative to the maximum.
 struct Sum {
   double highest = -infinity;
   double even = 0, odd = 0;
@@ -286,7 +286,8 @@ class Lattice {
     return std::any_of(wanted_.begin(), wanted_.end(), [](auto w) { return w != 0; });
   }
 
-  // One effect. With `offset` the nodes between those of a coarser lattice of the units in `whose`.
+  // One effect. With `offset`: the nodes between those of a coarser lattice, for the units in
+  // `whose`.
   void walk(const std::vector<std::uint8_t>& whose, double step, bool between) {
     constexpr int most = 2000;
     for (const int sign : {1, -1}) {
@@ -308,7 +309,7 @@ class Lattice {
     return !(sums_[u].highest > -infinity) || sums_[u].difference() <= most_difference;
   }
 
-  // Units of which a node on the way stands well above the mode that was found: another look from there.
+  // Units with a node far above the mode that was found: searches again from there.
   void look_again(double step) {
     constexpr double above = 1;
     std::vector<std::uint8_t> whose(units_, 0);
@@ -339,7 +340,8 @@ class Lattice {
   }
 
   void line() {
-    // The longest at which the rule with every second node agrees with it where the integrand is a bell.
+    // The longest step at which the rule and the rule with every second node agree for a normal
+    // integrand.
     double step = 0.14;
     std::vector<std::uint8_t> whose(units_, 1);
     walk(whose, step, false);
@@ -355,7 +357,7 @@ class Lattice {
       if (!again) return;
       if (halving == most_halvings) return leave(whose);
       for (std::size_t u = 0; u < units_; ++u) {
-        if (!whose[u]) continue;  // all so far are the even nodes of the finer lattice
+        if (!whose[u]) continue;  // the nodes so far are the even nodes of the finer lattice
         sums_[u].even += sums_[u].odd;
         sums_[u].odd = 0;
       }
@@ -369,7 +371,7 @@ class Lattice {
     }
   }
 
-  // What these units still differ by is told.
+  // Records the remaining difference of these units.
   void leave(const std::vector<std::uint8_t>& whose) {
     result_.settled = false;
     for (std::size_t u = 0; u < units_; ++u) {
@@ -385,8 +387,8 @@ class Lattice {
     result_.log_likelihood[u] = sums_[u].highest + std::log((sums_[u].even + sums_[u].odd) * area);
   }
 
-  // Two effects: rings about the mode, until one adds nothing; with a smaller step where the nodes of
-  // one colour of the chessboard and those of the other do not agree.
+  // Two effects: rings about the mode until one adds nothing. The step is reduced if the sums over
+  // the two colors of the checkerboard of nodes do not agree.
   void plane() {
     double step = 0.24;
     std::vector<std::uint8_t> whose(units_, 1);

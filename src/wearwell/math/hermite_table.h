@@ -32,7 +32,7 @@ class HermiteTable {
     return at >= 0 && at + 1 < static_cast<double>(nodes_.size());
   }
 
-  /// At an x that the table covers.
+  /// Requires an x inside the table.
   Point operator()(double x) const {
     const double at = (x - from_) * per_unit_;
     const auto i = static_cast<std::size_t>(at);

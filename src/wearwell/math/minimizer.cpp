@@ -12,7 +12,7 @@ namespace {
 struct Search {
   const Objective& objective;
   Minimum best;
-  std::exception_ptr failure = nullptr;  // NLopt would turn it into an error of its own
+  std::exception_ptr failure = nullptr;  // NLopt would replace the exception by its own error
 
   double operator()(unsigned n, const double* x, double* gradient) {
     const std::span<double> slope = gradient ? std::span<double>(gradient, n) : std::span<double>();
@@ -24,7 +24,7 @@ struct Search {
       throw nlopt::forced_stop();
     }
     if (std::isnan(value)) value = INFINITY;
-    // Outside the domain the objective may leave the gradient as it was, and NLopt reads it.
+    // Outside the domain the objective may not set the gradient, but NLopt reads it.
     if (!std::isfinite(value)) std::fill(slope.begin(), slope.end(), 0.0);
     if (value < best.value) {
       best.value = value;
@@ -55,8 +55,7 @@ Minimum minimize(const Objective& objective, const Eigen::VectorXd& start, int m
   } catch (const nlopt::roundoff_limited&) {
     search.best.converged = true;  // no further progress is possible in double precision
   } catch (const std::runtime_error&) {
-    // NLopt's generic failure, such as a line search that met only infinities: the best point
-    // stands.
+    // NLopt's generic failure, such as a line search with only infinities; the best point is kept.
   }
   if (search.failure) std::rethrow_exception(search.failure);
   search.best.converged = search.best.converged && std::isfinite(search.best.value);

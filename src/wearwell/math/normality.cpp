@@ -17,7 +17,7 @@ double normal_cdf(double x) {
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
-/// Of values in ascending order.
+/// For values in ascending order.
 double distance(const std::vector<double>& sorted, double mean, double sd) {
   const double n = static_cast<double>(sorted.size());
   double most = 0;
@@ -36,7 +36,7 @@ double standardized_distance(std::vector<double>& values) {
   return distance(values, mean, sd);
 }
 
-// Ascending values of which equal ones are spread over the middle half of the gaps beside them.
+// Spreads equal values over the middle half of the gaps beside them; ascending.
 void spread_ties(std::vector<double>& sorted) {
   const std::vector<double> at = sorted;
   for (std::size_t i = 0; i < at.size();) {
@@ -54,9 +54,9 @@ void spread_ties(std::vector<double>& sorted) {
   }
 }
 
-// Of A^2 with estimated mean and standard deviation, modified for n.
+// The p value of A^2 with estimated mean and standard deviation, modified for n.
 double anderson_darling_p(double a) {
-  constexpr double largest = 100;  // beyond, the parabola of the logarithm turns
+  constexpr double largest = 100;  // beyond it the parabola for the logarithm increases again
   a = std::min(a, largest);
   if (a >= 0.6) return std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
   if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
@@ -152,7 +152,7 @@ AndersonDarlingTest anderson_darling_test(std::vector<double> values) {
   x = (x - mean) / sd;
   double sum = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    constexpr double least = 1e-300;  // of what has a logarithm
+    constexpr double least = 1e-300;  // smallest argument of a logarithm
     const double below = std::max(normal_cdf(values[i]), least);
     const double above = std::max(normal_cdf(-values[values.size() - 1 - i]), least);
     sum += (2 * static_cast<double>(i) + 1) * (std::log(below) + std::log(above));

@@ -7,7 +7,7 @@ namespace wearwell {
 
 struct KolmogorovTest {
   double distance = 0;  ///< largest between the empirical and the normal distribution function
-  double p = 0;         ///< probability of a larger one when the law is right
+  double p = 0;         ///< probability of a larger one under the null hypothesis
 };
 
 /// Kolmogorov-Smirnov test of values against N(0, 1). The p value is exact (Marsaglia, Tsang and
@@ -26,9 +26,9 @@ struct AndersonDarlingTest {
 };
 
 /// Anderson-Darling test of normality with estimated mean and standard deviation (Stephens 1974, JASA 69, 730-737);
-/// the p value is that of D'Agostino and Stephens (1986), Goodness-of-Fit Techniques, table 4.9. Equal values are
-/// spread evenly over half the way to their neighbours, so that rounding is not taken for a shape. p is 1 of
-/// fewer than five values and of values that are all the same.
+/// the p value is that of D'Agostino and Stephens (1986), Goodness-of-Fit Techniques, table 4.9.
+/// Equal values are spread evenly over half the distance to their neighbors, so that rounding does
+/// not look like non-normality. p is 1 for fewer than five values and for constant values.
 AndersonDarlingTest anderson_darling_test(std::vector<double> values);
 
 /// Points of a normal probability plot: values in ascending order against the normal quantiles of

@@ -6,7 +6,7 @@ namespace wearwell {
 
 GaussLegendre gauss_legendre(int n) {
   GaussLegendre rule;
-  // Boost returns the zeros that are not negative.
+  // Boost returns only the non-negative zeros.
   const std::vector<double> zeros = boost::math::legendre_p_zeros<double>(n);
   for (auto zero = zeros.rbegin(); zero != zeros.rend(); ++zero) {
     if (*zero > 0) rule.node.push_back(-*zero);

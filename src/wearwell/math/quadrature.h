@@ -6,7 +6,7 @@ namespace wearwell {
 
 /// Gauss-Legendre rule on [-1, 1]: exact for polynomials up to degree 2n - 1. All weights are
 /// positive, and the cumulated weights cut [-1, 1] into cells with one node each
-/// (Chebyshev-Markov-Stieltjes), so a node may stand for its cell.
+/// (Chebyshev-Markov-Stieltjes), so a node can represent its cell.
 struct GaussLegendre {
   std::vector<double> node;
   std::vector<double> weight;     ///< sums to 2

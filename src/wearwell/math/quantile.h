@@ -10,7 +10,7 @@ namespace wearwell {
 /// The p-quantile of values in ascending order, interpolated between the two nearest: R's type 7
 /// (Hyndman and Fan 1996, definition 7). `sorted` is not empty, 0 <= p <= 1.
 inline double quantile(std::span<const double> sorted, double p) {
-  // Counted from 1, as R does: near a whole position the rounding decides which value is returned.
+  // Counts from 1, as in R: near an integer position, rounding determines the returned value.
   const double position = 1 + static_cast<double>(sorted.size() - 1) * p;
   const double below = std::floor(position);
   const auto i = static_cast<std::size_t>(below) - 1;
@@ -18,11 +18,11 @@ inline double quantile(std::span<const double> sorted, double p) {
   return std::lerp(sorted[i], sorted[i + 1], position - below);
 }
 
-/// The p-quantile of weighted draws (of importance sampling, say), `weights[i]` belonging to
-/// `sorted[i]`: the weighted type 7 of Akinshin (2023), arXiv:2304.07265. Each value counts by its
-/// share of a window of mass 1/n around p, where n = (sum w)^2 / sum w^2 is Kish's effective sample
-/// size; equal weights give type 7. Weights are not negative, their sum is positive, and their
-/// scale does not matter.
+/// The p-quantile of weighted draws (for example from importance sampling), `weights[i]` belonging
+/// to `sorted[i]`: the weighted type 7 of Akinshin (2023), arXiv:2304.07265. Each value counts by
+/// its share of a window of mass 1/n around p, where n = (sum w)^2 / sum w^2 is Kish's effective
+/// sample size; equal weights give type 7. Weights are not negative, their sum is positive, and
+/// their scale does not matter.
 inline double quantile(std::span<const double> sorted, std::span<const double> weights, double p) {
   double sum = 0, squares = 0;
   for (const double w : weights) {
@@ -35,10 +35,10 @@ inline double quantile(std::span<const double> sorted, std::span<const double> w
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     mass += weights[i];
     const double reached = std::clamp(mass / sum * n - window, 0.0, 1.0);
-    if (reached > covered) value += (reached - covered) * sorted[i];  // which may be infinite
+    if (reached > covered) value += (reached - covered) * sorted[i];  // the value may be infinite
     covered = reached;
   }
-  // Rounding may leave the window's end uncovered, by an amount that belongs to the last value.
+  // Rounding may leave the end of the window uncovered; this part belongs to the last value.
   return covered < 1 ? value + (1 - covered) * sorted.back() : value;
 }
 
@@ -46,7 +46,8 @@ struct WeightedValue {
   double value, weight;
 };
 
-/// The least value that, with all below it, holds p of the weight. Weights sum to 1; `all` is not empty and is put into another order.
+/// The smallest value at which the cumulative weight reaches p. Weights sum to 1; `all` is not
+/// empty and is reordered.
 inline double weighted_quantile(std::span<WeightedValue> all, double p) {
   const auto by_value = [](const WeightedValue& a, const WeightedValue& b) {
     return a.value < b.value;

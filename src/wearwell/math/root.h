@@ -8,17 +8,17 @@
 
 namespace wearwell {
 
-/// Where a search for a root ends: when its bracket is no wider than both together.
+/// The tolerance of a root search: it ends when the bracket is no wider than the sum of both.
 struct Closeness {
   double absolute = 0;
-  double relative = 0;  ///< to the size of the root
+  double relative = 0;  ///< relative to the root
 };
 
-/// Where a function that rises crosses zero. It is looked for from `guess` outward, by steps that
-/// begin with `step` > 0 and double, between `lowest` and `highest`; then by Alefeld, Potra and Shi's
-/// algorithm 748 (1995). `lowest` where the function is positive there already, `highest` where it is
-/// negative still; NaN where it is no number. The bracket takes one call for each doubling (2100 for
-/// the whole range of doubles), its closing 200 at most.
+/// The zero of an increasing function. The bracket grows outward from `guess`, with steps that
+/// begin at `step` > 0 and double, between `lowest` and `highest`; then algorithm 748 of Alefeld,
+/// Potra and Shi (1995) closes it. Returns `lowest` if the function is positive there, `highest` if
+/// it is negative there, and NaN if it is NaN. Bracketing takes one call per doubling (2100 for the
+/// whole range of doubles), closing at most 200.
 template <class F>
 double solve_increasing(const F& f, double guess, double step, Closeness close,
                         double lowest = -std::numeric_limits<double>::max(),

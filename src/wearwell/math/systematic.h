@@ -2,8 +2,9 @@
 
 namespace wearwell {
 
-/// Systematic sampling of things that come in an order in which neighbours are alike: one for every `share` of their
-/// weight, so that each is taken as often as it has weight. Whoever is taken stands for `share`.
+/// Systematic sampling of items in an order in which neighbors are similar: one item for every
+/// `share` of cumulative weight, so that the frequency is proportional to the weight. Each sampled
+/// item has weight `share`.
 class Systematic {
  public:
   explicit Systematic(double share) : share_(share), passed_(0.5 * share) {}

@@ -290,7 +290,7 @@ Json legend_of(const std::vector<Entry>& entries) {
 Json nothing_to_draw() {
   return {
       {"data", {{"values", Json::array({Json::object()})}}},
-      {"mark", {{"type", "text"}, {"text", "no finite value to draw"}, {"fill", colour::prior}}},
+      {"mark", {{"type", "text"}, {"text", "no finite value to plot"}, {"fill", colour::prior}}},
       {"encoding", Json::object()}};
 }
 

@@ -34,7 +34,7 @@ std::string text_of(const std::vector<Listed>& list) {
   return text;
 }
 
-/// "life.csv" or "tables/life.csv": nothing that leads out of the folder.
+/// Accepts "life.csv" or "tables/life.csv", but no path that leaves the folder.
 bool is_plain(const fs::path& name) {
   const bool leads_out = std::any_of(name.begin(), name.end(), [](const fs::path& part) {
     return part.empty() || part == "." || part == ".." || part == "/";
@@ -42,7 +42,7 @@ bool is_plain(const fs::path& name) {
   return !leads_out && std::distance(name.begin(), name.end()) <= 2;
 }
 
-/// Nothing when there is no list, or it is none of ours.
+/// Empty without a list, or with a list of another program.
 std::optional<std::vector<Listed>> read_list(const fs::path& folder) {
   constexpr std::size_t digits = 40, between = 2;
   std::error_code error;
@@ -67,7 +67,8 @@ bool is_unchanged(const fs::path& file, const std::string& name, const std::vect
          });
 }
 
-/// What is in the folder: of wearwell's writing, and the first that is not, with the reason.
+/// The content of the folder: the files written by wearwell, and the first other file with the
+/// reason.
 struct Content {
   std::vector<std::string> own;
   std::string foreign;
@@ -77,18 +78,18 @@ Content look_at(const fs::path& folder) {
   Content content;
   const auto list = read_list(folder);
   const auto foreign = [&](const std::string& name, const char* why) {
-    if (content.foreign.empty()) content.foreign = fmt::format("it holds {}, {}", name, why);
+    if (content.foreign.empty()) content.foreign = fmt::format("it contains {}, {}", name, why);
   };
   for (const std::string& name : files_in(folder)) {
     if (list && name == list_name) {
       content.own.push_back(name);
     } else if (!list) {
-      foreign(name, "and no results.sha1, the list of what wearwell wrote");
+      foreign(name, "and no results.sha1, the list of files written by wearwell");
     } else if (std::none_of(list->begin(), list->end(),
                             [&](const Listed& each) { return each.name == name; })) {
-      foreign(name, "which is no result");
+      foreign(name, "which is not a result");
     } else if (!is_unchanged(folder / name, name, *list)) {
-      foreign(name, "which was changed since wearwell wrote it");
+      foreign(name, "which has changed since wearwell wrote it");
     } else {
       content.own.push_back(name);
     }
@@ -99,7 +100,7 @@ Content look_at(const fs::path& folder) {
   return content;
 }
 
-/// The earlier results that may be replaced.
+/// The earlier results that can be replaced.
 std::vector<std::string> replaceable(const fs::path& target) {
   const fs::path folder = behind_links(target);
   recover_results(folder);
@@ -131,7 +132,8 @@ void recover_results(const fs::path& target) {
   const fs::path folder = behind_links(target);
   std::error_code error;
   if (!fs::exists(folder, error))
-    recover_folder(folder.parent_path());  // it may have been left aside
+    recover_folder(folder.parent_path());  // an interrupted exchange may
+                                           // have moved it
   if (fs::is_directory(folder, error)) recover_folder(folder);
 }
 
@@ -171,8 +173,8 @@ void replace_result(const fs::path& folder, const std::string& name, std::string
   staged.write(list_name, text_of(*list));
   const auto list_now = read_list(folder);
   if (!list_now || text_of(*list_now) != before)
-    throw InputError(fmt::format("will not replace {}: another run wrote to {} meanwhile", name,
-                                 folder.string()));
+    throw InputError(fmt::format("will not replace {}: another run wrote to {} in the meantime",
+                                 name, folder.string()));
   std::vector<std::string> replaced = own();
   if (std::find(replaced.begin(), replaced.end(), name) == replaced.end()) replaced.push_back(name);
   staged.commit(replaced);

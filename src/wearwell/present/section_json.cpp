@@ -134,7 +134,7 @@ Table read_table(const JsonReader& json) {
     table.rows.emplace_back();
     for (const JsonReader& cell : row.items()) table.rows.back().push_back(read_cell(cell));
     if (table.rows.back().size() != table.columns.size())
-      row.fail(fmt::format("has {} cells, and the table {} columns", table.rows.back().size(),
+      row.fail(fmt::format("has {} cells, but the table has {} columns", table.rows.back().size(),
                            table.columns.size()));
   }
   return table;
@@ -179,7 +179,7 @@ Block read_block(const JsonReader& json, int depth) {
   if (json.find("table")) return {read_table(json)};
   const JsonReader summary = json.at("details");
   constexpr int deepest = 4;
-  if (depth == deepest) summary.fail("is folded too deep");
+  if (depth == deepest) summary.fail("is nested too deeply");
   return {Details{summary.text(), read_blocks(json.at("blocks"), depth + 1)}};
 }
 

@@ -20,7 +20,7 @@ struct Beta : OnPositive {
   static X log_kernel(const X& x, const double* s) {
     return (s[0] - 1) * log(x) + (s[1] - 1) * log1p(-x);
   }
-  // Of gammas: the beta function itself underflows from alpha = beta = 515 on.
+  // From log gammas, because the beta function underflows from alpha = beta = 515.
   static double log_integral(const double* s) {
     return boost::math::lgamma(s[0], Quiet()) + boost::math::lgamma(s[1], Quiet()) -
            boost::math::lgamma(s[0] + s[1], Quiet());

@@ -15,12 +15,12 @@ namespace {
 
 using Parameters = std::array<double, most_response_parameters>;
 
-// A family whose kernel has an integral between two bounds alone.
+// A family whose kernel is integrable only between two bounds.
 template <class F>
 concept BetweenBounds = requires {
   &F::log_integral_between;
 };
-// One whose kernel lacks a constant.
+// A family whose kernel omits a constant.
 template <class F>
 concept WithTails = requires(const double* c) {
   F::tails(c);
@@ -30,24 +30,24 @@ void require(const ResponseForm& form, std::size_t i, double value) {
   const ParameterForm& slot = form.slots[i];
   if (families::holds(slot.kind, value)) return;
   const bool positive = slot.kind == ParameterKind::size || slot.kind == ParameterKind::number;
-  throw InputError(fmt::format("{} law: {} is {}, it must be {}", form.name, slot.name, value,
-                               positive ? "positive" : "finite"));
+  throw InputError(fmt::format("{} distribution: {} is {}, but must be {}", form.name, slot.name,
+                               value, positive ? "positive" : "finite"));
 }
 
-// P(lower < X < upper), by whichever tail does not cancel.
+// P(lower < X < upper), from the tail without cancellation.
 template <class Tails>
 double probability(const Tails& distribution, double lower, double upper) {
   return distribution.below(lower) < 0.5 ? distribution.below(upper) - distribution.below(lower)
                                          : distribution.above(lower) - distribution.above(upper);
 }
 
-// The same in logarithms, of any family.
+// The same in logarithms, for any family.
 template <class F>
 double log_probability(const double* s, double lower, double upper) {
   return families::log_between<F>(lower, upper, s);
 }
 
-// What a prior takes of a family, each with one signature.
+// The functions of a family that a prior needs, with uniform signatures.
 template <class F>
 struct Of {
   static Parameters prepared(const Parameters& s) {
@@ -66,7 +66,7 @@ struct Of {
     }
   }
 
-  // log of the kernel's integral between the bounds; what is not finite has none.
+  // log of the kernel's integral between the bounds; improper if not finite.
   static double log_integral(const Distribution& distribution) {
     const double* c = distribution.prepared.data();
     if constexpr (BetweenBounds<F>) {
@@ -75,7 +75,8 @@ struct Of {
       const double whole = F::log_integral(c);
       if (!std::isfinite(whole)) {
         throw InputError(
-            "the law's parameters are too extreme: its normalizing constant overflows");
+            "the parameters of the distribution are too extreme: its normalizing constant "
+            "overflows");
       }
       return whole + std::log(probability(F::tails(c), distribution.lower, distribution.upper));
     } else {
@@ -156,17 +157,18 @@ Distribution make_distribution(const Family& family, double lower, double upper)
   distribution.upper = std::min(upper, of.upper());
   distribution.prepared = of.prepared(family.parameter);
   if (!(distribution.lower < distribution.upper)) {
-    throw InputError(
-        fmt::format("bounds {} to {} (SI) lie outside the law's support", lower, upper));
+    throw InputError(fmt::format("bounds {} to {} (SI) lie outside the support of the distribution",
+                                 lower, upper));
   }
   const double log_integral = of.log_integral(distribution);
   distribution.proper = std::isfinite(log_integral) || !of.may_be_improper;
   if (!distribution.proper && family.id == ResponseFamily::uniform) {
-    throw InputError("uniform law: needs both 'lower' and 'upper'");
+    throw InputError("uniform distribution: needs both 'lower' and 'upper'");
   }
   if (distribution.proper && !std::isfinite(log_integral)) {
-    throw InputError(fmt::format("the law has no probability between its bounds {} and {} (SI)",
-                                 distribution.lower, distribution.upper));
+    throw InputError(
+        fmt::format("the distribution has no probability between its bounds {} and {} (SI)",
+                    distribution.lower, distribution.upper));
   }
   if (distribution.proper) distribution.log_normalizer = log_integral;
   return distribution;
@@ -178,7 +180,7 @@ LogDensityAndSlope log_density(const Distribution& distribution, double x) {
 }
 
 double quantile(const Distribution& distribution, double p) {
-  if (!distribution.proper) throw std::logic_error("quantile of an improper law");
+  if (!distribution.proper) throw std::logic_error("quantile of an improper distribution");
   return std::clamp(functions(distribution).quantile(distribution, p), distribution.lower,
                     distribution.upper);
 }

@@ -7,13 +7,13 @@
 
 namespace wearwell {
 
-/// A family of the list with its parameters, in the order of its slots, in SI.
+/// A family with its parameters, in the order of its slots, in SI.
 struct Family {
   ResponseFamily id;
   std::array<double, most_response_parameters> parameter = {};
 };
 
-// By name, for those that are written in code.
+// By name, for families constructed in code.
 struct Flat {
   operator Family() const { return {ResponseFamily::flat}; }
 };
@@ -55,19 +55,19 @@ struct Beta {
 /// A distribution of one quantity in SI, as a prior: a family, truncated to [lower, upper].
 struct Distribution {
   Family family = Flat{};
-  double lower = -std::numeric_limits<double>::infinity();  ///< of the support, after truncation
+  double lower = -std::numeric_limits<double>::infinity();  ///< bounds of the support, after
+                                                            ///< truncation
   double upper = std::numeric_limits<double>::infinity();
   bool proper = true;         ///< has a finite integral over the support
   double log_normalizer = 0;  ///< log of the kernel's integral over the support; 0 when improper
-  std::array<double, most_response_parameters> prepared = {};  ///< what the kernel takes
+  std::array<double, most_response_parameters> prepared = {};  ///< arguments of the kernel
 };
 
-/// Truncates `family` to [lower, upper] and normalizes. Throws InputError when lower >= upper, when
-/// a parameter of the family is out of range, or when the family has no probability between the
-/// bounds.
+/// Truncates `family` to [lower, upper] and normalizes. Throws InputError if lower >= upper, if a
+/// parameter of the family is out of range, or if the family has no probability between the bounds.
 Distribution make_distribution(const Family& family, double lower, double upper);
 
-/// Whether its density is the same everywhere between its bounds.
+/// Whether its density is constant between its bounds.
 inline bool is_flat(const Distribution& distribution) {
   return distribution.family.id == ResponseFamily::flat ||
          distribution.family.id == ResponseFamily::uniform;
@@ -78,10 +78,11 @@ struct LogDensityAndSlope {
   double slope;  ///< derivative by x
 };
 
-/// log density at x inside the support (up to a constant for an improper law), with its derivative.
+/// log density at x inside the support (up to a constant for an improper distribution), with its
+/// derivative.
 LogDensityAndSlope log_density(const Distribution& distribution, double x);
 
-/// The x with P(X <= x) = p, 0 < p < 1. Throws std::logic_error for an improper law.
+/// The x with P(X <= x) = p, 0 < p < 1. Throws std::logic_error for an improper distribution.
 double quantile(const Distribution& distribution, double p);
 
 }  // namespace wearwell

@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// The Weibull law of shape 1, and the gamma law.
+/// The Weibull distribution of shape 1, and the gamma distribution of shape 1.
 struct Exponential : OnPositive {
   static constexpr std::string_view name = "exponential";
   static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}});

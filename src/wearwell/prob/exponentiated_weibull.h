@@ -7,8 +7,8 @@
 
 namespace wearwell::families {
 
-/// P(Y <= y) = (1 - exp(-(y/scale)^shape))^exponent (Mudholkar and Srivastava 1993): the last of
-/// `exponent` Weibull lives where that is a whole number. Its hazard may have the form of a bathtub.
+/// P(Y <= y) = (1 - exp(-(y/scale)^shape))^exponent (Mudholkar and Srivastava 1993): the maximum of
+/// `exponent` Weibull lives if that is a whole number. Its hazard can have a bathtub shape.
 struct ExponentiatedWeibull : OnPositive {
   static constexpr std::string_view name = "exponentiated-weibull";
   static constexpr std::string_view title = "exponentiated Weibull";
@@ -43,14 +43,14 @@ struct ExponentiatedWeibull : OnPositive {
     static thread_local boost::math::quadrature::tanh_sinh<double> rule;
     return rule.integrate(
         [&](double p,
-            double to_end) {  // p from the nearer end, so that its logarithm keeps its digits
+            double to_end) {  // p from the nearer tail, so that its logarithm keeps its digits
           return quantile_at((to_end < 0 ? std::log(p) : std::log1p(-to_end)) / s[2], s);
         },
         0.0, 1.0);
   }
 
  private:
-  // Where the Weibull law has the probability exp(log_p).
+  // The Weibull quantile of exp(log_p).
   static double quantile_at(double log_p, const double* s) {
     const double z = log_p < -37 ? log_p : std::log(-std::log(-std::expm1(log_p)));
     return Weibull::inverse(z, s);

@@ -30,7 +30,7 @@ struct FamilyList {
   static constexpr std::size_t size = sizeof...(F);
 };
 
-/// Every family: first those that ResponseFamily names, in its order.
+/// All families; first those named in ResponseFamily, in its order.
 using Families = FamilyList<  //
     Normal, Lognormal, LognormalOfMoments, Log10Normal, StudentT, Weibull, SmallestExtremeValue,
     LargestExtremeValue, Exponential, Gamma, Loglogistic, InverseGaussian, Poisson, Binomial, Flat,
@@ -42,8 +42,8 @@ using Families = FamilyList<  //
 template <class F>
 inline constexpr bool takes_threshold = F::positive && !F::counted && !F::prior_only;
 
-/// Calls visit.operator()<F>(i) for each family F, i its ResponseFamily; those with a threshold come after all others,
-/// `Families::size` beyond the same without.
+/// Calls visit.operator()<F>(i) for each family F, i its ResponseFamily; those with a threshold
+/// come last, `Families::size` after the same family without one.
 template <class Visit>
 constexpr void for_each_family(const Visit& visit) {
   [&visit]<class... F>(FamilyList<F...>) {
@@ -56,7 +56,7 @@ constexpr void for_each_family(const Visit& visit) {
   }(Families());
 }
 
-/// One entry for each family, by its ResponseFamily; empty where there is none with a threshold.
+/// One entry for each family, by its ResponseFamily; empty if there is no version with a threshold.
 template <class Entry>
 using FamilyTable = std::array<Entry, 2 * Families::size>;
 

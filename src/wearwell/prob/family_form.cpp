@@ -29,7 +29,7 @@ ResponseForm make_form(std::size_t i) {
   return form;
 }
 
-// By ResponseFamily.
+// Indexed by ResponseFamily.
 const std::vector<ResponseForm>& all_forms() {
   static const auto all = [] {
     std::vector<ResponseForm> forms(2 * families::Families::size);
@@ -39,7 +39,7 @@ const std::vector<ResponseForm>& all_forms() {
   return all;
 }
 
-// In the order of the list, what has a threshold beside the same without.
+// In the order of the list; the version with a threshold follows the one without.
 template <class Wanted>
 std::vector<ResponseForm> forms_of(const Wanted& wanted) {
   std::vector<ResponseForm> found;

@@ -9,8 +9,8 @@ namespace wearwell {
 
 enum class StandardDistribution;
 
-/// A family of distributions: its place in the list (families.h). Those that other code names stand
-/// here; the list has more, and each that is positive once more with a threshold.
+/// A family of distributions, by its index in the list (families.h). Only families named in other
+/// code are listed here; the list has more, and each positive family also with a threshold.
 enum class ResponseFamily {
   normal,
   lognormal,             ///< by median and the standard deviation of its natural logarithm
@@ -26,7 +26,7 @@ enum class ResponseFamily {
   inverse_gaussian,
   poisson,
   binomial,
-  flat,  ///< this and what follows are for priors alone
+  flat,  ///< this and the following are only for priors
   uniform,
   half_normal,
   half_cauchy,
@@ -35,10 +35,10 @@ enum class ResponseFamily {
   jeffreys,
 };
 
-/// What a parameter of a family, a slot, holds.
+/// The kind of a family's parameter (slot).
 enum class ParameterKind {
-  place,        ///< a value of what is observed
-  size,         ///< a size of the same dimension, positive
+  place,        ///< a value of the observed quantity
+  size,         ///< a positive scale of the same dimension
   number,       ///< a pure number, positive
   real,         ///< a pure number of either sign
   probability,  ///< a pure number, 0 to 1
@@ -48,42 +48,44 @@ struct ParameterForm {
   std::string_view name;
   ParameterKind kind;
   bool optional = false;
-  /// How a description has it, "{}" for the number: "{} degrees of freedom". Empty: the name and the number.
+  /// Its text in a description, "{}" for the number: "{} degrees of freedom". Empty: name and
+  /// number.
   std::string_view phrase = {};
 };
 
-/// Probability paper: the axes on which shares that have failed are drawn against life.
+/// Probability paper: the axes for the fraction failed against life.
 struct Paper {
   std::string_view name;
   StandardDistribution distribution;  ///< the vertical axis is its quantile
   bool straight = true;               ///< distributions of the family are straight lines on it
 };
 
-/// A family as a study names it, with its slots in order.
+/// A family as named in studies, with its slots in order.
 struct ResponseForm {
   std::string_view name;
   ResponseFamily family;
   std::vector<ParameterForm> slots;
-  bool positive = false;  ///< what is observed is above 0
-  bool counted = false;   ///< it is a count; nothing is censored, and it is no prior
+  bool positive = false;  ///< observations are positive
+  bool counted = false;   ///< a count; no censoring, not a prior
   bool prior_only = false;
-  std::string_view title = {};  ///< in sentences: "Student t"
+  std::string_view title = {};  ///< name in sentences: "Student t"
   Paper paper = {};
-  /// Statements in C that set `value` to the log density of `y` by the parameters a and b; may be none.
+  /// Statements in C that set `value` to the log density of `y` by the parameters a and b; may be
+  /// empty.
   const char* c_density = nullptr;
 };
 
-/// Those of likelihoods. A name with several parameter forms is there several times, the form with a
-/// threshold after that without.
+/// The forms for likelihoods. A name with several parameter forms occurs several times; the form
+/// with a threshold follows the one without.
 std::span<const ResponseForm> response_forms();
-/// Those of priors, likewise; first those that are for priors alone.
+/// The forms for priors; first those that are only for priors.
 std::span<const ResponseForm> prior_forms();
 const ResponseForm& form_of(ResponseFamily family);
 
 inline constexpr int most_response_parameters = 4;
 
-/// Of some forms of one name that whose parameters are given, by `has(name)`; of several that of
-/// which the most are given, then the first. None where each lacks one that it needs.
+/// The form of this name whose parameters are all given, by `has(name)`; among several, the one
+/// with the most given parameters, then the first. None if each form lacks a required parameter.
 template <class Has>
 const ResponseForm* given_form(std::span<const ResponseForm> forms, std::string_view name,
                                const Has& has) {

@@ -6,11 +6,11 @@
 #include "wearwell/prob/quantile_root.h"
 #include "wearwell/prob/standard_values.h"
 
-/// The functions of any family, from what its file has (family.h).
+/// The functions of any family, derived from its definition (family.h).
 namespace wearwell::families {
 
-/// A positive family beyond a threshold, its last parameter: the value less the threshold has the
-/// distribution of the family.
+/// A positive family with a threshold as its last parameter: the value minus the threshold has the
+/// family's distribution.
 template <class F>
 struct WithThreshold {
   using Base = F;
@@ -58,7 +58,7 @@ inline bool holds(ParameterKind kind, double x) {
   }
 }
 
-/// Whether each parameter is of its kind.
+/// Whether each parameter is valid for its kind.
 template <class F, class T>
 bool allowed(const T* s) {
   if constexpr (requires(double x) { F::allows(x); }) {
@@ -82,7 +82,7 @@ double lower_end(const T* s) {
   }
 }
 
-/// Where the place on the standard law's axis is linear: y or log y.
+/// The scale on which the standard axis is linear: y or log y.
 template <class F, class Y>
 auto coordinate(const Y& y) {
   if constexpr (F::positive) {
@@ -92,7 +92,7 @@ auto coordinate(const Y& y) {
   }
 }
 
-/// The place of y on the axis of the standard law.
+/// The position of y on the standard axis.
 template <class F, class Y, class T>
 Result<Y, T> standard_place(const Y& y, const T* s) {
   if constexpr (Thresholded<F>) {
@@ -115,7 +115,7 @@ Result<Y, T> log_density(const Y& y, const T* s) {
   }
 }
 
-/// Of one that is OnStandardAxis without its slopes, to the same bits: these cost as much again.
+/// For an OnStandardAxis family, without slopes, which would double the cost; identical values.
 inline double log_survival_there(StandardDistribution distribution, double z) {
   return log_survival_value(distribution, z);
 }
@@ -153,7 +153,7 @@ Result<Y, T> log_cdf(const Y& y, const T* s) {
   }
 }
 
-/// The same share is asked for at very many points of a posterior.
+/// The same probability is requested at very many points of a posterior.
 inline double standard_quantile(StandardDistribution distribution, double p) {
   if (distribution != StandardDistribution::normal) return wearwell::quantile(distribution, p);
   static thread_local double last = 0.5, z = 0;

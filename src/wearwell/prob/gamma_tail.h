@@ -73,8 +73,8 @@ T log_upper_by_fraction(const T& a, const T& x, const T& log_kernel) {
 }  // namespace detail
 
 /// Logarithms of the regularized incomplete gamma functions P(a, x) and Q(a, x), a > 0, x > 0: each
-/// keeps all digits where it is small, however small. `log_kernel` is log(x^a e^-x / Gamma(a)) for
-/// callers that have it to more digits.
+/// is accurate even where it is tiny. `log_kernel` is log(x^a e^-x / Gamma(a)), for callers that
+/// have it with more digits.
 template <class T>
 T log_gamma_lower(const T& a, const T& x, const T& log_kernel) {
   return scalar(x) < scalar(a) + 1 ? detail::log_lower_by_series(a, x, log_kernel)

@@ -20,7 +20,7 @@ R curvature(const R& u) {
   return sum;
 }
 
-// What Stirling's formula lacks of log Gamma(1/w), w > 0; 0 at w = 0.
+// The remainder of Stirling's formula for log Gamma(1/w), w > 0; 0 at w = 0.
 template <class R>
 R stirling_rest(const R& w) {
   if (scalar(w) > 0.1) {
@@ -34,7 +34,7 @@ R stirling_rest(const R& w) {
 }
 
 // Temme's expansion of the incomplete gamma functions for large a = 1/w at eta (DLMF 8.12.7 to 8.12.10):
-// their distance from the normal law, by its density and sqrt(w).
+// their difference from the normal distribution, divided by its density and sqrt(w).
 template <class R>
 R temme_sum(const R& eta, const R& w) {
   static constexpr double c[4][15] = {
@@ -65,8 +65,9 @@ R temme_sum(const R& eta, const R& w) {
 
 /// The extended generalized gamma distribution of Meeker and Escobar (1998, sec. 5.4; Prentice 1974):
 /// of omega = log(y/scale)/sigma the density is |lambda| exp(kappa (u - e^u) + kappa log kappa)/Gamma(kappa),
-/// u = lambda omega, kappa = 1/lambda^2. lambda = 1 is the Weibull law of shape 1/sigma, lambda = 0 the
-/// lognormal law, lambda = -1 the Frechet law, lambda = sigma the gamma law of shape 1/sigma^2 and mean `scale`.
+/// u = lambda omega, kappa = 1/lambda^2. lambda = 1 is the Weibull distribution of shape 1/sigma,
+/// lambda = 0 the lognormal, lambda = -1 the Frechet, lambda = sigma the gamma distribution of
+/// shape 1/sigma^2 and mean `scale`.
 struct GeneralizedGamma : OnPositive {
   static constexpr std::string_view name = "generalized-gamma";
   static constexpr std::string_view title = "generalized gamma";
@@ -94,7 +95,8 @@ struct GeneralizedGamma : OnPositive {
     const double sigma = s[1], lambda = s[2];
     if (lambda < 0 && !(-lambda * sigma < 1)) return quantile(0.5, s);
     if (std::abs(lambda) < 1e-100) return s[0] * std::exp(0.5 * sigma * sigma);
-    // Of Gamma(kappa + delta)/Gamma(kappa) kappa^-delta by Stirling's formula and its rest.
+    // The logarithm of Gamma(kappa + delta)/Gamma(kappa) kappa^-delta by Stirling's formula with
+    // remainder.
     const double kappa = 1 / (lambda * lambda), grown = 1 + sigma * lambda;
     return s[0] * std::exp(kappa * boost::math::log1pmx(sigma * lambda, Quiet()) +
                            (sigma / lambda - 0.5) * std::log1p(sigma * lambda) +

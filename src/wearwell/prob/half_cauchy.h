@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// Student's t with one degree of freedom about 0, its positive half; the scale is its median.
+/// The positive half of Student's t about 0 with one degree of freedom; the scale is the median.
 struct HalfCauchy : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "half-cauchy";

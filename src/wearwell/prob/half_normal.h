@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// The normal law about 0, its positive half.
+/// The positive half of the normal distribution about 0.
 struct HalfNormal : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "half-normal";

@@ -9,7 +9,7 @@
 
 namespace wearwell::families {
 
-/// 1/x has the gamma law: density proportional to x^(-shape-1) exp(-scale/x).
+/// 1/x has the gamma distribution: density proportional to x^(-shape-1) exp(-scale/x).
 struct InverseGamma : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "inverse-gamma";

@@ -4,12 +4,12 @@
 
 namespace wearwell::families {
 
-/// Jeffreys' law for a scale: density proportional to 1/x on x > 0. Improper unless bounded away
+/// Jeffreys' prior for a scale: density proportional to 1/x on x > 0. Improper unless bounded away
 /// from 0 and infinity.
 struct Jeffreys : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "jeffreys";
-  static constexpr std::string_view title = "1/x: its order of magnitude is unknown";
+  static constexpr std::string_view title = "1/x (unknown order of magnitude)";
   static constexpr std::array<ParameterForm, 0> slots = {};
 
   template <class X>

@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// The mirror of the smallest (Gumbel).
+/// The mirror image of the smallest extreme value distribution (Gumbel).
 struct LargestExtremeValue : SmallestExtremeValue {
   static constexpr std::string_view name = "largest-extreme-value";
   static constexpr std::string_view title = "largest extreme value";

@@ -6,8 +6,8 @@
 
 namespace wearwell::families {
 
-/// log P(a < Y <= b) of a narrow interval inside the support by Gauss-Legendre, where a difference
-/// would cancel.
+/// log P(a < Y <= b) for a narrow interval inside the support, by Gauss-Legendre to avoid
+/// cancellation.
 template <class F, class T>
 T log_narrow(double a, double b, const T* s) {
   static const GaussLegendre rule = gauss_legendre(12);
@@ -21,7 +21,7 @@ T log_narrow(double a, double b, const T* s) {
   return highest + log(half * sum);
 }
 
-/// log P(a < Y <= b); either may lie at or beyond an end of the support.
+/// log P(a < Y <= b); a and b may be at or beyond the ends of the support.
 template <class F, class T>
 T log_between(double a, double b, const T* s) {
   const double end = lower_end<F>(s);

@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// The logarithm has the logistic law; the scale is the median.
+/// The logarithm has the logistic distribution; the scale is the median.
 struct Loglogistic : OnPositive {
   static constexpr std::string_view name = "loglogistic";
   static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});

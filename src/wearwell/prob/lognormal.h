@@ -8,9 +8,10 @@
 
 namespace wearwell {
 
-/// The lognormal law whose quantity itself has mean `mean` > 0 and standard deviation `sd` > 0:
-/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2, of the normal law of the logarithm.
-/// (An et al. 2011, eq. 8, prints the last sign as +, which does not reproduce its own tables.)
+/// The lognormal distribution with mean `mean` > 0 and standard deviation `sd` > 0 of the quantity:
+/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2 are the parameters of the normal
+/// distribution of the logarithm. (An et al. 2011, eq. 8, prints the last sign as +, which does not
+/// reproduce its own tables.)
 template <class T>
 struct LognormalByMoments {
   T eta;
@@ -27,7 +28,7 @@ struct LognormalByMoments {
   }
 };
 
-/// log of the density at x = exp(log_x) of the lognormal law with the given mean and standard
+/// log of the density at x = exp(log_x) of the lognormal distribution with this mean and standard
 /// deviation.
 template <class T>
 T lognormal_log_density(double log_x, const T& mean, const T& sd) {
@@ -121,11 +122,11 @@ struct LognormalOfMoments : OfNormalLogarithm {
   }
 };
 
-/// By the median and the standard deviation of the decadic logarithm.
+/// By the median and the standard deviation of the decimal logarithm.
 struct Log10Normal : OfNormalLogarithm {
   static constexpr std::string_view name = "log10-normal";
   static constexpr auto slots = std::to_array<ParameterForm>(
-      {{"median", size}, {"log10_sd", number, false, "sd of the decadic logarithm {}"}});
+      {{"median", size}, {"log10_sd", number, false, "sd of the decimal logarithm {}"}});
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {

@@ -9,7 +9,7 @@
 namespace wearwell {
 
 /// log of the normal density of `x` with mean `mean` and standard deviation exp(log_sd) = 1 /
-/// inverse_sd: the logarithm and the division are shared by all observations of one likelihood.
+/// inverse_sd: all observations of one likelihood share the logarithm and the division.
 template <class T>
 T normal_log_density(double x, const T& mean, const T& inverse_sd, const T& log_sd) {
   const T z = (x - mean) * inverse_sd;

@@ -29,16 +29,16 @@ std::vector<PlottingPosition> by_kaplan_meier(std::span<const Response> response
   return all;
 }
 
-// Known to lie in (from, to], or at one place.
+// An observation in (from, to], or at one value.
 struct Known {
   double from, to, count;
 };
 
-// The intervals that can hold mass: from a left end to a right end with no other end between.
+// The intervals that can have mass: from a left end to a right end with no other end between.
 std::vector<Known> innermost(const std::vector<Known>& all) {
   struct End {
     double at;
-    int order;  // of one place: a left end that belongs to it, a right end, a left end beyond it
+    int order;  // order at one value: an inclusive left end, a right end, an exclusive left end
   };
   std::vector<End> ends;
   for (const Known& each : all) {
@@ -62,7 +62,8 @@ bool within(const Known& inner, const Known& outer) {
          !(inner.from == inner.to && inner.from == outer.from);
 }
 
-// Turnbull's: what each observation says of where it lies is shared out by the estimate until that stays.
+// Turnbull's self-consistency: distributes each observation by the current estimate until it
+// converges.
 std::vector<PlottingPosition> by_turnbull(const std::vector<Known>& all) {
   constexpr int most_rounds = 5000;
   constexpr double still = 1e-10;

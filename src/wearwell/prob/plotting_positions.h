@@ -7,17 +7,17 @@
 
 namespace wearwell {
 
-/// Where observations stand on probability paper: that share p of all has failed by `at`, as the data say
-/// without any law.
+/// Plotting positions on probability paper: a nonparametric estimate of the fraction p failed by
+/// `at`.
 struct PlottingPosition {
   double at, p;
 };
 
-/// Of exact lives, run-outs and lives seen from an entry on only: Kaplan and Meier's estimate, and at each
-/// life half way up its step (Meeker and Escobar 1998, sec. 6.4), which of n lives without run-outs is
-/// (i - 1/2)/n. Where some are known to an interval or to have ended before: Turnbull's (1976), at the
-/// upper ends of the intervals where it has a step. Run-outs have no place. `counts` says how many each
-/// stands for. Empty where there is no failure, or where intervals come together with entries.
+/// For exact lives, run-outs and delayed entries: the Kaplan-Meier estimate, at the middle of each
+/// step (Meeker and Escobar 1998, sec. 6.4), which is (i - 1/2)/n for n lives without run-outs.
+/// With interval- or left-censored lives: Turnbull's estimate (1976), at the upper ends of the
+/// intervals with a step. Run-outs have no position. `counts` is the number of items per
+/// observation. Empty without failures, or if intervals and delayed entries occur together.
 std::vector<PlottingPosition> plotting_positions(std::span<const Response> responses,
                                                  std::span<const int> counts);
 

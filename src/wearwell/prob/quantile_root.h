@@ -6,7 +6,7 @@
 
 namespace wearwell::families {
 
-/// The quantile of a family above 0 without a formula for it, looked for from `middle` > 0 on.
+/// The quantile of a positive family without a formula, by a search from `middle` > 0.
 template <class F>
 double positive_quantile(double p, const double* s, double middle) {
   const double log_y =

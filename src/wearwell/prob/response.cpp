@@ -57,7 +57,7 @@ T log_response_of(const Response& y, const T* s) {
   return std::isnan(scalar(term)) ? T(-infinity) : term;
 }
 
-// P(Y <= y) of whole numbers.
+// P(Y <= y) for counts.
 template <class F>
 double counted_cdf(double y, const double* s, double trials) {
   double sum = 0;
@@ -70,7 +70,7 @@ double counted_cdf(double y, const double* s, double trials) {
   return std::min(sum, 1.0);
 }
 
-// The functions of a family, all of one signature.
+// The functions of a family, with uniform signatures.
 template <class F>
 struct Of {
   static ResponseTerm term(const Response& response, const double* slots) {

@@ -6,10 +6,10 @@
 
 namespace wearwell {
 
-/// How much is known of an observation.
+/// The censoring of an observation.
 enum class Censoring {
   none,
-  right,     ///< a run-out: larger than `at`
+  right,     ///< right-censored (a run-out): larger than `at`
   left,      ///< smaller than `at`
   interval,  ///< more than `at`, up to `until`
 };
@@ -19,7 +19,7 @@ struct Response {
   Censoring seen = Censoring::none;
   double at = 0;
   double until = 0;
-  /// It would not have been seen below that (left truncation).
+  /// Left truncation: smaller values are not observable.
   double entry = -std::numeric_limits<double>::infinity();
   double trials = 0;  ///< of the binomial family
 };
@@ -30,20 +30,20 @@ struct ResponseTerm {
   double slope[most_response_parameters] = {};
 };
 
-/// Of one observation, natural logarithm; -infinity where the slots lie outside their kind or the
-/// observation outside the law. All digits stay far in the tails. `slots` has those of the family.
+/// For one observation, natural logarithm; -infinity if a slot is invalid or the observation is
+/// outside the support. Accurate far in the tails. `slots` has those of the family.
 ResponseTerm log_response(ResponseFamily family, const Response& response, const double* slots);
 double log_response_value(ResponseFamily family, const Response& response, const double* slots);
 
-/// log P(Y <= y) and log P(Y > y); of counts P(Y <= y) is that of whole numbers up to y. NaN where the
-/// slots lie outside their kind.
+/// log P(Y <= y) and log P(Y > y); for counts P(Y <= y) includes whole numbers up to y. NaN if a
+/// slot is invalid.
 double log_cdf(ResponseFamily family, double y, const double* slots, double trials = 0);
 double log_survival(ResponseFamily family, double y, const double* slots, double trials = 0);
 
-/// The y with P(Y <= y) = p, 0 < p < 1, of a family that is no count.
+/// The y with P(Y <= y) = p, 0 < p < 1, for a family that is not a count.
 double quantile(ResponseFamily family, double p, const double* slots);
 
-/// The mean, where it exists and has a formula; else the median.
+/// The mean if it exists and has a formula; else the median.
 double center(ResponseFamily family, const double* slots);
 
 }  // namespace wearwell

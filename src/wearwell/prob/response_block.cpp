@@ -11,14 +11,14 @@ using Rows = void (*)(const ResponseColumn&, std::size_t begin,
                       std::span<const ParameterValues> slots, std::span<double> value,
                       std::span<double> slope);
 
-// Of a row whose slots lie outside their kind.
+// For a row with an invalid slot.
 void refuse(std::size_t i, std::size_t slots, std::span<double> value, std::span<double> slope) {
   const std::size_t n = value.size();
   value[i] = -infinity;
   for (std::size_t s = 0; s < (slope.empty() ? 0 : slots); ++s) slope[s * n + i] = 0;
 }
 
-// Exact observations of a family of two slots, by its formula of a row.
+// Exact observations of a family of two slots, by its row formula.
 template <class F, bool sloped>
 void exact_rows(const ResponseColumn& column, std::size_t begin,
                 std::span<const ParameterValues> slots, std::span<double> value,

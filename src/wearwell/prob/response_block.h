@@ -15,19 +15,19 @@ struct ParameterValues {
   double operator[](std::size_t i) const { return uniform ? *at : at[i]; }
 };
 
-/// Observations that are evaluated together, again and again.
+/// Observations that are evaluated together repeatedly.
 struct ResponseColumn {
   std::vector<Response> rows;
-  /// All are exact and nothing is cut off: families with a formula run over the plain numbers.
+  /// Whether all are exact without truncation; families with a row formula then use plain numbers.
   bool plain = false;
-  std::vector<double> at, log_at;  ///< of plain ones; log_at only of positive ones
+  std::vector<double> at, log_at;  ///< for plain ones; log_at only for positive ones
 
   explicit ResponseColumn(std::vector<Response> responses = {});
 };
 
 /// `log_response` of rows begin .. begin + value.size() - 1 under the slots of these rows; with
 /// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. `slots` has at least those of the
-/// family; what is beyond them has no meaning.
+/// family; further entries are ignored.
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
                    std::span<const ParameterValues> slots, std::span<double> value,
                    std::span<double> slope);

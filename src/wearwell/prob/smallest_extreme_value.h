@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// The logarithm of a Weibull variable.
+/// The distribution of the logarithm of a Weibull variable.
 struct SmallestExtremeValue : OnLine {
   static constexpr std::string_view name = "smallest-extreme-value";
   static constexpr std::string_view title = "smallest extreme value";

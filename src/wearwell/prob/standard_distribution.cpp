@@ -34,7 +34,7 @@ double mills_far_out(double t) {
 
 double normal_log_survival_value(double z) {
   if (z > 20) return normal_log_density(z) + std::log(mills_far_out(z));
-  // Where nearly all survive, the logarithm comes from the small rest.
+  // Near survival 1, the logarithm is computed from the small complement.
   return z < -1 ? std::log1p(-0.5 * std::erfc(-z * M_SQRT1_2))
                 : std::log(0.5 * std::erfc(z * M_SQRT1_2));
 }
@@ -49,7 +49,7 @@ ValueAndSlope normal_log_survival(double z) {
   return {value, -std::exp(normal_log_density(z)) / survival};
 }
 
-// Narrow intervals by Gauss-Legendre about the middle, where a difference would cancel.
+// Narrow intervals by Gauss-Legendre about the middle, to avoid cancellation.
 double log_narrow_normal(double a, double b) {
   static const GaussLegendre rule = gauss_legendre(12);
   const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
@@ -119,7 +119,7 @@ ValueAndSlope logistic_log_survival(double z) {
   return {-log_one_plus_exp(z), -1 / (1 + std::exp(-z))};
 }
 
-// Of the mirrored law, at the mirrored place.
+// For the mirrored distribution, at the mirrored position.
 ValueAndSlope mirrored(ValueAndSlope y) {
   return {y.value, -y.slope};
 }

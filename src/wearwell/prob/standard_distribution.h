@@ -7,9 +7,9 @@
 
 namespace wearwell {
 
-/// A law on the whole line without location and scale, of which lives are made: log life, or life
-/// itself, is location + scale times a standard variable. The smallest extreme value law of log
-/// life is the Weibull law of life, the logistic law of log life the loglogistic one.
+/// A standard distribution on the whole line for life models: log life, or life itself, is location
+/// + scale times a standard variable. A smallest extreme value log life means a Weibull life, a
+/// logistic log life a loglogistic life.
 enum class StandardDistribution { normal, smallest_extreme_value, largest_extreme_value, logistic };
 
 /// A function's value and its derivative.
@@ -18,8 +18,8 @@ struct ValueAndSlope {
   double slope = 0;
 };
 
-/// Logarithms of the density, of the distribution function P(Z <= z) and of survival P(Z > z). All
-/// digits stay, however far out: at z = 300 the normal log survival is -45006.62...
+/// Logarithms of the density, of the distribution function P(Z <= z) and of survival P(Z > z).
+/// Accurate far in the tails: at z = 300 the normal log survival is -45006.62...
 ValueAndSlope log_density_and_slope(StandardDistribution distribution, double z);
 ValueAndSlope log_cdf_and_slope(StandardDistribution distribution, double z);
 ValueAndSlope log_survival_and_slope(StandardDistribution distribution, double z);

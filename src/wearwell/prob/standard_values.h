@@ -4,7 +4,8 @@
 
 namespace wearwell {
 
-/// What standard_distribution.h gives, to the same bits, without the slopes: of the normal law these cost as much again.
+/// The values of standard_distribution.h, identical but without slopes, which double the cost for the normal
+/// distribution.
 double log_cdf_value(StandardDistribution distribution, double z);
 double log_survival_value(StandardDistribution distribution, double z);
 

@@ -45,7 +45,8 @@ T log_density(const T& df, const T& t) {
 template <int N>
 Dual<N> log_survival(const Dual<N>& df, const Dual<N>& t) {
   const double value = log_survival(df.a, t.a);
-  // By the degrees of freedom there is no closed form: a central difference, good to 1e-8.
+  // The derivative by the degrees of freedom has no closed form: central difference, accurate to
+  // 1e-8.
   const double step = 1e-4 * df.a;
   const double by_df =
       df.v.isZero()
@@ -57,7 +58,7 @@ Dual<N> log_survival(const Dual<N>& df, const Dual<N>& t) {
 
 }  // namespace student
 
-/// Student's t with `df` degrees of freedom; df 1 is the Cauchy law.
+/// Student's t with `df` degrees of freedom; df 1 is the Cauchy distribution.
 struct StudentT : OnLine {
   static constexpr std::string_view name = "student-t";
   static constexpr std::string_view title = "Student t";

@@ -4,9 +4,9 @@
 
 namespace wearwell::families {
 
-/// P(X <= x), P(X > x) and their inverses of one of Boost's distributions with a location and a
-/// scale, which are taken out of its hands: SI values as small as 1e-13 would meet its argument
-/// checks or underflow.
+/// P(X <= x), P(X > x) and their inverses for one of Boost's distributions, with location and scale
+/// applied here, because SI values as small as 1e-13 would fail Boost's argument checks or
+/// underflow.
 template <class QuantityDistribution>
 struct Tails {
   QuantityDistribution distribution;

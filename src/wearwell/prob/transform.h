@@ -2,30 +2,30 @@
 
 namespace wearwell {
 
-/// A smooth one-to-one way between a parameter on its support and the whole real line, where
-/// samplers and integrators work. `scale` is the parameter's own size: z moves by about 1 when the
-/// parameter changes by much.
+/// A smooth bijection between a parameter's support and the real line, on which samplers and
+/// integrators work. `scale` is the parameter's magnitude: z changes by about 1 when the parameter
+/// changes by this much.
 class Transform {
  public:
-  /// Support (lower, upper), either may be infinite; scale > 0.
+  /// Support (lower, upper), possibly infinite; scale > 0.
   Transform(double lower, double upper, double scale);
 
   /// z of x. x must lie strictly inside the support.
   double to_real(double x) const;
 
   struct Point {
-    double x;             ///< on the support (on its very edge where z is too far out for doubles)
+    double x;             ///< on the support (on its boundary if z is too extreme for doubles)
     double slope;         ///< dx/dz
     double log_jacobian;  ///< log |dx/dz|
     double log_jacobian_slope;  ///< d/dz log |dx/dz|
   };
   Point from_real(double z) const;
-  /// Its x alone.
+  /// Only the x.
   double natural(double z) const;
 
  private:
   enum class Kind { whole_line, above, below, between };
-  /// So that x keeps its distance to the bound.
+  /// Keeps the precision of the distance to the bound.
   double from_nearer_end(double z, double near) const {
     return z < 0 ? lower_ + scale_ * near : upper_ - scale_ * near;
   }

@@ -4,7 +4,7 @@
 
 namespace wearwell::families {
 
-/// P(Y > y) = exp(-(y/scale)^shape): the logarithm has the smallest extreme value law.
+/// P(Y > y) = exp(-(y/scale)^shape): the logarithm has the smallest extreme value distribution.
 struct Weibull : OnPositive {
   static constexpr std::string_view name = "weibull";
   static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});

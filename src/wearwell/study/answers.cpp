@@ -24,7 +24,7 @@ bool has_passed(const QuantitySummary& each) {
   return is_remaining(each) && each.best().q95 == 0;
 }
 
-// "to wear = 100 um, force = 20 N from 30 km on" in its parts.
+// The parts of "to wear = 100 um, force = 20 N from 30 km on".
 struct Course {
   std::string end, conditions, from;
 
@@ -41,7 +41,7 @@ struct Course {
   }
 };
 
-// Conditions behind a name: "at 400 MPa" as it is, "temperature = 10 degC" behind a word.
+// Conditions after a name: "at 400 MPa" unchanged, "temperature = 10 degC" after "at".
 std::string behind(const std::string& at) {
   if (at.empty()) return "";
   for (const char* word :
@@ -62,8 +62,8 @@ class Clauses {
     const std::string limit = given(summary.limit, summary.limit_unit);
     if (summary.passed_beyond_risk()) {
       all.push_back(fmt::format(
-          "the limit of {} is already passed with a probability of {}; {} are tolerated", limit,
-          probability_text(life.passed), given(100 * summary.risk, "%")));
+          "the limit of {} is already passed with a probability of {}; the tolerated risk is {}",
+          limit, probability_text(life.passed), given(100 * summary.risk, "%")));
     }
     all.push_back(fmt::format(
         "the {}{} reaches {} after {} (median); {}, one in ten before {}", result.quantity,
@@ -131,7 +131,7 @@ class Clauses {
                     number(p.best().mean, p.unit), interval(p.best().ci05, p.best().ci95, p.unit)));
   }
 
-  // Of a logarithm, the number itself: its median and quantiles are those of the logarithm.
+  // Reports 10^x for a parameter x that is a decimal logarithm; quantiles transform with it.
   void parameter(const ParameterSummary& first) {
     const ExactSummary k = first.best();
     if (const auto natural = of_logarithm(first)) {
@@ -196,7 +196,7 @@ std::vector<const QuantitySummary*> chosen(const std::vector<QuantitySummary>& q
   return found;
 }
 
-// Of the items that were seen, the one that is expected to fail first.
+// The observed item that is expected to fail first.
 const QuantitySummary* first_to_fail(const std::vector<QuantitySummary>& quantities) {
   const QuantitySummary* first = nullptr;
   for (const QuantitySummary& each : quantities) {
@@ -293,7 +293,7 @@ std::string default_priors(const std::vector<ParameterSummary>& parameters) {
 }
 
 std::string standard_error_text(const Loo& loo) {
-  return loo.observations() < 2 ? "of one observation without a standard error"
+  return loo.observations() < 2 ? "one observation, so no standard error"
                                 : fmt::format("standard error {:.2f}", loo.se());
 }
 

@@ -15,7 +15,7 @@ AxisScale scale_for(double typical, const std::string& unit) {
   if (typical == 0 || !std::isfinite(typical)) return {1, shown};
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(typical))));
   if (exponent >= -2 && exponent <= 5) return {1, shown};
-  // Beyond that the factor itself would leave the range of a double.
+  // Beyond this the factor itself overflows a double.
   if (std::abs(exponent) > 300) return {1, shown};
   return {std::pow(10.0, -exponent),
           html::raised(fmt::format("10^{}", exponent)) + (shown.empty() ? "" : "\u00a0" + shown)};

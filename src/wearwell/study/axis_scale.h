@@ -30,7 +30,7 @@ AxisScale scale_of(const ParameterSummary& p);
 /// 1, 2, ..., n.
 Numbers counted(std::size_t n);
 
-/// What a plot has to show of an axis.
+/// The range of an axis that a plot shows.
 struct AxisWindow {
   double low = INFINITY, high = -INFINITY;
   void take(double a) {
@@ -41,8 +41,8 @@ struct AxisWindow {
   double margin(double share) const { return share * (high - low); }
 };
 
-/// Ends of bars far beyond the plot, of a stage that knows nothing, are drawn to where nobody sees
-/// the difference: browsers do not draw to 1e300.
+/// Bars of a stage without information end far outside the plot. They are clipped just outside it,
+/// because browsers cannot draw to 1e300.
 Numbers within(double low, double high, Numbers values);
 
 }  // namespace wearwell

@@ -22,7 +22,8 @@ std::string dimension_of(const RoleForm& form, const std::string& unit) {
   return "";
 }
 
-// In a dimension that the role may have; `si` is tried first, and becomes that of the unit.
+// The unit in a dimension that the role allows; `si` is tried first and becomes the unit's
+// dimension.
 NameAndUnit name_and_unit(const Column& column, const RoleForm& form, std::string& si) {
   NameAndUnit heading = name_and_unit(column, si);
   for (const std::string_view each : form.si) {
@@ -106,7 +107,7 @@ std::optional<ColumnRoles::Match> ColumnRoles::match(const Column& column, const
   const NameAndUnit heading = name_and_unit(column, form, si);
   for (std::size_t i = 0; i < form.words.size(); ++i) {
     const RoleWord& word = form.words[i];
-    // "operating hours" names its unit: the word and not what is left of it counts.
+    // "operating hours" names its unit, so the whole word is compared.
     const bool says_unit = !word.unit.empty() && column.unit.empty() &&
                            bracketed(column.name).empty() && is_called(column.name, word.text);
     if (!says_unit && !is_called(heading.name, word.text)) continue;
@@ -210,7 +211,7 @@ std::optional<ColumnRoles::Found> ColumnRoles::take(const std::string& key, Role
     const RoleForm& form = role_form(role);
     if (const Column* column = chosen(role)) {
       if (form.cells == Cells::numbers && !holds(*column, Cells::numbers))
-        throw InputError(fmt::format("--column {}: column '{}' of {} holds no numbers", role,
+        throw InputError(fmt::format("--column {}: column '{}' of {} does not hold numbers", role,
                                      column->name, file_));
       return take_column(key, *column, form);
     }
@@ -242,10 +243,10 @@ std::optional<ColumnRoles::Found> ColumnRoles::take(const std::string& key, Role
 void ColumnRoles::pass_over(std::string_view role) {
   roles_.emplace(role);
   const auto found = matches(role_form(role));
-  if (found.size() != 1) return;  // several of a name are readings beside each other
+  if (found.size() != 1) return;  // several columns of one name are parallel readings
   used_.push_back(found.front().found.column);
   taken.push_back(
-      fmt::format("column '{}' names rows, and is not used", found.front().found.column->name));
+      fmt::format("column '{}' names rows and is not used", found.front().found.column->name));
 }
 
 ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& match) {
@@ -269,18 +270,17 @@ ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& matc
   if (const std::string inside = bracketed(name);
       found.si.empty() && found.unit == "1" && name.ends_with(']') && inside != "1") {
     found.no_unit = true;
-    guesses.push_back(
-        fmt::format("column '{}': {} is no unit that is known; its numbers are taken as they are",
-                    name, inside));
+    guesses.push_back(fmt::format(
+        "column '{}': {} is not a known unit; the column is read as plain numbers", name, inside));
   }
   taken.push_back(fmt::format("{}: column '{}'{}{}", name_of_role, name,
                               found.unit == "1" ? "" : " in " + found.unit,
                               match.by_unit ? ", by its unit" : ""));
   if (found.unit_guessed)
     guesses.push_back(
-        fmt::format("column '{}' has no unit in its heading: {} is a guess", name, found.unit));
+        fmt::format("column '{}' has no unit in its heading; {} is a guess", name, found.unit));
   if (match.letter)
-    guesses.push_back(fmt::format("column '{}': {} is taken for {}", name,
+    guesses.push_back(fmt::format("column '{}': {} is read as {}", name,
                                   found.unit == "degC" ? "C" : "F", found.unit));
   return found;
 }
@@ -330,7 +330,7 @@ std::string ColumnRoles::data_section() const {
   for (const std::string& each : choices_.unused) add(each);
   for (const std::string& each : unused_statuses_) add(each);
   if (!unused.empty())
-    text += fmt::format("unused = [{}]{}\n", unused, "    # it does not say how a life ended");
+    text += fmt::format("unused = [{}]{}\n", unused, "    # does not state how a life ended");
   return text;
 }
 

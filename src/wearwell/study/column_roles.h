@@ -13,66 +13,65 @@
 
 namespace wearwell {
 
-/// What the columns of a table are, recognized for one reading of it: by what the user chose, by the words of
-/// headings (study/role_words.h), or by units. A column has one role.
+/// Assigns a role to each column of a table, for one reading of the table: by the user's choice, by
+/// words of the heading (study/role_words.h), or by unit. A column has one role.
 class ColumnRoles {
  public:
-  /// `preset_named`: the user has said which reading; then what stands in brackets and is of another dimension is an
-  /// error of the heading, and no sign of another role.
+  /// `preset_named`: the user chose the reading. A unit of another dimension in brackets is then an
+  /// error of the heading, not a sign of another role.
   ColumnRoles(const Table& table, std::string file, const TableChoices& choices, bool preset_named);
 
   struct Found {
     const Column* column = nullptr;
     const RoleForm* role = nullptr;
-    std::string si;          ///< the dimension that it has
-    std::string unit = "1";  ///< as the table has it, or as guessed
+    std::string si;          ///< SI unit of its dimension
+    std::string unit = "1";  ///< from the table, or guessed
     bool unit_guessed = false;
-    bool no_unit = false;  ///< what stands in its brackets is none: its numbers are plain
+    bool no_unit = false;  ///< the brackets hold no unit; the numbers are plain
   };
   using Roles = std::initializer_list<std::string_view>;
 
-  /// The column of the first of these roles that a column has, which the study calls `key`; takes it. Of two that fit
-  /// alike the first is taken, and `questions` has both.
+  /// Takes the column of the first of these roles that any column has; the study calls it `key`. If
+  /// two fit equally well, it takes the first and adds both to `questions`.
   std::optional<Found> take(const std::string& key, Roles roles);
-  /// What `take` would find; takes nothing, asks nothing.
+  /// What `take` would find, without taking it or asking.
   std::optional<Found> find(Roles roles) const;
   bool has(Roles roles) const { return find(roles).has_value(); }
 
-  /// The column of that role, which the study has no use for: names of rows.
+  /// Marks the column of this role as used although the study does not read it: names of rows.
   void pass_over(std::string_view role);
 
-  /// A column whatever its heading, under a name of the study.
+  /// Takes a column regardless of its heading, under a name of the study.
   Found take_column(const std::string& key, const Column& column, const RoleForm& role);
 
-  /// The column that says how lives ended; the line of the study that names it.
+  /// Takes the column that states how lives ended; returns the study line that names it.
   std::optional<std::string> take_status(bool of_lives);
-  /// A column that looks like a status and is none of this reading: the study says so.
+  /// Lists a column that looks like a status as unused; this reading has no status.
   void refuse_status();
 
-  /// Columns of numbers that differ from row to row and have no role so far.
+  /// Number columns that vary from row to row and have no role yet.
   std::vector<const Column*> other_numbers() const;
-  /// Columns of words that are alike in several rows and have no role so far.
+  /// Word columns that repeat values and have no role yet.
   std::vector<const Column*> other_labels() const;
 
   const Table& table() const { return table_; }
   const std::string& file() const { return file_; }
   const TableChoices& choices() const { return choices_; }
 
-  /// "volume = { column = \"worn volume\", unit = \"mm^3\" }\n", with a comment where the unit is a
+  /// "volume = { column = \"worn volume\", unit = \"mm^3\" }\n", with a comment if the unit is a
   /// guess.
   static std::string line(const std::string& name, const Found& found);
-  /// "radius = "?"", with a comment: a condition that no heading names. `like`: a value that it may
-  /// have.
+  /// "radius = "?"", with a comment: a condition that no heading names. `like` is an example value.
   std::string unstated_line(const std::string& name, const std::string& what,
                             const std::string& like);
   /// "[data]" with the file and how it is read.
   std::string data_section() const;
 
-  /// What was taken, what was guessed, what is left to be stated, what is open.
+  /// What was recognized, what was guessed, what you still have to state, and open questions.
   std::vector<std::string> taken, guesses, unstated;
   std::vector<TableQuestion> questions;
 
-  /// The study of that text, with these and the headings that nobody asked for.
+  /// The study with this text, these lists and the unused headings.
   Scaffold study(std::string reading, ReadingFit fit, std::string text) const;
 
  private:

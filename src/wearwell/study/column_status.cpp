@@ -1,4 +1,4 @@
-// How lives ended: the part of ColumnRoles that knows of statuses.
+// The part of ColumnRoles that handles status columns (how lives ended).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 namespace wearwell {
 namespace {
 
-// Whether every cell says how a life ended, where a failure is written as that code.
+// Whether every cell states how a life ended, if this code means failure.
 bool says_status(const Table& table, const Column& column, std::optional<int> failure) {
   const LifeStatus status{column.name, failure};
   try {
@@ -81,7 +81,7 @@ std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
       if (seen == Censoring::right) went_on = word;
     }
     const std::string ends =
-        failed.empty() ? "none is a failure" : fmt::format("{} is a failure", failed);
+        failed.empty() ? "no row is a failure" : fmt::format("{} is a failure", failed);
     return went_on.empty() ? ends
                            : fmt::format("{}, {} was stopped unbroken (censored)", ends, went_on);
   };
@@ -95,13 +95,13 @@ std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
           {coded(code),
            {"--column", "status=" + column->name, "--failure", fmt::format("{}", code)}});
     }
-    question.readings.push_back({fmt::format("'{}' does not say how a life ended", column->name),
+    question.readings.push_back({fmt::format("'{}' does not state how a life ended", column->name),
                                  {"--column", "unused=" + column->name}});
     questions.push_back(std::move(question));
     return plain;
   }
   taken.push_back(fmt::format("status: column '{}': {}: {}", column->name, coded(*failure),
-                              choices_.failure ? "as you said" : "from the heading"));
+                              choices_.failure ? "your choice" : "from the heading"));
   if (!choices_.failure) return plain;
   return fmt::format("status = {{ column = {}, failure = {} }}\n", toml_text(column->name),
                      *failure);
@@ -112,9 +112,9 @@ void ColumnRoles::refuse_status() {
   if (!column || chosen("status")) return;
   used_.push_back(column);
   unused_statuses_.push_back(column->name);
-  guesses.push_back(
-      fmt::format("column '{}' looks like a status, and a row here is a reading: it is not used",
-                  column->name));
+  guesses.push_back(fmt::format(
+      "column '{}' looks like a status, but each row is a reading; the column is not used",
+      column->name));
 }
 
 }  // namespace wearwell

@@ -7,21 +7,21 @@
 
 namespace wearwell {
 
-/// The number in each row, in the unit of the table; NaN where there is none.
+/// The number in each row, in the unit of the table; NaN for a missing value.
 std::vector<double> numbers_of(const Table& table, const Column& column);
-/// Those that are there.
+/// The values that are present.
 std::vector<double> values_of(const Table& table, const Column& column);
 
-/// What its cells hold, each once, without empty ones, in order of appearance.
+/// The distinct non-empty cells, in order of appearance.
 std::vector<std::string> kinds_of(const Table& table, const Column& column);
 
-/// Whether some cells are limits above which a value lies, ">5000": a life that went on.
+/// Whether some cells are lower limits such as ">5000", which mean a right-censored life.
 bool has_open_ends(const Column& column);
 
-/// Whether not all of its cells are alike; numbers by more than rounding.
+/// Whether its cells vary; numbers by more than rounding.
 bool differs(const Table& table, const Column& column);
 
-/// Whether its cells name groups of rows: more than one kind, and fewer than rows.
+/// Whether its cells name groups of rows: more than one value, and fewer values than rows.
 bool repeats(const Table& table, const Column& column);
 
 }  // namespace wearwell

@@ -27,7 +27,7 @@ bool same_observations(const LooSummary& a, const LooSummary& b) {
                     [](const LooTerm& x, const LooTerm& y) { return x.count == y.count; });
 }
 
-// Why elpd, AIC and BIC of these say nothing of one against the other; empty when they do.
+// Why elpd, AIC and BIC of these studies cannot be compared; empty if they can.
 std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
   const auto& first = studies.front();
   for (const auto& each : studies) {
@@ -36,26 +36,26 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
         !b.loo) {
       const bool second = !a.header.data.fingerprint.empty() && a.loo;
       return fmt::format(
-          "{} has no leave-one-out prediction (its posterior is improper, or an older wearwell "
-          "wrote it), so the studies are not ranked.",
+          "{} has no leave-one-out prediction, so the studies are not ranked. Its posterior is "
+          "improper, or an older version of wearwell wrote it.",
           second ? each.name : first.name);
     }
     if (a.header.data.fingerprint != b.header.data.fingerprint) {
       return fmt::format(
-          "{} and {} are of different data: elpd, AIC and BIC say nothing of one against the "
-          "other, and no differences are given; parameters may be compared.",
+          "{} and {} use different data: elpd, AIC and BIC cannot be compared, and no differences "
+          "are given. You can compare parameters.",
           first.name, each.name);
     }
     if (a.loo->observation != b.loo->observation || !same_observations(*a.loo, *b.loo)) {
       return fmt::format(
-          "{} leaves out one {} at a time, {} one {}: their elpd are of different predictions, "
+          "{} leaves out one {} at a time, {} one {}: their elpd measure different predictions, "
           "and no differences are given.",
           first.name, a.loo->observation, each.name, b.loo->observation);
     }
     if (a.loo->density_unit != b.loo->density_unit) {
       return fmt::format(
-          "log densities of {} are of data in {}, those of {} in {}: give what is measured the "
-          "same unit in both.",
+          "Log densities of {} are for data in {}, those of {} for data in {}: give the response "
+          "the same unit in both studies.",
           first.name, a.loo->density_unit, each.name, b.loo->density_unit);
     }
   }
@@ -66,7 +66,8 @@ std::vector<std::string> cautions_of(const Comparison& comparison) {
   std::vector<std::string> cautions;
   for (const auto& [name, result, behind, weight] : comparison.studies) {
     if (!result.header.trusted) {
-      cautions.push_back(fmt::format("{} is not trusted: a check of it failed.", name));
+      cautions.push_back(
+          fmt::format("{} is not trusted: at least one of its checks failed.", name));
     }
   }
   if (!comparison.comparable) return cautions;
@@ -75,23 +76,23 @@ std::vector<std::string> cautions_of(const Comparison& comparison) {
     const auto bad = std::count_if(loo.terms.begin(), loo.terms.end(),
                                    [&](const LooTerm& term) { return loo.doubtful(term); });
     if (bad > 0) {
-      cautions.push_back(
-          fmt::format("elpd of {} is in doubt: Pareto k above {:.2f} for {} of {} left out.", name,
-                      loo.threshold, bad, loo.terms.size()));
+      cautions.push_back(fmt::format(
+          "elpd of {} is unreliable: Pareto k exceeds {:.2f} for {} of {} observations.", name,
+          loo.threshold, bad, loo.terms.size()));
     }
     if (result.mode && result.mode->problem.empty() && !result.mode->maximum_likelihood) {
       cautions.push_back(
-          fmt::format("AIC and BIC of {} are at the mode of its posterior: its priors are not "
-                      "flat.",
+          fmt::format("AIC and BIC of {} are computed at the mode of its posterior, because its "
+                      "priors are not flat.",
                       name));
     }
   }
   const double n = comparison.studies.front().result.loo->loo.observations();
   if (n < 100) {
-    cautions.push_back(fmt::format(
-        "From {:.0f} observations the standard error of a difference is itself uncertain; a "
-        "difference below 4 is small whatever it says (Sivula et al. 2020).",
-        n));
+    cautions.push_back(
+        fmt::format("With {:.0f} observations the standard error of a difference is itself "
+                    "uncertain; treat a difference below 4 as small (Sivula et al. 2020).",
+                    n));
   }
   return cautions;
 }
@@ -99,7 +100,8 @@ std::vector<std::string> cautions_of(const Comparison& comparison) {
 // Parameters by name and unit, in the order of their first study.
 struct NamedParameter {
   std::string name, unit;
-  std::vector<const ParameterSummary*> of;  // one a study; null where it has none
+  std::vector<const ParameterSummary*> of;  // one per study; null if the study has no such
+                                            // parameter
 };
 
 std::vector<NamedParameter> parameters_of(const Comparison& comparison) {
@@ -124,13 +126,13 @@ const Loo& loo_of(const Comparison::Entry& entry) {
   return entry.result.loo->loo;
 }
 
-// Up to this a difference of elpd may be an error of computation.
+// A difference of elpd up to this may be computational error.
 double resolution(const Comparison::Entry& a, const Comparison::Entry& b) {
   return 2 * std::hypot(loo_of(a).error, loo_of(b).error);
 }
 
-// Best elpd first; those that errors of computation do not tell apart stay in the order in which
-// they were given, and a caution says so.
+// Best elpd first. Studies whose difference is within the computational error keep the order given,
+// and a caution says so.
 void rank(Comparison& comparison) {
   auto& studies = comparison.studies;
   std::vector<std::string> given;
@@ -157,8 +159,8 @@ void rank(Comparison& comparison) {
       });
       for (auto each = first; each != end; ++each) names.push_back(each->name);
       comparison.cautions.push_back(
-          fmt::format("The order of {} is not known: their elpd are nearer to each other than the "
-                      "error of computation, {:.2g}. They stand as they were given.",
+          fmt::format("The order of {} is unknown: their elpd differ by less than the "
+                      "computational error, {:.2g}. They keep the order given.",
                       fmt::join(names, ", "), largest));
     }
     first = end;

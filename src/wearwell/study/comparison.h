@@ -12,20 +12,21 @@ namespace wearwell {
 /// Studies side by side: which model form predicts best, and how their parameters differ.
 struct Comparison {
   struct Entry {
-    std::string name;  ///< as its user calls it: the folder
+    std::string name;  ///< the user's name for it: the folder
     SavedResult result;
-    /// elpd of the best less its own, with the standard error of the difference; only where
+    /// elpd of the best study minus its own, with the standard error of the difference; only if
     /// `comparable`.
     std::optional<ElpdDifference> behind;
-    double weight = 0;  ///< model_weights; only where `comparable`
+    double weight = 0;  ///< model_weights; only if `comparable`
   };
-  std::vector<Entry> studies;         ///< best elpd first where comparable and known, else as given
-  bool comparable = false;            ///< same data, of which the same observations are left out
-  std::string obstacle;               ///< why not, in a sentence
-  std::vector<std::string> cautions;  ///< what to bear in mind, in sentences
+  std::vector<Entry> studies;         ///< best elpd first if comparable and known, else in the
+                                      ///< order given
+  bool comparable = false;            ///< same data, and the same observations are left out
+  std::string obstacle;               ///< the reason if not comparable, as a sentence
+  std::vector<std::string> cautions;  ///< warnings, as sentences
 };
 
-/// Takes results with their names. Studies of different data are shown, never ranked.
+/// Compares results by name. Studies of different data are shown but not ranked.
 Comparison compare(std::vector<std::pair<std::string, SavedResult>> results);
 
 /// For the terminal, ending with a newline.
@@ -34,7 +35,7 @@ std::string comparison_text(const Comparison& comparison);
 /// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in docs/how-to/compare.md.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
-/// One page: the tables, and the densities of parameters of the same name over each other.
+/// One page: the tables, and overlaid densities of parameters of the same name.
 std::string comparison_page(const Comparison& comparison);
 
 }  // namespace wearwell

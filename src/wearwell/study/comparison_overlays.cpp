@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Numbers = std::vector<double>;
 
-// What figures of one name show in every report: wear or life, against work or stress.
+// The figures that every report draws under the same name: wear or life, against work or stress.
 constexpr const char* curves[] = {"sn-curve", "history", "life"};
 
 const Json* find(const Json& json, std::initializer_list<const char*> path) {
@@ -38,7 +38,7 @@ struct Line {
   bool dashed = false;
 };
 
-// Columns x and y of the CSV that a line holds.
+// Columns x and y of the CSV in a line mark.
 std::optional<Line> read_line(const Json& layer) {
   if (text_at(layer, {"mark", "type"}) != "line") return {};
   std::istringstream csv(text_at(layer, {"data", "values"}));
@@ -127,8 +127,8 @@ html::Figure over_each_other(const Comparison& comparison, const std::string& id
   }
   const std::string& title = all.front().title;
   return {"overlay-" + id, title,
-          std::string("The curve of each study, in its colour.") +
-              (dashes ? " Dashed: the line to design with." : ""),
+          std::string("The curve of each study, in its color.") +
+              (dashes ? " Dashed: the design curve." : ""),
           plot::plot(title + " of each study", x, y, marks, 340, true)};
 }
 

@@ -8,14 +8,13 @@
 
 namespace wearwell {
 
-/// The colour of a study, the same in all plots of a page; beyond six, dashed.
+/// The color of a study, the same in all plots of a page; studies beyond six are dashed.
 plot::Look look_of_study(std::size_t study, const std::string& name);
 
-/// Lives of each study by what they are of: B10 and, where there are, lower bounds. No rows where no
-/// study tells any.
+/// The lives of each study: B10 and, if available, lower bounds. No rows if no study reports any.
 present::Table life_table(const Comparison& comparison);
 
-/// Curves that more than one study drew over the same axes, over each other.
+/// Overlaid curves that more than one study drew on the same axes.
 std::vector<html::Figure> curve_figures(const Comparison& comparison);
 
 }  // namespace wearwell

@@ -72,7 +72,7 @@ struct Overlaid {
     std::size_t index;  // of the study
     std::string study;
     const ParameterSummary* summary;
-    Numbers draws;  // those that are finite, ascending
+    Numbers draws;  // finite values, ascending
   };
   std::vector<Of> of;
 };
@@ -132,7 +132,7 @@ html::Figure histograms(const Overlaid& parameter) {
                                 look_of_study(parameter.of[s].index, parameter.of[s].study)));
   }
   return {"overlay-" + parameter.name, parameter.name,
-          "The posterior's draws of each study; the areas are one.",
+          "The posterior draws of each study; each area is one.",
           plot::plot(fmt::format("Histograms of {} in each study", parameter.name),
                      {with_unit(parameter.name, parameter.unit)},
                      {"Density", false, 0.0, {}, {}, false}, marks)};

@@ -22,7 +22,7 @@ void add_predictions(std::string& out, std::size_t rows,
   }
 }
 
-// Of studies that predict lives and what follows from them: what was asked, then each test.
+// For studies that predict lives and derived quantities: the requested quantities, then each test.
 std::string lives_csv(const PosteriorSummary& result) {
   std::string out =
       "rows,quantity,of,at,unit,q05,q50,q95,bound,predictive,b1,b10,measured,outcome\n";
@@ -97,7 +97,7 @@ std::string predictions_csv(const PosteriorSummary& result) {
     at = printable_csv_cell(
         present::heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit));
   }
-  // Where some are of items that were seen, each row says whose measurement it is.
+  // If some predictions are for observed items, each row names its item.
   const bool of_items = std::any_of(
       result.predictions.begin(), result.predictions.end(),
       [](const auto& p) { return !p.measured_of.empty() && p.mean_of == p.measured_of; });

@@ -6,13 +6,14 @@
 
 namespace wearwell {
 
-/// One chain as CmdStan writes it: comments with #, lp__, the sampler's columns (for NUTS), the
+/// One chain in CmdStan's format: comments with #, lp__, the sampler's columns (for NUTS), the
 /// parameters in their units.
 std::string draws_csv(const PosteriorSummary& result, std::size_t chain);
 
-/// One row a prediction, those of stages first; `rows` is the number of data sets that the
-/// posterior knew. Of a study that predicts no measurements but lives and what follows from them one row a
-/// quantity, as QuantityQuantiles has it, then one a test: the life of the next under its conditions beside its own.
+/// One row per prediction, those of stages first; `rows` is the number of data sets in the
+/// posterior. A study that predicts lives instead of measurements has one row per quantity
+/// (QuantityQuantiles), then one per test: its life and the predicted life of a new item under the
+/// same conditions.
 std::string predictions_csv(const PosteriorSummary& result);
 
 }  // namespace wearwell

@@ -15,21 +15,21 @@ std::string unit_name(const DataColumn& column) {
   return column.unit.text == "1" ? column.si : column.unit.text;
 }
 
-/// "1 mm^3 = 10^-9 m^3"; of a temperature its zero, "0 degC = 273.15 K"; of SI's own units, and
-/// where there is none, nothing.
+/// "1 mm^3 = 10^-9 m^3"; for a temperature its zero, "0 degC = 273.15 K"; empty for SI units and
+/// for plain numbers.
 std::string one_unit(const DataColumn& column) {
   const std::string unit = unit_name(column);
   if (column.unit.offset != 0)
     return fmt::format("0 {} = {} {}", unit, plain_given(column.unit.offset), column.si);
   if (unit == column.si || (column.unit.scale == 1 && unit == column.si + "s")) return "-";
-  // "1000 = 1000 rev", where the unit is a number itself.
+  // "1000 = 1000 rev", if the unit is itself a number.
   const bool is_number = unit.front() >= '0' && unit.front() <= '9';
   const std::string one = is_number ? numbers_text(unit, Script::terminal) : "1 " + unit;
   return fmt::format("{} = {}{}", one, plain_given(column.unit.scale),
                      column.si == "1" ? "" : " " + column.si);
 }
 
-/// The middle value, or the mean of the two in the middle.
+/// The median.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -7,9 +7,8 @@
 
 namespace wearwell {
 
-/// What was read of each column, in the units in which it was written: how many rows, the smallest
-/// value, the median and the largest, and what one unit was taken to be. A table of lines, indented by
-/// two; empty without columns.
+/// Describes each column in its own units: number of rows, minimum, median, maximum, and the value
+/// of one unit in SI. A table of lines, indented by two; empty without columns.
 std::string columns_text(const std::vector<DataColumn>& columns);
 
 }  // namespace wearwell

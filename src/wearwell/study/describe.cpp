@@ -72,7 +72,7 @@ std::string study_description(const PosteriorStudy& study) {
     out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
                        p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
                        powers_text(prior_text(p), Script::terminal) +
-                           (p.is_default ? " (default: state what you know)" : ""));
+                           (p.is_default ? " (default; state your own if you know more)" : ""));
   }
   out += "\nWill be fitted\n";
   out += study.stages && study.data_rows <= most_stages
@@ -88,7 +88,7 @@ std::string study_description(const PosteriorStudy& study) {
     out += fmt::format("  by {}, {} chains of {} draws after {} of warm-up{}",
                        method_name(settings.method), run.chains, plain_given(run.draws),
                        plain_given(run.warmup),
-                       study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
+                       study.parameters.size() <= max_exact_dimension ? ", and by quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
   if (!note.empty()) out += wrapped(note, 2, 4);
@@ -107,14 +107,14 @@ std::string study_description(const PosteriorStudy& study) {
   }
   for (const QuantityRequest& q : quantities) {
     const std::string what = q.name + (q.unit.text == "1" ? "" : " [" + q.unit.text + "]");
-    out += fmt::format("  {} of {}{}{}\n", numbers_text(what, Script::terminal),
-                       item_text(q.of, q.credible_level.has_value()),
-                       q.at.empty() ? "" : " " + numbers_text(q.at, Script::terminal),
-                       q.credible_level && !q.name.ends_with("remaining useful life")
-                           ? fmt::format("; at least, with {:.4g} % confidence (credible), "
-                                         "and of the next one",
-                                         100 * *q.credible_level)
-                           : "");
+    out += fmt::format(
+        "  {} of {}{}{}\n", numbers_text(what, Script::terminal),
+        item_text(q.of, q.credible_level.has_value()),
+        q.at.empty() ? "" : " " + numbers_text(q.at, Script::terminal),
+        q.credible_level && !q.name.ends_with("remaining useful life")
+            ? fmt::format("; lower bound with {:.4g} % credibility, and the value of the next item",
+                          100 * *q.credible_level)
+            : "");
   }
   if (study.life) {
     const LifeRequest& life = *study.life;

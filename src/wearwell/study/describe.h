@@ -9,8 +9,8 @@ namespace wearwell {
 /// "normal, mean 0.000505, sd 7.4e-05, above 0 mm^3/(N m)".
 std::string prior_text(const Parameter& parameter);
 
-/// What `wearwell fit` would do, ending with a newline: equation, data, unknowns with their units
-/// and priors, predictions, sampler.
+/// Describes what `wearwell fit` would do: equation, data, unknowns with their units and priors,
+/// predictions, sampler. Ends with a newline.
 std::string study_description(const PosteriorStudy& study);
 
 }  // namespace wearwell

@@ -18,8 +18,8 @@ void require_new(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) &&
       !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
-    throw InputError(
-        fmt::format("{} is not empty; a new study needs a folder of its own", folder.string()));
+    throw InputError(fmt::format("{} is not empty; choose an empty or new folder for the study",
+                                 folder.string()));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void require_new(const fs::path& folder) {
 fs::path write_example(const Model& model, const fs::path& folder) {
   require_new(folder);
   StagedFolder staged(folder);
-  // The study last: without its data it says nothing.
+  // The study is written last, because it needs its data.
   for (std::size_t i = model.example.size(); i-- > 0;)
     staged.write(model.example[i].name, model.example[i].content());
   staged.commit({});
@@ -40,7 +40,7 @@ fs::path write_scaffold(const Scaffold& study, const fs::path& data, const fs::p
   std::ifstream stream(data, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.good() && !stream.eof())
-    throw InputError(fmt::format("{} cannot be read to its end", data.string()));
+    throw InputError(fmt::format("{} cannot be read completely", data.string()));
   staged.write(data.filename().string(), bytes);
   staged.write("study.toml", study.text);
   staged.commit({});

@@ -7,11 +7,11 @@
 namespace wearwell {
 
 /// Writes the example study of a model and its data into a folder, which may be missing or empty.
-/// Returns the study file. Throws InputError when the folder holds something or cannot be written,
-/// MachineError when the disk refuses.
+/// Returns the study file. Throws InputError if the folder is not empty or not writable,
+/// MachineError if writing fails.
 std::filesystem::path write_example(const Model& model, const std::filesystem::path& folder);
 
-/// The same of a first study and a copy of its data, which it names `data`.
+/// The same for a new study of the user's data; copies the data under the name `data`.
 std::filesystem::path write_scaffold(const Scaffold& study, const std::filesystem::path& data,
                                      const std::filesystem::path& folder);
 

@@ -7,12 +7,14 @@
 
 namespace wearwell {
 
-/// What answers the question of a study at one look: wear ahead and life, and the remaining useful lives of its units.
+/// The figures that answer the study's question: future wear and life, and the remaining useful
+/// lives of its units.
 std::vector<html::Figure> answer_figures(const PosteriorSummary& result, const Plots& plots);
-/// The remaining useful life of each unit, most urgent first; none where fewer than three units have one.
+/// The remaining useful life of each unit, most urgent first; none if fewer than three units have
+/// one.
 std::vector<html::Figure> remaining_life_figures(const PosteriorSummary& result);
 
-/// The plots of each section of a report; a plot that a result has no data for is left out.
+/// The plots of each section of a report; plots without data are omitted.
 std::vector<html::Figure> prediction_figures(const PosteriorSummary& result, const Plots& plots);
 std::vector<html::Figure> parameter_figures(const PosteriorSummary& result, const Plots& plots);
 std::vector<html::Figure> fit_figures(const Plots& plots);

@@ -57,7 +57,8 @@ Header read_header(const JsonReader& json) {
   const long long version = schema ? schema->integer(1) : 0;
   if (version != summary_schema) {
     const auto writer = json.find("wearwell");
-    const auto old_writer = json.find("version");  // of a clutch, before there were schemas
+    const auto old_writer = json.find("version");  // written by the clutch model before schemas
+                                                   // existed
     json.fail(fmt::format(
         "was written by wearwell {} with schema {}, and this one reads schema {}: fit the study "
         "again",

@@ -11,8 +11,8 @@ namespace wearwell {
 nlohmann::ordered_json to_json(const Header& header);
 nlohmann::ordered_json to_json(const std::vector<Check>& checks);
 
-/// Throws InputError naming file and key of what is missing or has the wrong type, and for a result
-/// of another schema, which version wrote it and what to do.
+/// Throws InputError that names the file and the missing or mistyped key. For another schema
+/// version the message names the version that wrote the result and the remedy.
 Header read_header(const JsonReader& json);
 std::vector<Check> read_checks(const JsonReader& json);
 

@@ -23,7 +23,7 @@ std::string plain_powers(std::string text) {
   return text;
 }
 
-// Letters with accents, as they are written without.
+// Accented letters and their plain forms.
 std::string without_accents(std::string_view text) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 44> plain = {
       {{"ä", "ae"},     {"ö", "oe"},    {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"},
@@ -53,7 +53,7 @@ std::string stripped(std::string_view words) {
   return std::string(words.substr(1, words.size() < 2 ? 0 : words.size() - 2));
 }
 
-// "wearDepth" is two words; "kN" and "MPa" are none.
+// "wearDepth" is two words; "kN" and "MPa" are not split.
 bool begins_word(std::string_view text, std::size_t i) {
   const auto at = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   return i >= 2 && std::isupper(at(i)) && std::islower(at(i - 1)) && std::isalpha(at(i - 2));
@@ -82,7 +82,7 @@ std::string bracketed(const std::string& heading) {
 std::string stated_unit(const Column& column) {
   if (!column.unit.empty()) return bare_unit(column.unit);
   const Heading heading = read_heading(column.name, "");
-  // Behind '_' a letter may be an index, and "min" the least.
+  // After '_' a letter may be an index, and "min" may mean minimum.
   const bool index = heading.suffix && (heading.unit.size() < 2 || heading.unit == "min" ||
                                         heading.unit == "in" || heading.unit == "at");
   if (!heading.unit.empty() && !index) return plain_powers(heading.unit);

@@ -20,7 +20,7 @@ using netcdf::Group;
 using netcdf::plain_name;
 using netcdf::Variable;
 
-// Streams from here on belong to no chain and no stage.
+// Random streams from this number on are not used by chains or stages.
 constexpr std::uint64_t predictive_stream = std::uint64_t{1} << 40;
 
 std::size_t chains_of(const PosteriorSummary& result) {
@@ -32,7 +32,7 @@ std::size_t draws_of(const PosteriorSummary& result) {
   return draws.empty() ? 0 : static_cast<std::size_t>(draws.front().values.rows());
 }
 
-// A draw as the likelihood takes it.
+// A draw in the likelihood's parametrization.
 std::vector<double> natural(const PosteriorStudy& study, const Chain& chain, std::size_t draw) {
   std::vector<double> x;
   for (std::size_t p = 0; p < study.parameters.size(); ++p) {
@@ -71,7 +71,7 @@ Group drawn(const std::string& name, const PosteriorSummary& result) {
   return group;
 }
 
-// Of every draw of every chain.
+// For every draw of every chain.
 template <class T, class Value>
 std::vector<T> gathered(const PosteriorSummary& result, const Value& value) {
   std::vector<T> all;
@@ -134,7 +134,7 @@ Group sample_stats(const PosteriorSummary& result) {
   return group;
 }
 
-// Columns of a law are named in what it measures; "worn volume" is the column that has its values.
+// The formula names the columns that it measures; "worn volume" names the column of its values.
 bool is_observed(const PosteriorStudy& study, const DataColumn& column) {
   const std::string names = ", " + study.quantity + ",";
   const auto named = [&](const DataColumn& each) {
@@ -169,7 +169,7 @@ Group data_group(const std::string& name, const PosteriorStudy& study,
   return group;
 }
 
-// One name for the observations in log_likelihood and observed_data, where there is one.
+// The common name of the observations in log_likelihood and observed_data, if there is one.
 std::string observed_name(const Group& observed) {
   std::set<std::string> names;
   for (const Variable& each : observed.variables) {
@@ -217,8 +217,8 @@ const PosteriorStudy& require_posterior_study(const Study& study) {
   const auto* posterior = dynamic_cast<const PosteriorStudy*>(&study);
   if (!posterior) {
     throw InputError(
-        "this study has no posterior (a clutch campaign is a chain of fits): there are no draws to "
-        "write as NetCDF");
+        "this study has no posterior (a clutch campaign is a chain of fits), so there are no draws "
+        "to write as NetCDF");
   }
   return *posterior;
 }
@@ -231,7 +231,7 @@ std::vector<Eigen::MatrixXd> log_likelihood(const PosteriorStudy& study,
   const std::size_t terms =
       likelihood->pointwise(natural(study, result.posterior_draws.front(), 0)).size();
   if (terms == 0) {
-    why = "log_likelihood: the likelihood of this study is no product over its observations";
+    why = "log_likelihood: the likelihood of this study does not factor over observations";
     return {};
   }
   std::vector<int> counts = likelihood->pointwise_counts();
@@ -239,7 +239,7 @@ std::vector<Eigen::MatrixXd> log_likelihood(const PosteriorStudy& study,
   std::size_t observations = 0;
   for (const int count : counts) observations += static_cast<std::size_t>(count);
   if (observations > most_log_likelihoods / (chains * draws)) {
-    why = fmt::format("log_likelihood: {} observations at {} draws are more than {} numbers",
+    why = fmt::format("log_likelihood: {} observations at {} draws exceed the limit of {} values",
                       observations, chains * draws, most_log_likelihoods);
     return {};
   }
@@ -265,7 +265,7 @@ std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
   std::vector<PredictiveDraws> all;
   std::vector<std::vector<const PredictionRequest*>> requests;
   for (const PredictionRequest& request : study.predictions) {
-    if (request.with_item) continue;  // a draw does not hold what is an item's own
+    if (request.with_item) continue;  // a draw does not contain the item's own unknowns
     std::size_t at = 0;
     while (at < all.size() &&
            (all[at].quantity != request.quantity || all[at].unit != request.unit.text ||
@@ -283,7 +283,7 @@ std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
       Rng rng(result.seed, predictive_stream + q * max_chains + c);
       for (std::size_t d = 0; d < draws; ++d) {
         const std::vector<double> x = natural(study, result.posterior_draws[c], d);
-        const double z = rng.normal();  // one item, wherever it is measured
+        const double z = rng.normal();  // the same item at all points of measurement
         for (const PredictionRequest* request : requests[q]) {
           const double mean = request->item ? request->item(x.data(), z) : request->mean(x.data());
           const ObservationDistribution distribution(request->family, mean, request->sd(x.data()));

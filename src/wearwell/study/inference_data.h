@@ -10,33 +10,33 @@
 
 namespace wearwell {
 
-/// The studies' own posterior, or InputError: a clutch campaign has none.
+/// The study's posterior. Throws InputError for a clutch campaign, which has none.
 const PosteriorStudy& require_posterior_study(const Study& study);
 
-/// At most so many numbers of the log-likelihood are computed and written.
+/// Limit on the number of log-likelihood values that are computed and written.
 inline constexpr std::size_t most_log_likelihoods = 50'000'000;
 
 /// log p of each observation at each draw, draws x observations for each chain; natural logarithm,
-/// data in SI. Observations seen alike stand as often as they were seen. Empty where the likelihood
-/// has no factors, or these would be more than `most_log_likelihoods`; `why` says which.
+/// data in SI. Repeated observations are repeated. Empty if the likelihood has no factors or has
+/// more than `most_log_likelihoods` values; `why` states the reason.
 std::vector<Eigen::MatrixXd> log_likelihood(const PosteriorStudy& study,
                                             const PosteriorSummary& result, std::string& why);
 
-/// A measurement as it will read, for each draw: chains by draws.
+/// A predicted measurement for each draw: chains by draws.
 struct PredictiveDraws {
   std::string quantity, unit, at_name;
   std::vector<double> at;
   std::vector<double> values;  ///< chain by chain, draw by draw, along `at`
 };
-/// One draw of each measurement that the study predicts for each draw of the posterior, from streams
-/// of their own of the seed.
+/// One draw of each predicted measurement for each posterior draw, from separate random streams of
+/// the seed.
 std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
                                               const PosteriorSummary& result);
 
 /// The groups and names that ArviZ reads: posterior, sample_stats, log_likelihood,
 /// posterior_predictive, observed_data, constant_data; chain and draw first. Parameters and columns
-/// in the units of the study, which each names (attribute "units"). What is left out is told by an
-/// attribute of the group "posterior".
+/// are in the units of the study (attribute "units"). An attribute of the group "posterior" lists
+/// what is omitted.
 std::vector<netcdf::Group> inference_data(const PosteriorStudy& study,
                                           const PosteriorSummary& result);
 

@@ -14,7 +14,7 @@ const char* method_of(bool by_quadrature) {
   return by_quadrature ? "quadrature" : "draws";
 }
 
-// The best values there are; what the draws say of the same stands beside them.
+// The best values available, with those of the draws beside them.
 template <class Values, class Write>
 void add_best(const Values& drawn, const std::optional<Values>& exact, const Write& write,
               Json& json) {

@@ -6,12 +6,12 @@
 
 namespace wearwell {
 
-/// The values of the keys `parameters` and `loo` in summary.json, by which `wearwell compare` compares
-/// results of any model.
+/// The values of the keys `parameters` and `loo` in summary.json, which `wearwell compare` reads
+/// for any model.
 nlohmann::ordered_json to_json(const std::vector<ParameterSummary>& parameters);
 nlohmann::ordered_json to_json(const LooSummary& summary);
 
-/// What summary.json of a posterior holds after the header (keys: docs/ARCHITECTURE.md). A number
+/// The body of summary.json of a posterior, after the header (keys: docs/ARCHITECTURE.md). A number
 /// that is not finite becomes null.
 nlohmann::ordered_json posterior_json(const PosteriorSummary& result);
 

@@ -12,7 +12,7 @@ namespace wearwell {
 LifeLevels read_life_levels(const TomlReader& predict) {
   LifeLevels levels;
   for (const Quantity& each : predict.quantities("b_lives", "1")) {
-    // "10 %" is a share in SI; 10 alone is a percentage, as in B10.
+    // "10 %" is a fraction in SI; a plain 10 is a percentage, as in B10.
     const double value = each.unit.text == "1" ? each.value : 100 * each.si();
     if (!(value > 0 && value < 100)) {
       predict.fail("b_lives", "are percentages between 0 and 100, like [1, 10]");

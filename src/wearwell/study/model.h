@@ -26,29 +26,28 @@ struct ExampleFile {
   std::string_view (*content)();
 };
 
-/// A trade's only door: what the commands know of it.
+/// The interface of a model to the commands.
 struct Model {
   std::string_view key;                  ///< in study files: model = "archard-joint"
   std::string_view preset;               ///< for `wearwell new`: "joint"
   std::span<const ExampleFile> example;  ///< the study first, then its data
-  /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
-  /// Throws InputError.
+  /// Reads the model's part of the study file; the caller refuses unused keys. Throws InputError.
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// All keys of its studies, for messages and docs/reference/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
-  /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
-  /// null.
+  /// Generates a study for a table whose columns have these roles; empty if the table does not suit
+  /// this model. May be null.
   std::optional<Scaffold> (*scaffold)(ColumnRoles& roles) = nullptr;
-  /// Follows single units on line, from what a fit of this model left (prognosis/tracker.h). May be null.
+  /// Tracks single units online from a saved fit of this model (prognosis/tracker.h). May be null.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;
 };
 
-/// A list of models; programs hand in those that they know (models/registry.h).
+/// The models that a program supports (models/registry.h).
 using Models = std::span<const Model>;
 
-/// Reads a study file and its data; paths in it are relative to the file. Throws InputError with
-/// file:line:column and key, or with file, row and column of the data.
+/// Reads a study file and its data; paths in it are relative to the file. Throws InputError that
+/// names file:line:column and key, or file, row and column of the data.
 std::unique_ptr<const Study> read_study(const Source& source, Models models);
 
 }  // namespace wearwell

@@ -50,7 +50,7 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
                      {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
 }
 
-// The densities of two parameters together, drawn and exact (Fig. 7).
+// The joint density of two parameters, from draws and exact (Fig. 7).
 std::vector<Figure> joint_figures(const PosteriorSummary& result, const Plots& plots) {
   std::vector<Figure> figures;
   const auto& parameters = result.parameters;
@@ -106,8 +106,8 @@ std::vector<Figure> joint_figures(const PosteriorSummary& result, const Plots& p
           }
         }
         figures.push_back({"exact-joint", names + ", by quadrature",
-                           "The density by quadrature, on the same axes: the darker, the more "
-                           "draws are expected there.",
+                           "The density by quadrature, on the same axes. Darker areas have more "
+                           "posterior probability.",
                            plot::plot("Joint density by quadrature of " + names, x, y,
                                       {plot::cells({{"x", xs(x1)},
                                                     {"x2", xs(x2)},
@@ -143,7 +143,7 @@ Figure stages_figure(const PosteriorSummary& result, const Plots& plots) {
     names.push_back(fmt::format("{}", n - i));
   }
   return {"stages", fmt::format("{} after each row", p.name),
-          "Each line is the density after so many rows of the data, drawn to the same height.",
+          "Each line is the density after the given number of rows, scaled to the same height.",
           plot::plot(fmt::format("Density of {} after each row", p.name),
                      {scale.title(p.name), false, scale(plots.stages.back().x.front()),
                       scale(plots.stages.back().x.back())},

@@ -19,13 +19,13 @@ namespace {
 
 constexpr int curve_points = 120, bins = 40, grid_cells = 56, life_points = 120;
 constexpr std::size_t item_points = 20'000;
-constexpr std::size_t most_data_sets = 500;  // drawn, and predicted for the drawing
+constexpr std::size_t most_data_sets = 500;  // plotted and predicted
 
 struct Range {
   double low, high;
 };
 
-// The better of the two: quadrature where there is one.
+// Quadrature if available, else draws.
 const WeightedDraws& best(const Fit& fit) {
   return fit.exact ? fit.exact->nodes : fit.pooled;
 }
@@ -38,7 +38,7 @@ std::vector<double> spaced(Range range, int intervals) {
   return points;
 }
 
-// The probability of each interval over its width, at its middle.
+// The density of each interval, at its midpoint.
 Curve density_curve(const QuantityDistribution& distribution, const std::vector<double>& edges) {
   Curve curve;
   double below = distribution.cdf(edges.front());
@@ -51,7 +51,7 @@ Curve density_curve(const QuantityDistribution& distribution, const std::vector<
   return curve;
 }
 
-// The same of a parameter, by cells that fit together.
+// The same for a parameter, from adjacent cells.
 Curve density_curve(const Parameter& parameter, Eigen::Index index, const WeightedDraws& nodes,
                     Range range) {
   const std::vector<double> edges = spaced(range, curve_points);
@@ -70,7 +70,7 @@ Range within_bounds(const Parameter& parameter, Range range) {
           std::min(range.high, from_si(parameter.unit, parameter.prior.upper))};
 }
 
-// Nearly all of the posterior, and of the prior where that does not squeeze the posterior.
+// Nearly all of the posterior, and of the prior unless that makes the posterior too narrow to see.
 Range range_of(const Parameter& parameter, const QuantityDistribution& posterior) {
   Range range{from_si(parameter.unit, posterior.quantile(0.0005)),
               from_si(parameter.unit, posterior.quantile(0.9995))};
@@ -176,7 +176,7 @@ History predict_all(const std::vector<PredictionRequest>& requests, const Weight
 
 Curve life_curve(const LifeRequest& request, const Fit& fit) {
   const LifeDistribution lives = request.distribution(best(fit));
-  // Components that hardly ever reach the limit have no finite upper quantiles.
+  // Components that rarely reach the limit have no finite upper quantiles.
   double end = request.now;
   for (const double p : {0.995, 0.95, 0.75, 0.5, 0.25, 0.1}) {
     const double life = lives.quantile(p);
@@ -194,7 +194,7 @@ Curve life_curve(const LifeRequest& request, const Fit& fit) {
   return curve;
 }
 
-// Data sets to draw, from 1: all, or the first, the last and others evenly between.
+// Data sets to plot, from 1: all, or the first, the last and evenly spaced ones between.
 std::vector<std::size_t> drawn_data_sets(std::size_t all) {
   const std::size_t count = std::min(all, most_data_sets);
   std::vector<std::size_t> drawn;
@@ -281,7 +281,7 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
   plots.files = {{valid_utf8(study.file.path.filename().string()), sha1_of(study.file.text)},
                  {study.data_file, study.data_sha1}};
 
-  // The draws of an improper posterior wander for ever: they predict nothing.
+  // The draws of an improper posterior never converge, so they predict nothing.
   if (!std::all_of(fit.tails.begin(), fit.tails.end(),
                    [](const Tail& tail) { return tail.integrable(); })) {
     return plots;
@@ -321,7 +321,7 @@ std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index inde
   range = within_bounds(parameter, {range.low - margin, range.high + margin});
   std::vector<Curve> curves;
   for (const QuantityDistribution& each : all) {
-    // Where little of a wide posterior is seen, few points carry it.
+    // If the plot shows little of a wide posterior, few points carry its weight.
     const double seen = each.cdf(range.high) - each.cdf(range.low);
     const int intervals = std::clamp(static_cast<int>(seen * curve_points), 6, curve_points);
     Curve curve = density_curve(each, spaced(range, intervals));

@@ -9,15 +9,15 @@
 
 namespace wearwell {
 
-/// Everything that a report draws of the final posterior; some tens of milliseconds.
+/// Computes all plots of the final posterior; takes some tens of milliseconds.
 Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit);
 
-/// A few points of one weight that stand for the tens of thousands of a quadrature, for curves:
-/// their quantiles move by less than a plot shows.
+/// A few points of equal weight that represent the tens of thousands of a quadrature in curves.
+/// Their quantiles change by less than a plot shows.
 WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count = 4000);
 
-/// Fewer points for numbers that are told: those that hold `share` of the weight or more as they are, and of the others, in
-/// their order, one for every so much of it.
+/// Fewer points for reported numbers: keeps every point with at least `share` of the weight and, of
+/// the others in order, one per `share` of weight.
 WeightedDraws gathered(const WeightedDraws& draws, double share);
 
 /// The density of `parameter` after every stage, over one range: that of the 90 % intervals of the

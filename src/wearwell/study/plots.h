@@ -9,7 +9,7 @@
 
 namespace wearwell {
 
-/// What a report draws beyond the numbers of the summary, in the units of the report.
+/// The plot data of a report, in its units, beyond the numbers of the summary.
 
 struct Curve {
   std::vector<double> x, y;
@@ -24,10 +24,10 @@ struct Histogram {
 struct ParameterPlots {
   Histogram histogram;
   std::optional<Curve> exact;  ///< marginal posterior density
-  Curve prior;  ///< density; of an improper prior with area one over the curve's range
+  Curve prior;                 ///< density; an improper prior has area one over the curve's range
 };
 
-/// The exact density of two parameters at the centres of cells, relative to its largest value:
+/// The exact density of two parameters at the centers of cells, relative to its largest value:
 /// density[i * y.size() + j] at (x[i], y[j]).
 struct DensityGrid {
   std::vector<double> x, y, density;
@@ -44,22 +44,22 @@ struct DataFile {
 
 struct Plots {
   std::string unit;     ///< its unit
-  std::string at_name;  ///< against what, "cycles"
+  std::string at_name;  ///< the axis, "cycles"
   std::vector<ParameterPlots> parameters;
   std::optional<DensityGrid> joint;  ///< of the first two parameters
   std::vector<Curve> stages;         ///< density of the first parameter after 1, 2, ... data sets
   History history;
-  /// The next three are of the data sets that are drawn: all, or some hundreds evenly among them.
-  std::vector<double> history_at;  ///< where each data set lies along it
-  History replicated;              ///< each data set as the final posterior would predict it
-  std::vector<double> measured;    ///< those data sets
-  std::string history_note;        ///< what to know of it
-  std::optional<Curve> life;       ///< probability that the limit is reached by then
+  /// The next three describe the plotted data sets: all, or some hundreds, evenly chosen.
+  std::vector<double> history_at;  ///< position of each data set along the history
+  History replicated;              ///< prediction of each data set by the final posterior
+  std::vector<double> measured;    ///< measured values of those data sets
+  std::string history_note;        ///< remarks on the history
+  std::optional<Curve> life;       ///< probability that the limit is reached
   std::optional<double> limit;     ///< in `unit`
   std::string study_text;          ///< the study file
   std::vector<DataFile> files;
-  double seconds = 0;  ///< that the study took
-  /// What the trade shows beyond that, by section: "predictions", "parameters" or "fit".
+  double seconds = 0;  ///< run time of the study
+  /// Additional figures of the model, by section: "predictions", "parameters" or "fit".
   std::map<std::string, std::vector<html::Figure>> figures;
 };
 

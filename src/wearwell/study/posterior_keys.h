@@ -4,7 +4,7 @@
 
 namespace wearwell {
 
-/// The keys that every study of a posterior has, whatever the trade.
+/// The keys that every study of a posterior has, for any model.
 StudyKeys posterior_keys();
 
 }  // namespace wearwell

@@ -44,7 +44,7 @@ void add_answers(Section& section, const PosteriorSummary& result) {
     section.add(Prose{html::capital(each) + ".", true});
 }
 
-// What the trade shows in a section.
+// Adds the model's figures of a section.
 std::vector<html::Figure> figures_of(const std::string& section, const Plots& plots) {
   const auto found = plots.figures.find(section);
   return found == plots.figures.end() ? std::vector<html::Figure>() : found->second;
@@ -62,7 +62,7 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                                given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
     tiles.push_back({"Limit already passed", fmt::format("{:.2g}", 100 * life.passed), "%",
-                     fmt::format("probability after {}; tolerated: {} %", given(summary.now),
+                     fmt::format("probability after {}; tolerated risk: {} %", given(summary.now),
                                  given(100 * summary.risk))});
   }
   tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
@@ -125,8 +125,8 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   if (const std::string defaults = default_priors(result.parameters); !defaults.empty()) {
     section.add(
-        Prose{fmt::format("Default priors, which are weak: {} (see Parameters). State what you "
-                          "know in [prior].",
+        Prose{fmt::format("These priors are weak defaults: {} (see Parameters). If you know more, "
+                          "state it in [prior].",
                           defaults)});
   }
   return section;
@@ -140,12 +140,11 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   if (!result.predictions.empty()) section.add(prediction_table(result));
   if (result.life) section.add(life_table(*result.life));
   if (auto table = bound_table(result.quantities); !table.rows.empty()) {
-    section.add(Prose{
-        "At least: the lower bound, and the number to design with. With the stated confidence "
-        "(Bayesian: it is credible) the true value, of all such items, lies above it; 5, 50 and "
-        "95 % are of the same. Next one: the same of the next item, averaged over all that is "
-        "unknown "
-        "(predictive). It has no margin for few tests."});
+    section.add(
+        Prose{"At least: the lower bound to design with. With the stated confidence (Bayesian: "
+              "credible) the true value of the population lies above it; 5, 50 and 95 % are "
+              "quantiles of the same value. Next one: the value for the next item, averaged over "
+              "the posterior (predictive). It has no margin for few tests."});
     section.add(std::move(table));
   }
   if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
@@ -161,16 +160,16 @@ void add_mode(const ModeSummary& mode, Section& section) {
   }
   section.add(mode_table(mode));
   if (mode.profile()) {
-    section.add(Prose{
-        "The profile interval holds all values under which the likelihood, maximized over "
-        "everything else, is not far below its maximum (by chi-square's quantile: Venzon and "
-        "Moolgavkar 1988). It need not be symmetric, and does not change with the way in which a "
-        "parameter is written."});
+    section.add(
+        Prose{"The profile interval contains the values whose profile likelihood is close to the "
+              "maximum, by a quantile of chi-square (Venzon and Moolgavkar 1988). It can be "
+              "asymmetric, and it does not depend on the parametrization."});
   }
   const std::string data_unit = DensityUnit::description(mode.density_unit);
   section.add(Prose{fmt::format(
       "Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations{}{}). "
-      "Standard errors are those of the curvature there; a parameter on its bound counts as known.",
+      "Standard errors follow from the curvature at the mode; a parameter at its bound counts as "
+      "known.",
       mode.log_likelihood, mode.aic, mode.bic, given(mode.observations),
       data_unit.empty() ? "" : ", " + data_unit,
       mode.maximum_likelihood ? "" : "; the likelihood at the mode, not at its own maximum")});
@@ -259,12 +258,11 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
   section.add(std::move(facts));
   if (result.parameters.front().exact) {
     section.add(
-        Prose{"Where the posterior can be integrated by quadrature, intervals and predictions are "
-              "those of quadrature and carry no sampling noise; the draws check them."});
+        Prose{"Intervals and predictions are computed by quadrature and carry no sampling noise; "
+              "the draws check them."});
   }
   section.add(Prose{
-      "The same study file, data and seed give the same numbers to the bit, whatever the number of "
-      "threads:"});
+      "The same study file, data and seed give identical numbers for any number of threads:"});
   section.add(present::Verbatim{
       fmt::format("wearwell fit {} --method {} --chains {} --warmup {} --draws {} --seed {}",
                   plots.files.front().name, result.method, result.chains, result.warmup,

@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-/// The report of a study of a posterior, which has `plots`.
+/// The report of a study of a posterior; requires `plots`.
 std::vector<present::Section> report_sections(const PosteriorSummary& result);
 
 }  // namespace wearwell

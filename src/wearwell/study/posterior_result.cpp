@@ -33,7 +33,7 @@ Result posterior_result(PosteriorSummary summary) {
   for (auto& table : long_tables(s)) result.files.push_back(std::move(table));
   if (s.plots) {
     result.sections = report_sections(s);
-  } else {  // the terminal names them
+  } else {  // the terminal output names these files
     const auto add = [&](const present::Table& table) {
       result.files.emplace_back(fmt::format("tables/{}.csv", table.id), present::csv(table));
     };

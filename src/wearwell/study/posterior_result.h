@@ -5,8 +5,8 @@
 
 namespace wearwell {
 
-/// The result of a study of a posterior as every command takes it: summary.json, the draws, the
-/// predictions, and the report where there are plots.
+/// The result of a study of a posterior in the form that all commands use: summary.json, the draws,
+/// the predictions, and the report if there are plots.
 Result posterior_result(PosteriorSummary summary);
 
 }  // namespace wearwell

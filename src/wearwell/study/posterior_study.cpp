@@ -47,7 +47,7 @@ void read_sampler(const TomlReader& root, PosteriorStudy& study) {
     Eigen::VectorXd widths(static_cast<Eigen::Index>(study.parameters.size()));
     for (std::size_t i = 0; i < study.parameters.size(); ++i) {
       const Parameter& parameter = study.parameters[i];
-      // A width is a difference: of a logarithm a plain number.
+      // A width is a difference; the difference of logarithms is a plain number.
       const bool logarithm = is_logarithm(parameter.si);
       const Quantity width =
           half_width->required_quantity(parameter.name, logarithm ? "1" : parameter.si);

@@ -26,7 +26,7 @@
 
 namespace wearwell {
 
-/// What is to be predicted of one measurement, past or to come.
+/// A request to predict one measurement, past or future.
 struct PredictionRequest {
   std::string at_name;  ///< "cycles"
   double at = 0;
@@ -37,76 +37,78 @@ struct PredictionRequest {
   ObservationFamily family = ObservationFamily::normal;
   std::optional<double> measured;  ///< SI
   ItemFunction item =
-      {};  ///< the mean of one item where items differ; the prediction interval is its
-  /// Whose the mean and the prediction interval are, where these differ: "median bearing".
+      {};  ///< scatter between items: the mean is that of one item, the prediction interval too
+  /// The items of the mean and of the prediction interval, if these are not the same: "median
+  /// bearing".
   std::string mean_of = {}, measured_of = {};
-  std::string at_unit = {};  ///< of `at`, where its name is not a unit: "h"
-  /// Of an item that was seen: the posterior with the item's own unknowns after the parameters, of
-  /// which `mean` and `sd` are functions then; else null. Requests of one item share it.
+  std::string at_unit = {};  ///< of `at`, if its name is not a unit: "h"
+  /// For an observed item: the posterior with the item's own unknowns after the parameters; `mean`
+  /// and `sd` are functions of both. Else null. Requests of one item share it.
   std::shared_ptr<const std::function<WeightedDraws(const WeightedDraws& draws)>> with_item = {};
 };
 
-/// When a limit is reached.
+/// A request for the life until a limit is reached.
 struct LifeRequest {
   Unit unit;              ///< of the life
   std::string unit_name;  ///< "cycles"
   Quantity limit;
-  double now = 0;   ///< the last inspection; 0 of an item that is new
+  double now = 0;   ///< the last inspection; 0 for a new item
   double risk = 0;  ///< tolerated at the next inspection
   std::function<LifeDistribution(const WeightedDraws& draws)> distribution;
-  std::string of = {};  ///< "new bearing", where items differ
+  std::string of = {};  ///< "new bearing", if items vary
 };
 
-/// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
-/// a pressure or a life from a wear rate.
+/// A quantity that is a monotone function of one positive unknown, its driver: a depth, a pressure
+/// or a life from a wear rate.
 struct QuantityRequest {
   std::string name;  ///< "life"
-  std::string of;  ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
-  std::string at;  ///< under which conditions, in words
+  std::string of;    ///< "median bearing"; "new bearing" if the driver is that of a new item
+  std::string at;    ///< the conditions, as text
   Unit unit;
   bool increasing = true;
-  bool is_life = false;                        ///< then B1, B10 and B50 are told as well
+  bool is_life = false;                        ///< then B1, B10 and B50 are reported as well
   std::function<double(double driver)> value;  ///< SI
   Function driver;
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
-  /// The quantile that a careful engineer designs with: 0.05 of a life, 0.95 of a needed length.
+  /// The conservative quantile for design: 0.05 of a life, 0.95 of a required length.
   std::optional<double> safe_end = {};
-  bool headline = false;  ///< answers what was asked first
+  bool headline = false;  ///< one of the main answers of the study
 };
 
-/// The predictive distribution of a life, SI, from where it counts on, given that the unit came so far.
+/// The predictive distribution of a life, SI, from its starting point, given that the unit has
+/// reached that point.
 struct PredictiveLife {
   LifeDistribution distribution;
-  double survival = 1;  ///< the predictive probability that it came so far
+  double survival = 1;  ///< the predictive probability that the unit reached that point
   std::optional<double> numerical_error =
       {};  ///< QuantityQuantiles::numerical_error, of its quantiles
 };
 
-/// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
+/// Quantities without a single driver, computed together from the points of a posterior, SI.
 struct QuantityGroup {
   std::vector<QuantityRequest> requests;  ///< without driver
   std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
-  /// Of each life among the requests, in their order; empty where there is none.
+  /// The distribution of each life among the requests, in their order; empty without lives.
   std::function<std::vector<PredictiveLife>(const WeightedDraws& draws)> lives = {};
 };
 
-/// A quantity of which the maximum likelihood value and the profile interval are told.
+/// A quantity whose maximum likelihood value and profile interval are reported.
 struct ProfileRequest {
   std::string name, of, at;
   Unit unit;
   ProfiledQuantity quantity;
-  std::function<double(double)> si;  ///< from the scale on which it is profiled; monotone, rising
+  std::function<double(double)> si;  ///< from the scale on which it is profiled; increasing
 };
 
-inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
-inline constexpr std::size_t most_stages = 300;  ///< more data sets are not updated one by one
-inline constexpr int min_draws = 10;             ///< fewer have no diagnostics
+inline constexpr int max_chains = 1000;  ///< each stage of a study has this many random streams
+inline constexpr std::size_t most_stages = 300;  ///< limit for updates by single data sets
+inline constexpr int min_draws = 10;             ///< diagnostics need at least these
 inline constexpr int max_iterations = 10'000'000;
 
-/// A study of a posterior as the engine sees it: whatever the trade, parameters with priors, a
-/// likelihood of the first data sets, and what to predict.
+/// A study of a posterior in the form that the engine needs, for any model: parameters with priors,
+/// a likelihood of the first data sets, and requests for predictions.
 struct PosteriorStudy : Study {
   std::string description() const override;
   Result run(const RunOptions& options, const Monitor& monitor) const override;
@@ -116,37 +118,37 @@ struct PosteriorStudy : Study {
   std::string data_file;      ///< as the study file names it
   std::string data_sha1;      ///< of the file when it was read
   std::size_t data_rows = 0;  ///< data sets; the posterior can be updated after each
-  /// What was observed, row by row in SI: what the likelihood is a density of.
+  /// The observed values, row by row in SI: the arguments of the likelihood's density.
   std::vector<double> observed;
-  DensityUnit density;  ///< in which log densities of what was observed are reported
-  std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
+  DensityUnit density;                   ///< unit of reported log densities
+  std::vector<DataColumn> data_columns;  ///< for the check of units
   TableLayout data_layout;
-  std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
+  std::string observation = "row";  ///< the unit of the likelihood's factors: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
-  std::optional<FitData> fit_data;  ///< by which the fit is checked
-  std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
-  bool stages = false;              ///< the posterior after 1, 2, ... data sets as well
+  std::optional<FitData> fit_data;  ///< for the check of fit
+  std::vector<Reach> reaches;       ///< how far predictions extrapolate beyond the data
+  bool stages = false;              ///< also compute the posterior after 1, 2, ... data sets
   std::vector<PredictionRequest> predictions;
-  /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
-  /// the next.
+  /// Additional predictions at the stage after `rows` data sets: that inspection and the next.
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::vector<QuantityRequest> quantities;
   std::vector<QuantityGroup> quantity_groups;
   std::vector<ProfileRequest> profiled;
   std::optional<LifeRequest> life;
-  /// The law with its numbers, as a clause: "S_f = 2010 MPa N^-0.12"; may be empty.
+  /// The fitted formula as a clause: "S_f = 2010 MPa N^-0.12"; may be empty.
   std::function<std::string(const WeightedDraws&)> curve;
-  std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
-  std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
-  std::string history_note;        ///< what to know of that curve
+  std::vector<PredictionRequest> history;  ///< a curve along the whole history, past and future
+  std::vector<double> history_at;  ///< position of each data set along it; if empty, where it was
+                                   ///< measured
+  std::string history_note;        ///< remarks on that curve
   std::optional<PointwiseTable> pointwise;
-  std::string quantity;                 ///< what is measured, in words: "worn volume"
-  std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
-  NothingSeen nothing_seen;             ///< what the answers and the checks begin with then
+  std::string quantity;                 ///< the measured quantity: "worn volume"
+  std::vector<std::string> data_notes;  ///< remarks on the data, as sentences
+  NothingSeen nothing_seen;             ///< set if no failure or wear was observed
   std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
-  /// What the trade checks beside the engine's checks, and shows in each section of the report;
-  /// both may be empty.
+  /// Additional checks of the model, and its additions to the sections of the report; both may be
+  /// empty.
   std::function<std::vector<Check>(const Fit&)> checks;
   std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> figures;
@@ -156,10 +158,11 @@ struct PosteriorStudy : Study {
   MetropolisSettings metropolis;
 };
 
-/// What a trade reads of a study file and its data, beyond what all studies of a posterior have.
+/// Reads the model's part of a study file and its data, beyond the keys that all studies of a
+/// posterior share.
 using ReadPreset = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// Title, data, stages and sampler, and with `read_preset` the rest. Throws InputError.
+/// Reads title, data, stages and sampler, and the rest with `read_preset`. Throws InputError.
 std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
                                                   ReadPreset read_preset);
 

@@ -64,7 +64,7 @@ Format life_format(const std::string& unit, int digits) {
   return is_count(unit) ? present::life(digits) : present::digits(digits);
 }
 
-// Where not all are of one thing and of the same items, each row says of what it is.
+// If the rows describe different quantities or items, each row names its own.
 Table mixed_prediction_table(const PosteriorSummary& result) {
   PredictionSummary plain = result.predictions.front();
   plain.quantity = "Mean";
@@ -122,7 +122,8 @@ Table life_table(const LifeSummary& summary) {
 
 namespace {
 
-// Where numbers are summed over few points of the posterior: no more digits than are known, and how far each is off.
+// For numbers summed over few points of the posterior: limits the digits to the known ones and
+// shows the error.
 void add_numerical_errors(Table& table, const std::vector<QuantitySummary>& quantities,
                           bool bounds) {
   const auto largest = largest_numerical_error(quantities, bounds);
@@ -152,7 +153,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
                {"Design with"},
                {"B1"},
                {"B10"}}};
-  // Where there are lower bounds, they are what to design with.
+  // If there are lower bounds, they are the design values.
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.best().bound.has_value(); });
   for (const QuantitySummary& each : quantities) {
@@ -277,7 +278,7 @@ Table stage_table(const PosteriorSummary& result) {
 Table fit_table(const Plots& plots) {
   const History& r = plots.replicated;
   Table table{"fit",
-              "Data, and what the fit says of them",
+              "Data and fit",
               {{plots.at_name, "1", given},
                {"Measured", plots.unit},
                {"Fitted mean", plots.unit, digits(3)},

@@ -15,7 +15,7 @@ using html::capital;
 using html::Figure;
 using plot::Json;
 
-// There is no wear below nothing, unless it was measured.
+// The axis starts at zero unless a negative wear was measured.
 bool never_negative(const Plots& plots) {
   return std::all_of(plots.measured.begin(), plots.measured.end(), [](double y) { return y >= 0; });
 }
@@ -39,8 +39,8 @@ Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
                                 {"measured", plots.measured}},
                                {colour::measured, "measured", 1, 0, false, 60}));
   std::string caption = fmt::format(
-      "The line is the mean; the inner band holds the true mean, the outer band one measurement, "
-      "with 90 % probability. {}",
+      "The line is the mean. With 90 % probability the inner band contains the true mean and the "
+      "outer band one measurement. {}",
       plots.history_note);
   return {"history", fmt::format("{} against {}", capital(result.quantity), at), caption,
           plot::plot(fmt::format("{} against {} with its bands and the measured points",
@@ -78,14 +78,15 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
   return {"life",
           fmt::format("Life until {}",
                       html::given(summary.limit) + "\u00a0" + html::unit(summary.limit_unit)),
-          "The probability that the limit is reached by then. One in ten reaches it before B10.",
+          "The probability that the limit is reached by the given life. One in ten reaches it "
+          "before B10.",
           plot::plot("Probability that the limit is reached, against " + summary.unit,
                      {fmt::format("Life [{}]", html::unit(summary.unit)), false,
                       plots.life->x.front(), plots.life->x.back()},
                      {"Probability [%]", false, 0, 100}, marks, 340)};
 }
 
-// What each stage said of the next inspection (Figs. 10 and 11).
+// The prediction of each stage for the next inspection (Figs. 10 and 11).
 Figure next_figure(const PosteriorSummary& result, const Plots& plots) {
   std::vector<std::string> names;
   Numbers ci05, ci95, pi05, pi95, measured;
@@ -127,8 +128,8 @@ Figure next_figure(const PosteriorSummary& result, const Plots& plots) {
                                           {colour::measured, "measured then", 1, 0, false, 70})};
   return {
       "next", "Predicted before each inspection",
-      fmt::format("What the rows before an inspection say of it, and what was then "
-                  "measured. Bars that leave the plot are cut off; the table has their ends."),
+      fmt::format("The prediction from the rows before each inspection, and the measured value. "
+                  "Bars are clipped at the edge of the plot; the table has their ends."),
       plot::plot("Predicted and measured " + first.quantity + " at each inspection",
                  {fmt::format("Inspection at … {}", first.at_name), false, {}, {}, names},
                  {fmt::format("{} [{}]", capital(first.quantity), html::unit(first.unit)), false,

@@ -13,7 +13,7 @@ namespace {
 
 const Model& model_of(const TomlReader& root, Models models) {
   std::vector<std::string> names;
-  for (const Model& model : models) {  // one may have several examples
+  for (const Model& model : models) {  // a model may have several examples
     if (std::find(names.begin(), names.end(), model.key) == names.end())
       names.emplace_back(model.key);
   }
@@ -36,7 +36,7 @@ const Model& model_of(const TomlReader& root, Models models) {
                        [&](const Model& each) { return each.key == *name; });
 }
 
-// Conditions that nobody has stated yet are no ground for a result.
+// A study with placeholders for conditions does not run.
 void require_stated(const TomlReader& root, const StudyKeys& keys) {
   std::vector<std::string> missing;
   for (const TomlReader::Present& each : root.present()) {
@@ -66,7 +66,7 @@ std::unique_ptr<const Study> read_study(const Source& source, Models models) {
   try {
     study = model.read(root, source);
   } catch (const InputError& error) {
-    // What a reader stumbles over first may follow from a key that is misspelt.
+    // The reader's first error may be the consequence of a misspelled key.
     const std::string faults = model.keys ? key_faults(root, keys, error.what()) : "";
     if (faults.empty()) throw;
     throw InputError(faults);

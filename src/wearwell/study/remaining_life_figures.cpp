@@ -15,17 +15,17 @@ namespace colour = plot::colour;
 
 constexpr std::size_t least_units = 3, most_named = 40;
 
-// The remaining useful lives of units in one unit of life, to one end.
+// The remaining useful lives of units, in one unit of life and to the same limit.
 struct Fleet {
   std::string name, unit;
   std::string to;                   ///< "to wear = 100 um, force = 20 N"
-  std::optional<std::string> from;  ///< "from 30 km on", where all count from there
+  std::optional<std::string> from;  ///< "from 30 km on", if all count from there
   std::vector<const QuantitySummary*> units = {};
 
   const QuantityQuantiles& of(std::size_t i) const { return units[i]->best(); }
 };
 
-// "to wear = 100 um from 30 km on" in two.
+// Splits "to wear = 100 um from 30 km on" in two.
 std::pair<std::string, std::string> parted(const std::string& at) {
   const std::size_t from = at.rfind(" from ");
   if (from == at.npos || !at.ends_with(" on")) return {at, ""};
@@ -57,7 +57,8 @@ std::vector<Fleet> fleets_of(const std::vector<QuantitySummary>& quantities) {
   return fleets;
 }
 
-// So far that all medians have room and one unit of which little is known does not press the others together.
+// The end of the axis: it includes all medians, but one unit with a wide interval does not compress
+// the others.
 double end_of_axis(const Fleet& fleet, std::size_t count) {
   double end = 0, middle = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -118,7 +119,7 @@ html::Figure named_figure(const Fleet& fleet, std::size_t count) {
   return figure;
 }
 
-// Of very many: each in its place by urgency.
+// For very many units: one point each, sorted by urgency.
 html::Figure ranked_figure(const Fleet& fleet) {
   Numbers low, middle, high, b10;
   for (std::size_t i = 0; i < fleet.units.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace wearwell {
 namespace {
 
-// "hours = h | time": words between bars, and behind "=" the unit that a word says.
+// "hours = h | time": words separated by bars; after "=" the unit that a word implies.
 std::vector<RoleWord> words(std::string_view text) {
   std::vector<RoleWord> all;
   while (!text.empty()) {
@@ -27,12 +27,12 @@ std::vector<RoleWord> words(std::string_view text) {
 
 }  // namespace
 
-// Words stand from the most telling to the least; where the heading has a longer word of another role
-// ("mean stress", "cycles to failure") it is of that one.
+// Words are sorted from the most specific to the least. A longer word of another role in the
+// heading ("mean stress", "cycles to failure") takes precedence.
 const std::vector<RoleForm>& role_forms() {
   constexpr double any = 1e300;
   static const std::vector<RoleForm> forms = {
-      // What is measured.
+      // Measured quantities.
       {"depth",
        {"m"},
        "um",
@@ -88,7 +88,7 @@ const std::vector<RoleForm>& role_forms() {
              "zielgrösse | zielgröße | taux d'usure | coefficient de frottement | frottement | "
              "rugosité | réponse | tasa de desgaste | coeficiente de fricción | fricción | "
              "rugosidad | respuesta | y")},
-      // How far, how long.
+      // Exposure: distance and time.
       {"cycles",
        {"cycle"},
        "1",
@@ -157,7 +157,7 @@ const std::vector<RoleForm>& role_forms() {
        Cells::numbers,
        words("entry | delayed entry | age at start | start age | truncation | eintritt | entrée | "
              "entrada")},
-      // Under what.
+      // Conditions.
       {"force",
        {"N"},
        "N",
@@ -249,7 +249,7 @@ const std::vector<RoleForm>& role_forms() {
        Cells::numbers,
        words("friction work | friction energy | work | energy | reibarbeit | reibungsarbeit | "
              "arbeit | énergie | trabajo")},
-      // Of a plain bearing.
+      // Dimensions of a plain bearing.
       {"clearance",
        {"m"},
        "um",
@@ -266,7 +266,7 @@ const std::vector<RoleForm>& role_forms() {
        Cells::numbers,
        words("bearing length | length | width | länge | breite")},
       {"contact", {"1"}, "1", Cells::any, words("contact | kontakt")},
-      // Who, how many, how it ended.
+      // Item, count and status.
       {"status",
        {"1"},
        "1",
@@ -309,7 +309,7 @@ const RoleForm& role_form(std::string_view name) {
   if (found != forms.end()) return *found;
   std::vector<std::string> names = {"unused"};
   for (const RoleForm& each : forms) names.emplace_back(each.name);
-  throw InputError(fmt::format("'{}' is no role of a column; it is one of {}{}", name,
+  throw InputError(fmt::format("'{}' is not a role of a column; use one of {}{}", name,
                                fmt::join(names, ", "), did_you_mean(std::string(name), names)));
 }
 

@@ -5,24 +5,25 @@
 
 namespace wearwell {
 
-/// What the cells of a column are; `names` are words or whole numbers.
+/// The content of a column's cells; `names` are words or whole numbers.
 enum class Cells { numbers, names, any };
 
-/// A word that people write in a heading, in small letters, and the unit that the word itself says: "hours" is h.
+/// A word of headings, in lower case, and the unit that it implies: "hours" is h.
 struct RoleWord {
   std::string_view text;
   std::string_view unit = "";
 };
 
-/// What a column may be, and how it is recognized: by words of its heading in English, German, French
-/// and Spanish, the more telling ones first, or by its unit.
+/// A role of a column, and how it is recognized: by words of its heading in English, German, French
+/// and Spanish, the more specific ones first, or by its unit.
 struct RoleForm {
   std::string_view name;             ///< of `wearwell new --column NAME=HEADING`
-  std::vector<std::string_view> si;  ///< the dimensions that it may have; none: any
-  std::string_view usual;  ///< the unit that is guessed where none is stated; "1": needs none
+  std::vector<std::string_view> si;  ///< allowed dimensions; empty: any
+  std::string_view usual;            ///< the unit guessed if none is stated; "1": needs none
   Cells cells = Cells::numbers;
   std::vector<RoleWord> words = {};
-  /// Where one unit lies between these in SI, the unit alone tells the role; 0: it never does.
+  /// If the size of the unit in SI lies between these, the unit alone identifies the role; 0:
+  /// never.
   double least_unit = 0, largest_unit = 0;
 };
 

@@ -25,7 +25,7 @@ using present::Table;
 Table coverage_table(const CoverageTable& coverage) {
   const std::string& unit = coverage.unit;
   Table table{"coverage",
-              "Every test, and the life that the fit predicts of it",
+              "Every test and its predicted life",
               {{"Row", "1", given},
                {"Type"},
                {"Outcome"},

@@ -40,7 +40,7 @@ std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& post
   return checks;
 }
 
-// What is kept of the posterior of one stage.
+// The part of one stage's posterior that is kept.
 StageSummary summarize_stage(const PosteriorStudy& study, std::size_t rows,
                              std::vector<ParameterSummary> parameters, std::vector<Check> checks,
                              const Fit& fit) {
@@ -52,7 +52,7 @@ StageSummary summarize_stage(const PosteriorStudy& study, std::size_t rows,
   return summary;
 }
 
-// `density`, when given, takes the points of the posterior.
+// `density`, if given, receives the points of the posterior.
 StageSummary run_stage(const PosteriorStudy& study, FitSettings settings, std::size_t rows,
                        WeightedDraws* density) {
   settings.run.first_stream = rows * max_chains;
@@ -75,7 +75,7 @@ Draws in_units(const PosteriorStudy& study, Draws draws) {
   return draws;
 }
 
-// How many of the sampler's iterations there will be.
+// The total number of the sampler's iterations.
 long long iterations(const PosteriorStudy& study, const FitSettings& settings) {
   if (settings.method == Method::exact) return 0;
   const RunSettings& run = settings.run;
@@ -94,7 +94,7 @@ std::optional<LooSummary> left_out_one_by_one(const PosteriorStudy& study,
   return LooSummary{study.observation, std::move(loo)};
 }
 
-// From SI to the unit in which log densities are reported.
+// Converts from SI to the unit in which log densities are reported.
 void to_density_unit(const DensityUnit& unit, LooSummary& summary) {
   summary.density_unit = unit.text;
   std::vector<LooTerm>& terms = summary.loo.terms;
@@ -107,7 +107,7 @@ void to_density_unit(const DensityUnit& unit, LooSummary& summary) {
   }
 }
 
-// Of which BIC takes the logarithm: as many as the likelihood counts.
+// The number in BIC: the observations that the likelihood counts.
 double observations_of(const PosteriorStudy& study, const Posterior& posterior,
                        const std::optional<LooSummary>& loo) {
   if (loo) return loo->loo.observations();
@@ -116,7 +116,7 @@ double observations_of(const PosteriorStudy& study, const Posterior& posterior,
   return counted > 0 ? counted : static_cast<double>(study.data_rows);
 }
 
-// The study, its fit, and what follows from it: all but what judges it.
+// The study, its fit and the derived results, without the checks.
 PosteriorSummary described(const PosteriorStudy& study, const FitSettings& settings,
                            const Posterior& posterior, const Fit& fit) {
   const WeightedDraws& nodes = fit.exact ? fit.exact->nodes : fit.pooled;
@@ -159,17 +159,16 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   return result;
 }
 
-// One fit for each data set but the last: after that the stage is the whole, `final`. `plots`, when
-// wanted, takes the densities.
+// One fit for each data set except the last, whose stage is `final`. `plots`, if given, receives
+// the densities.
 void add_stages(const PosteriorStudy& study, const FitSettings& settings, const Fit& final,
                 PosteriorSummary& result, std::optional<Plots>& plots) {
   if (study.data_rows > most_stages) {
     result.checks.push_back(
         {"stages", Verdict::warn,
-         fmt::format("none: one fit for each of {} data sets is too much; at most {} are updated "
-                     "one by one",
+         fmt::format("none: {} data sets exceed the limit of {} for updates after each data set",
                      study.data_rows, most_stages),
-         "Leave update.stages out."});
+         "Omit update.stages."});
     return;
   }
   const std::size_t last = study.data_rows - 1;
@@ -211,8 +210,8 @@ namespace {
 std::string sampler_instead(const std::string& why) {
   return why.empty() ? ""
                      : fmt::format(
-                           "Method: NUTS, not quadrature, which --method exact asks for: {}; "
-                           "all numbers carry Monte Carlo error",
+                           "Method: NUTS instead of quadrature (--method exact): {}; all numbers "
+                           "carry Monte Carlo error",
                            why);
 }
 

@@ -14,7 +14,7 @@ namespace colour = plot::colour;
 using html::Figure;
 using plot::Json;
 
-// Measured data sets about what the fit predicts of them.
+// Measured values about the fitted mean.
 Figure check_figure(const Plots& plots) {
   const History& r = plots.replicated;
   std::vector<std::string> names;
@@ -29,8 +29,8 @@ Figure check_figure(const Plots& plots) {
   }
   const Numbers x = counted(names.size());
   return {"check", "Measured about the fit",
-          "Measurements minus the fitted mean. Nine in ten should lie within the bars, and on both "
-          "sides of zero without a pattern.",
+          "Measurements minus the fitted mean. Nine in ten should lie within the bars, scattered "
+          "about zero without a pattern.",
           plot::plot("Measured minus fitted at each row",
                      {fmt::format("Inspection at … {}", plots.at_name), false, {}, {}, names},
                      {fmt::format("Difference [{}]", html::unit(plots.unit))},
@@ -67,7 +67,7 @@ Figure trace_figure(const PosteriorSummary& result, std::size_t i) {
                                {chain_colour(c), fmt::format("chain {}", c + 1), 0.65, 0.8}));
   }
   return {"trace-" + p.name, "Trace of " + p.name,
-          "Good chains look alike and wander over the same range without a trend.",
+          "Converged chains look alike: they cover the same range without a trend.",
           plot::plot("Trace of " + p.name + " for each chain", {"Draw"}, {scale.title(p.name)},
                      marks, 240, true)};
 }
@@ -84,7 +84,7 @@ Figure chain_figure(const PosteriorSummary& result, const Plots& plots, std::siz
                                 {chain_colour(c), fmt::format("chain {}", c + 1), 0.9, 1.2}));
   }
   return {"chains-" + p.name, "Histogram of " + p.name + " by chain",
-          "Chains that agree have the same histogram but for noise.",
+          "Converged chains have the same histogram up to noise.",
           plot::plot("Histogram of " + p.name + " for each chain", {scale.title(p.name)},
                      {"Density", false, 0.0, {}, {}, false}, marks, 240)};
 }

@@ -16,7 +16,8 @@
 namespace wearwell {
 namespace {
 
-// What was not finite is null: a moment that does not exist, or a limit that is never reached.
+// A value that is not finite is null: a moment that does not exist, or a limit that is never
+// reached.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr int most = std::numeric_limits<int>::max();
@@ -125,7 +126,7 @@ LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder)
       summary.loo.terms.push_back(term);
     }
   }
-  if (summary.loo.terms.empty()) json.fail("is of no observation");
+  if (summary.loo.terms.empty()) json.fail("has no observations");
   return summary;
 }
 
@@ -163,7 +164,7 @@ void add_figures(const std::vector<present::Block>& blocks, std::vector<html::Fi
   }
 }
 
-// The parameters stand in the last columns, in their order.
+// The last columns are the parameters, in their order.
 std::size_t first_parameter(const CsvReader& csv, const std::filesystem::path& file,
                             const std::vector<ParameterSummary>& parameters) {
   const std::vector<std::string>& names = csv.heading();
@@ -177,7 +178,7 @@ std::size_t first_parameter(const CsvReader& csv, const std::filesystem::path& f
   return names.size() - parameters.size();
 }
 
-// One chain: a line of names, lines of numbers, comments anywhere.
+// One chain: a line of names, lines of numbers, and comments anywhere.
 Chain read_chain(const std::filesystem::path& file,
                  const std::vector<ParameterSummary>& parameters) {
   CsvReader csv(file, "draw", "numbers");
@@ -194,7 +195,7 @@ Chain read_chain(const std::filesystem::path& file,
     step.divergent = csv.flag(divergent);
     chain.nuts.push_back(step);
   }
-  if (values.empty()) throw InputError(fmt::format("{} holds no draws", file.string()));
+  if (values.empty()) throw InputError(fmt::format("{} does not contain draws", file.string()));
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto columns = static_cast<Eigen::Index>(parameters.size());
   chain.values = Eigen::Map<const RowMajor>(values.data(), std::ssize(values) / columns, columns);
@@ -208,15 +209,15 @@ std::filesystem::path summary_file(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder, ignored))
     throw InputError(fmt::format("no such folder: {}", folder.string()));
   if (!std::filesystem::is_directory(folder, ignored)) {
-    throw InputError(
-        fmt::format("{} is a file; wanted is the folder of results that wearwell fit wrote (its "
-                    "last line says where)",
-                    folder.string()));
+    throw InputError(fmt::format(
+        "{} is a file; give the folder of results that wearwell fit wrote (its last line names it)",
+        folder.string()));
   }
   std::filesystem::path file = folder / "summary.json";
   if (std::filesystem::exists(file, ignored)) return file;
-  throw InputError(fmt::format("{} holds no summary.json: it is no folder that wearwell fit wrote",
-                               folder.string()));
+  throw InputError(fmt::format(
+      "{} does not contain summary.json, so it is not a folder of results of wearwell fit",
+      folder.string()));
 }
 
 SavedResult read_saved_result(const std::filesystem::path& folder) {
@@ -252,8 +253,9 @@ SavedReport read_saved_report(const std::filesystem::path& folder) {
   const auto summary = read_json(file);
   SavedReport saved{read_header(JsonReader(summary, file)), {}};
   if (!std::filesystem::exists(report)) {
-    throw InputError(fmt::format(
-        "{} is missing: the study was fitted with --no-report; fit it again", report.string()));
+    throw InputError(
+        fmt::format("{} is missing, because the study was fitted with --no-report; fit it again",
+                    report.string()));
   }
   const auto sections = read_json(report);
   saved.sections = present::sections_from_json(JsonReader(sections, report));
@@ -263,7 +265,7 @@ SavedReport read_saved_report(const std::filesystem::path& folder) {
 SavedReport read_saved_report(const std::string& summary, const std::string& report) {
   const auto parsed = [](const std::string& text) {
     auto json = nlohmann::ordered_json::parse(text, nullptr, false);
-    if (json.is_discarded()) throw InputError("a result that was kept is no JSON");
+    if (json.is_discarded()) throw InputError("a saved result is not valid JSON");
     return json;
   };
   const auto header = parsed(summary), sections = parsed(report);

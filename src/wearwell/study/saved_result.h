@@ -11,32 +11,32 @@
 
 namespace wearwell {
 
-/// What a result folder tells of a fit, to be compared with others.
+/// A fit read from a result folder, for comparison.
 struct SavedResult {
   Header header = {};
   std::vector<ParameterSummary> parameters = {};
   std::optional<ModeSummary> mode = {};
   std::optional<LooSummary> loo = {};
-  Draws draws = {};  ///< in the parameters' units; none where the fit drew none
+  Draws draws = {};  ///< in the parameters' units; empty without draws
   std::vector<QuantitySummary> quantities = {};
-  std::vector<html::Figure> figures = {};  ///< of its report; none where it has none
+  std::vector<html::Figure> figures = {};  ///< of its report; empty without a report
 };
 
-/// summary.json of a folder of results. Throws InputError where it holds none, or is no folder.
+/// summary.json of a folder of results. Throws InputError if the folder or summary.json is missing.
 std::filesystem::path summary_file(const std::filesystem::path& folder);
 
-/// Reads summary.json, loo.csv where that names it, and draws_1.csv, draws_2.csv, ...: the parameters
-/// and which draws were divergent; and the figures of report.json, where there is one. Throws InputError naming the file and key that is missing or is
-/// not what wearwell writes.
+/// Reads summary.json, loo.csv if summary.json names it, and draws_1.csv, draws_2.csv, ... (the
+/// parameters and divergences), and the figures of report.json if present. Throws InputError that
+/// names the file and the missing or invalid key.
 SavedResult read_saved_result(const std::filesystem::path& folder);
 
-/// What a report is made of, as report.json keeps it.
+/// The content of a report, from report.json.
 struct SavedReport {
   Header header;
   std::vector<present::Section> sections;
 };
 SavedReport read_saved_report(const std::filesystem::path& folder);
-/// Of the texts of summary.json and report.json.
+/// The same from the texts of summary.json and report.json.
 SavedReport read_saved_report(const std::string& summary, const std::string& report);
 
 }  // namespace wearwell

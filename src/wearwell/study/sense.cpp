@@ -16,7 +16,7 @@ std::string with_unit(const std::string& unit) {
 
 class Sense {
  public:
-  // A 90 % interval, and what else is said of the same number.
+  // A 90 % interval, and the other reported values of the same quantity.
   void interval(const std::string& what, const std::string& unit, double q05, double q95,
                 const std::vector<double>& others, bool may_never_end) {
     bool defined = !std::isnan(q05) && !std::isnan(q95);
@@ -24,16 +24,18 @@ class Sense {
     if (!defined) {
       findings_.add(
           Verdict::fail, fmt::format("{} could not be computed", what),
-          "Some parameters that the posterior holds possible give no number: bound the "
-          "prior that allows them. A remaining useful life has no value where the unit hardly ever "
-          "reaches the point it is counted from; ask for other units, or from an earlier point.");
+          "Some parameter values in the posterior give no finite result: bound the prior that "
+          "allows them. A remaining useful life has no value if the unit rarely reaches the point "
+          "from which it is counted; choose other units or an earlier point.");
       return;
     }
     if (std::isinf(q95) && may_never_end) {
-      findings_.add(Verdict::warn,
-                    fmt::format("{} may have no end: its 90 % interval goes from {:.3g}{} on", what,
-                                q05, with_unit(unit)),
-                    advice);
+      findings_.add(
+          Verdict::warn,
+          fmt::format(
+              "{} may be infinite: its 90 % interval begins at {:.3g}{} and has no upper end", what,
+              q05, with_unit(unit)),
+          advice);
       return;
     }
     if (!(q05 > 0) || !std::isfinite(q95)) return;
@@ -53,7 +55,8 @@ class Sense {
 
  private:
   static constexpr const char* advice =
-      "The data say little about it. Test more, or nearer to what is asked.";
+      "The data contain little information about it. Test more, or closer to the conditions of the "
+      "prediction.";
   Findings findings_{"sense"};
 };
 
@@ -66,15 +69,15 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
     const double times = each.asked / each.seen;
     farthest = std::max(farthest, times);
     if (times <= farthest_reach) continue;
-    findings.add(
-        times > absurd_reach ? Verdict::fail : Verdict::warn,
-        fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
-                    each.seen_as),
-        "No data lie there: the answer rests on the model. Inspect before, and fit again.");
+    findings.add(times > absurd_reach ? Verdict::fail : Verdict::warn,
+                 fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
+                             each.seen_as),
+                 "No data lie in that range, so the prediction rests on the model. Inspect earlier "
+                 "and fit again.");
   }
-  return findings.result(fmt::format(
-      "what is asked for lies within {:.3g} times the range of the data (up to {:.3g} passes)",
-      farthest, farthest_reach));
+  return findings.result(
+      fmt::format("predictions lie within {:.3g} times the range of the data (up to {:.3g} passes)",
+                  farthest, farthest_reach));
 }
 
 Check limit_check(const LifeSummary& life) {
@@ -94,7 +97,7 @@ Check sense_check(const PosteriorSummary& result) {
   Sense sense;
   for (const ParameterSummary& each : result.parameters) {
     const ExactSummary p = each.best();
-    // Means and deviations that do not exist are the matter of another check.
+    // Another check covers means and deviations that do not exist.
     if (std::isnan(p.q05) || std::isnan(p.q95)) {
       sense.interval(each.name, each.unit, p.q05, p.q95, {}, false);
     }

@@ -8,32 +8,34 @@
 
 namespace wearwell {
 
-/// Beyond so many times what was seen a prediction is warned of.
+/// A prediction beyond this multiple of the observed range is a warning.
 inline constexpr double farthest_reach = 3;
 
-/// Beyond so many times it fails: no number there is to be used.
+/// A prediction beyond this multiple fails the check.
 inline constexpr double absurd_reach = 100;
 
-/// A 90 % interval of a result that spans more decades is warned of.
+/// A 90 % interval that spans more decades is a warning.
 inline constexpr double widest_interval = 3;
 
-/// One that spans so many fails.
+/// A 90 % interval that spans more decades fails the check.
 inline constexpr double absurd_interval = 6;
 
-/// Something asked for, against the largest of its kind that the data hold; one unit, in words.
+/// A requested value compared with the largest in the data, both in the same unit, with texts for
+/// messages.
 struct Reach {
   std::string what;     ///< "the prediction at 60000 cycles"
   std::string seen_as;  ///< "the last inspection was after 10000"
   double asked = 0, seen = 0;
 };
 
-/// Nothing asked for lies beyond `farthest_reach` times what was seen. Name: extrapolation.
+/// Checks that no request lies beyond `farthest_reach` times the observed range. Name:
+/// extrapolation.
 Check extrapolation_check(const std::vector<Reach>& reaches);
 
-/// The limit is not passed already with more than the tolerated risk. Name: limit.
+/// Checks that the risk that the limit is already passed is tolerated. Name: limit.
 Check limit_check(const LifeSummary& life);
 
-/// Results are numbers, and their intervals say something. Name: sense.
+/// Checks that results are finite and that their intervals are informative. Name: sense.
 Check sense_check(const PosteriorSummary& result);
 
 }  // namespace wearwell

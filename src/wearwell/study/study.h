@@ -11,7 +11,7 @@
 
 namespace wearwell {
 
-/// How to draw, as far as somebody said; the rest are the method's defaults.
+/// The user's settings of the sampler; the rest are the method's defaults.
 struct SamplerChoice {
   std::optional<Method> method;
   std::optional<int> chains, warmup, draws;
@@ -22,20 +22,20 @@ struct SamplerChoice {
 
 /// How to run a study.
 struct RunOptions {
-  SamplerChoice sampler = {};  ///< before what the study file says
-  bool report = true;          ///< computes the sections of the report as well
+  SamplerChoice sampler = {};  ///< takes precedence over the study file
+  bool report = true;          ///< also compute the sections of the report
 };
 
-/// A study file, read and checked with its data: what every command works on, whatever the trade.
+/// A study file, read and checked with its data, for any model. All commands use this interface.
 class Study {
  public:
   virtual ~Study() = default;
 
-  /// What will be fitted, in words and units. Throws InputError where running it would.
+  /// Describes the fit in words and units. Throws InputError where `run` would.
   virtual std::string description() const = 0;
 
-  /// Fits, checks and predicts. One seed gives the same numbers to the bit, however many threads
-  /// there are. Throws InputError when data and options do not go together, and `Cancelled`.
+  /// Fits, checks and predicts. One seed gives identical numbers for any number of threads. Throws
+  /// InputError if data and options are inconsistent, and `Cancelled`.
   virtual Result run(const RunOptions& options, const Monitor& monitor) const = 0;
 
  protected:

@@ -22,7 +22,7 @@ Prediction in_unit(const Unit& unit, Prediction p) {
   return p;
 }
 
-// Posteriors with the unknowns of items, each made once.
+// Posteriors with the unknowns of items, each computed once.
 class ItemDraws {
  public:
   const WeightedDraws& of(const PredictionRequest& request, const WeightedDraws& draws) {
@@ -118,7 +118,7 @@ std::vector<QuantitySummary> summarize(const QuantityGroup& group, const Fit& fi
   return summaries;
 }
 
-constexpr double profile_level = 0.9;  // as the posterior's 5 and 95 % beside it
+constexpr double profile_level = 0.9;  // the level of the posterior's 5 to 95 % interval
 
 ProfileSummary summarize(const ProfileInterval& interval, const auto& in_unit) {
   return {profile_level, in_unit(interval.lower.value), in_unit(interval.upper.value),
@@ -202,7 +202,7 @@ PosteriorSummary asked_later(const PosteriorStudy& asked, const PosteriorSummary
            prior_text(asked.parameters[i]) == fitted.parameters[i].prior;
   }
   if (!same || !fitted.fit)
-    throw InputError("what is asked later must be of the same data, law and priors as the fit");
+    throw InputError("a later request must use the same data, model and priors as the fit");
   PosteriorSummary answers;
   answers.predictions = summarize(asked.predictions, *fitted.fit, ends);
   answers.quantities = summarize_quantities(asked, *fitted.fit);

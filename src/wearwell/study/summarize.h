@@ -10,18 +10,19 @@
 
 namespace wearwell {
 
-/// A fit in the units that its user asked for.
+/// Summarizes a fit in the user's units.
 std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit);
 std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& requests,
                                          const Fit& fit, const Ends& ends = {});
 std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, const Fit& fit);
 LifeSummary summarize(const LifeRequest& request, const Fit& fit);
-/// The predictions, quantities and life that `asked` wants of the posterior that a study of the same
-/// data, law and priors was fitted to before; nothing else of the summary is set. With other `ends`
-/// what predictions call 05 and 95 is there. Throws InputError where data or parameters differ.
+/// The predictions, quantities and life that `asked` requests of a posterior fitted earlier by a
+/// study of the same data, model and priors; the rest of the summary is empty. `ends` replaces the
+/// probabilities of the quantiles named 05 and 95. Throws InputError if data or parameters are not
+/// the same.
 PosteriorSummary asked_later(const PosteriorStudy& asked, const PosteriorSummary& fitted,
                              const Ends& ends = {});
-/// `observations`: of which BIC takes the logarithm.
+/// `observations`: the number in BIC.
 ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
                            const NaturalMode& mode, double observations);
 

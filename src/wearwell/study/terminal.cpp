@@ -25,12 +25,12 @@
 namespace wearwell {
 namespace {
 
-// Words of the program as people read them.
+// Formats numbers in texts of the program for reading.
 std::string shown(const std::string& words) {
   return numbers_text(words, Script::terminal);
 }
 
-// The better of the two: quadrature where there is one.
+// Quadrature if available, else draws.
 std::string parameter_table(const PosteriorSummary& result) {
   std::vector<std::vector<std::string>> rows = {{"", "mean", "sd", "5 %", "50 %", "95 %"}};
   for (const ParameterSummary& p : result.parameters) {
@@ -84,10 +84,10 @@ std::string mode_lines(const ModeSummary& mode) {
                     plain_number(q.value), "-", profile_ends(q.profile)});
   }
   const std::string unit = DensityUnit::description(mode.density_unit);
-  return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}{}\n",
-                                        mode.log_likelihood, mode.aic, mode.bic,
-                                        unit.empty() ? "" : ", " + printable(unit),
-                                        mode.maximum_likelihood ? "" : ", all at the mode");
+  return text_table(rows) +
+         fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}{}\n", mode.log_likelihood,
+                     mode.aic, mode.bic, unit.empty() ? "" : ", " + printable(unit),
+                     mode.maximum_likelihood ? "" : ", all computed at the mode");
 }
 
 std::string loo_lines(const LooSummary& summary) {
@@ -119,7 +119,7 @@ std::string prediction_rows(std::span<const PredictionSummary> predictions) {
   return text_table(rows);
 }
 
-// One table for each thing that is measured, and for each item that was seen.
+// One table for each measured quantity and each observed item.
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   std::string tables;
   for (std::size_t begin = 0, end = 0; begin < predictions.size(); begin = end) {
@@ -138,7 +138,7 @@ std::string b_value(const QuantitySummary& each, double x) {
   return std::isinf(x) ? "never" : plain_number(x, digits_of(each.best()));
 }
 
-// Where the numbers of a table are summed over few points of the posterior.
+// The error of a table whose numbers are summed over few points of the posterior.
 std::string error_line(const std::vector<QuantitySummary>& quantities, bool bounds) {
   const auto error = largest_numerical_error(quantities, bounds);
   if (!error) return "";
@@ -146,8 +146,8 @@ std::string error_line(const std::vector<QuantitySummary>& quantities, bool boun
                      plain_number(100 * *error, 2));
 }
 
-// Of one item each, a new one where items differ; those of one name and place stand together. Where
-// lower bounds are told, they are what to design with.
+// Quantities of single items (new ones if items vary), grouped by name and condition. If there are
+// lower bounds, they are the design values.
 std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.best().bound.has_value(); });
@@ -176,7 +176,7 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
          text_table(rows) + error_line(quantities, false);
 }
 
-// Properties of all items: of the next one, and how far they can be relied on.
+// Properties of the population: the value for the next item and the lower bound.
 std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
   std::string above, level;
@@ -204,21 +204,20 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   }
   if (rows.empty()) return "";
   return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
+         wrapped(fmt::format("at least: the lower bound to design with. With {} confidence "
+                             "(Bayesian: credible) the true value of the population lies above it.",
+                             level),
+                 2, 4) +
          wrapped(
-             fmt::format("at least: the lower bound to design with. With {} confidence (Bayesian: "
-                         "credible) the true value, of all such items, lies above it.",
-                         level),
+             "next one: the value for the next item, averaged over the posterior (predictive). It "
+             "has no margin for few tests: do not design with it.",
              2, 4) +
-         wrapped(
-             "next one: the same of the next item, averaged over all that is unknown (predictive). "
-             "It has no margin for few tests: do not design with it.",
-             2, 4) +
-         (seen ? wrapped("For an item with readings both are of its own remaining useful life.", 2,
-                         4)
+         (seen ? wrapped("For an item with readings, both refer to its own remaining useful life.",
+                         2, 4)
                : "");
 }
 
-// How many, and which not.
+// The number of covered tests, and those outside.
 std::string coverage_lines(const CoverageTable& table) {
   constexpr std::size_t most_named = 12;
   std::size_t failures = 0, inside = 0, outside = 0;
@@ -252,9 +251,9 @@ std::string life_lines(const LifeSummary& summary) {
   const std::string passed = fmt::format(
       "after {} {} the limit is already passed with a probability of {}{}",
       plain_given(summary.now), unit, probability_text(life.passed),
-      summary.passed_beyond_risk()
-          ? fmt::format(": more than the {} % that are tolerated", plain_given(100 * summary.risk))
-          : "");
+      summary.passed_beyond_risk() ? fmt::format(", which exceeds the tolerated risk of {} %",
+                                                 plain_given(100 * summary.risk))
+                                   : "");
   const bool used = summary.now > 0;
   return wrapped(lives, 2, 4) + (used ? wrapped(passed, 2, 4) : "") +
          wrapped(fmt::format("inspect {} within {} {}{}: {} % risk of reaching the limit before",
@@ -319,12 +318,13 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
                                      : "Mode of the posterior") +
            mode_lines(*result.mode);
   if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
-  if (result.coverage) out += "\nTests against the fit\n" + coverage_lines(*result.coverage);
+  if (result.coverage) out += "\nTests compared with the fit\n" + coverage_lines(*result.coverage);
   out += fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains,
                      plain_given(result.draws)) +
          draws_lines(result.parameters);
   out += row_tables(result, style.rows);
-  // Of all above, the line feeds are ours; below, the colours too.
+  // The text above may contain only line feeds as control characters; the text below also contains
+  // colors.
   out = printable_lines(out);
   return out + "\nChecks\n" + check_lines(result.checks, style.colour) + "\n" +
          wrapped(trust, 0, 2);

@@ -10,7 +10,8 @@
 namespace wearwell {
 namespace {
 
-// The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
+// The draws of one parameter between their smallest and largest 0.5 %, in block characters of eight
+// heights.
 std::string histogram(const Draws& draws, Eigen::Index parameter) {
   static constexpr const char* blocks[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
   constexpr std::size_t bins = 32;

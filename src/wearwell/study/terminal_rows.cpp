@@ -34,7 +34,7 @@ std::string stage_table(const std::vector<StageSummary>& stages) {
   return text_table(rows);
 }
 
-// Of a table with a row for each observation; the files hold all.
+// Shows the first rows of a table with a row for each observation; the files have all.
 constexpr std::size_t most_rows = 200;
 
 std::string rest_line(std::size_t rows, const char* file) {
@@ -77,7 +77,7 @@ std::string pointwise_table(const PointwiseTable& p) {
 
 }  // namespace
 
-// Tables with a line for each row of the data, or where they are.
+// Tables with a line for each row of the data, or the names of their files.
 std::string printable_heading(const std::string& name, const std::string& unit) {
   // "1e6 cycles" as "10^6 cycles".
   constexpr std::string_view power = "1e";
@@ -105,7 +105,7 @@ std::string row_tables(const PosteriorSummary& result, bool shown) {
         [&] { return stage_table(result.stages); });
   }
   if (result.coverage) {
-    add("Tests, and the lives that the fit predicts of them", "coverage",
+    add("Tests and their predicted lives", "coverage",
         [&] { return coverage_table(*result.coverage); });
   }
   if (!files.empty()) {

@@ -34,10 +34,8 @@ std::string trust_line(const std::vector<Check>& checks) {
   const std::string names = names_of(checks, worst);
   if (worst == Verdict::pass) return "Trusted: no check failed.";
   return worst == Verdict::warn
-             ? fmt::format("Trusted, with a warning: no check failed; look at {}.", names)
-             : fmt::format(
-                   "NOT TRUSTED: {} failed; these numbers are not to be used as they stand.",
-                   names);
+             ? fmt::format("Trusted, with a warning: no check failed; see {}.", names)
+             : fmt::format("NOT TRUSTED: {} failed; do not use these numbers.", names);
 }
 
 const char* trust_word(const std::vector<Check>& checks) {
@@ -51,14 +49,14 @@ present::Callout trust_callout(const std::vector<Check>& checks) {
     return {"pass", "Trusted.", fmt::format("All {} checks passed.", checks.size())};
   const std::string names = names_of(checks, worst);
   if (worst == Verdict::warn) {
-    return {"warn", "Trusted, with a warning.", fmt::format("No check failed; look at {}.", names)};
+    return {"warn", "Trusted, with a warning.", fmt::format("No check failed; see {}.", names)};
   }
   std::string advice;
   for (const Check& check : checks) {
     if (check.verdict == Verdict::fail && !check.advice.empty()) advice += " " + check.advice;
   }
   return {"fail", "Not trusted.",
-          fmt::format("Do not use these numbers as they stand: {} failed.{}", names, advice)};
+          fmt::format("Do not use these numbers: {} failed.{}", names, advice)};
 }
 
 present::Table checks_table(const std::vector<Check>& checks) {

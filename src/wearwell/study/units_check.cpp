@@ -10,8 +10,8 @@
 namespace wearwell {
 namespace {
 
-// Largest values of a column that any machine or test has, SI. Worn volumes from (10 nm)^3; lengths
-// from an atom; stresses up to a tenth of Young's modulus of diamond.
+// Plausible largest values of a column for any machine or test, SI. Worn volumes from (10 nm)^3;
+// lengths from an atom; stresses up to a tenth of Young's modulus of diamond.
 struct Sizes {
   std::string_view si;
   double least, most;
@@ -26,7 +26,7 @@ constexpr std::array<Sizes, 9> sizes = {{{"m^3", 1e-24, 1},
                                          {"cycle", 0, 1e14},
                                          {"rev", 0, 1e14}}};
 constexpr double coldest = 173, hottest = 2273;  // K, of a machine part
-// Two units in one column differ by a thousand, mostly; conditions of one study do not.
+// Two units in one column usually differ by a factor of 1000; conditions of one study vary less.
 constexpr double widest = 300;
 
 std::string description(const DataColumn& column, double si) {
@@ -38,7 +38,7 @@ bool is_count(const DataColumn& column) {
   return column.si == "cycle" || column.si == "rev";
 }
 
-// A test that broke at once is told as a half or a quarter of a cycle.
+// A test that broke at once is recorded as a half or a quarter of a cycle.
 bool below_one(double count) {
   return count > 0 && count < 1 && count != 0.5 && count != 0.25;
 }
@@ -46,7 +46,7 @@ bool below_one(double count) {
 void look_at(const DataColumn& column, Findings& findings) {
   const auto add = [&](const std::string& what) {
     findings.add(Verdict::warn, fmt::format("{}: {}", column.name, what),
-                 "Are the units and these cells right? docs/reference/units.md has the rules.");
+                 "Check the units and these cells. docs/reference/units.md lists the rules.");
   };
   std::vector<double> positive;
   double largest = 0;
@@ -58,8 +58,8 @@ void look_at(const DataColumn& column, Findings& findings) {
   const auto [low, high] = std::minmax_element(positive.begin(), positive.end());
   if (column.si == "K") {
     if (*low < coldest || *high > hottest)
-      add(fmt::format("{} to {} is no temperature of a machine", description(column, *low),
-                      description(column, *high)));
+      add(fmt::format("{} to {} is not a plausible temperature of a machine",
+                      description(column, *low), description(column, *high)));
     return;
   }
   const auto parts = std::count_if(positive.begin(), positive.end(), below_one);
@@ -69,10 +69,11 @@ void look_at(const DataColumn& column, Findings& findings) {
   for (const Sizes& size : sizes) {
     const bool way = column.endless && size.si == "m";
     if (way || size.si != column.si || (largest >= size.least && largest <= size.most)) continue;
-    add(fmt::format("the largest value is {}; no machine has that", description(column, largest)));
+    add(fmt::format("the largest value is {}, which is not plausible for any machine",
+                    description(column, largest)));
   }
   if (column.condition && *high >= widest * *low)
-    add(fmt::format("from {} to {} is a factor of {:.3g}, as of two units in one column",
+    add(fmt::format("{} to {} is a factor of {:.3g}, which suggests two units in one column",
                     description(column, *low), description(column, *high), *high / *low));
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t least_units = 3;
 
-// "pump" of "Pump 12" and of "pump B", "" of "3"; nothing where no number and no single letter ends the heading.
+// "pump" for "Pump 12" and "pump B", "" for "3"; empty optional if the heading does not end with a
+// number or a single letter.
 std::optional<std::string> stem_of(const std::string& heading) {
   std::string words = plain_words(heading);
   while (!words.empty() && words.back() == ' ') words.pop_back();
@@ -64,7 +65,7 @@ bool is_along(const Column& column) {
   return false;
 }
 
-// Under its own heading, with the unit that stands elsewhere.
+// The column under its own heading, with the unit from elsewhere.
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
@@ -74,7 +75,9 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 std::optional<WideTable> wide_table(const Table& table) {
   std::vector<const Column*> numbers;
   for (const Column& column : table.columns) {
-    if (!column.is_number) return {};  // a word beside them says more of a row than the columns do
+    if (!column.is_number)
+      return {};  // a word column shows that rows are not readings of several
+                  // units
     numbers.push_back(&column);
   }
   if (numbers.size() < least_units + 1) return {};

@@ -98,7 +98,7 @@ TEST_F(FormulaFit, UnitsThatWanderFail) {
   simulate({.wander = 0.3, .noise = 0.02}, 5);
   const Check check = fit();
   EXPECT_EQ(check.verdict, Verdict::fail);
-  EXPECT_NE(check.detail.find("neighbours of one unit are alike"), std::string::npos)
+  EXPECT_NE(check.detail.find("neighbors within one unit are correlated"), std::string::npos)
       << check.detail;
 }
 
@@ -106,7 +106,7 @@ TEST_F(FormulaFit, AUnitFarOutsideIsNamed) {
   simulate({.outsider = 11}, 6);
   const Check check = fit();
   EXPECT_NE(check.verdict, Verdict::pass);
-  EXPECT_NE(check.detail.find("m 10 lies farther out by its k"), std::string::npos) << check.detail;
+  EXPECT_NE(check.detail.find("m 10 is an outlier in k"), std::string::npos) << check.detail;
 }
 
 // Each step in the light of those before it.
@@ -115,7 +115,7 @@ TEST_F(FormulaFit, StepsOfAProcessAreJudged) {
   simulate({.wander = 0.02, .noise = 0}, 7);
   const Check alike = fit("wiener-process", "sd = \"sigma*sqrt(t)\"", false);
   EXPECT_EQ(alike.verdict, Verdict::fail);
-  EXPECT_NE(alike.detail.find("neighbours of one unit are alike"), std::string::npos)
+  EXPECT_NE(alike.detail.find("neighbors within one unit are correlated"), std::string::npos)
       << alike.detail;
   simulate({.scatter = 0, .wander = 0.2, .noise = 0}, 8);
   const Check right = fit("wiener-process", "sd = \"sigma*sqrt(t)\"", false);
