@@ -26,20 +26,20 @@ struct ExampleFile {
   std::string_view (*content)();
 };
 
-/// A trade's only door: what the commands know of it.
+/// What the commands know of a model: its key, its example, and how its studies are read.
 struct Model {
   std::string_view key;                  ///< in study files: model = "archard-joint"
-  std::string_view preset;               ///< for `wearwell new`: "joint"
+  std::string_view preset;               ///< its application, for `wearwell new`: "joint"
   std::span<const ExampleFile> example;  ///< the study first, then its data
   /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
   /// Throws InputError.
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// All keys of its studies, for messages and docs/reference/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
-  /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
-  /// null.
+  /// A study of a table whose columns have these roles; nothing where the table is of another
+  /// application. May be null.
   std::optional<Scaffold> (*scaffold)(ColumnRoles& roles) = nullptr;
-  /// Follows single units on line, from what a fit of this model left (prognosis/tracker.h). May be null.
+  /// Tracks single units, from the state that a fit of this model left (prognosis/tracker.h). May be null.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;
 };

@@ -26,7 +26,7 @@
 
 namespace wearwell {
 
-/// What is to be predicted of one measurement, past or to come.
+/// A measurement to predict, past or future. Functions take natural parameters and give SI.
 struct PredictionRequest {
   std::string at_name;  ///< "cycles"
   double at = 0;
@@ -46,7 +46,7 @@ struct PredictionRequest {
   std::shared_ptr<const std::function<WeightedDraws(const WeightedDraws& draws)>> with_item = {};
 };
 
-/// When a limit is reached.
+/// A life to predict: when a failure threshold is reached.
 struct LifeRequest {
   Unit unit;              ///< of the life
   std::string unit_name;  ///< "cycles"
@@ -76,10 +76,10 @@ struct QuantityRequest {
   bool headline = false;  ///< answers what was asked first
 };
 
-/// The predictive distribution of a life, SI, from where it counts on, given that the unit came so far.
+/// The predictive distribution of a life, SI, from where it counts on, given that the unit has survived until there.
 struct PredictiveLife {
   LifeDistribution distribution;
-  double survival = 1;  ///< the predictive probability that it came so far
+  double survival = 1;  ///< the predictive probability that it has survived until there
   std::optional<double> numerical_error =
       {};  ///< QuantityQuantiles::numerical_error, of its quantiles
 };
@@ -92,7 +92,7 @@ struct QuantityGroup {
   std::function<std::vector<PredictiveLife>(const WeightedDraws& draws)> lives = {};
 };
 
-/// A quantity of which the maximum likelihood value and the profile interval are told.
+/// A quantity whose maximum likelihood estimate and profile interval are reported.
 struct ProfileRequest {
   std::string name, of, at;
   Unit unit;
@@ -105,8 +105,8 @@ inline constexpr std::size_t most_stages = 300;  ///< more data sets are not upd
 inline constexpr int min_draws = 10;             ///< fewer have no diagnostics
 inline constexpr int max_iterations = 10'000'000;
 
-/// A study of a posterior as the engine sees it: whatever the trade, parameters with priors, a
-/// likelihood of the first data sets, and what to predict.
+/// A study of a posterior as the engine sees it: parameters with priors, a likelihood of the first
+/// data sets, and what to predict. Numbers are in SI.
 struct PosteriorStudy : Study {
   std::string description() const override;
   Result run(const RunOptions& options, const Monitor& monitor) const override;
@@ -123,6 +123,7 @@ struct PosteriorStudy : Study {
   TableLayout data_layout;
   std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
+  /// The likelihood of the first `rows` data sets, of natural parameters in the order of `parameters`.
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   std::optional<FitData> fit_data;  ///< by which the fit is checked
   std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
@@ -145,8 +146,8 @@ struct PosteriorStudy : Study {
   std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
   NothingSeen nothing_seen;             ///< what the answers and the checks begin with then
   std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
-  /// What the trade checks beside the engine's checks, and shows in each section of the report;
-  /// both may be empty.
+  /// What the application checks beside the engine's checks, and shows in each section of the
+  /// report; both may be empty.
   std::function<std::vector<Check>(const Fit&)> checks;
   std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> figures;
@@ -156,10 +157,11 @@ struct PosteriorStudy : Study {
   MetropolisSettings metropolis;
 };
 
-/// What a trade reads of a study file and its data, beyond what all studies of a posterior have.
+/// What an application reads of a study file and its data, beyond what all studies of a posterior have.
 using ReadPreset = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// Title, data, stages and sampler, and with `read_preset` the rest. Throws InputError.
+/// Reads title, data, stages and sampler, and with `read_preset` the rest. Throws InputError that names
+/// file, line, column and key of the study, or file, row and column of the data.
 std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
                                                   ReadPreset read_preset);
 
