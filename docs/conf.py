@@ -16,7 +16,7 @@ author = "the authors of wearwell"
 copyright = "the authors of wearwell; Apache-2.0"
 root_doc = "index"
 exclude_patterns = ["_ext", "_tools"]
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "repository_files", "cpp_header", "r_help", "furo_of_debian"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "repository_files", "cpp_header", "r_help", "furo_of_debian"]
 
 # Pages. Links go to pages and to their headings as GitHub names these, so that both places show them.
 myst_heading_anchors = 4
@@ -34,24 +34,12 @@ breathe_default_members = ("members",)
 primary_domain = "cpp"
 highlight_language = "none"
 
-# Python: the sources are read, the compiled part is not needed.
+# Python: the sources are read, the compiled part is not needed. Docstrings are in the form of numpydoc.
+napoleon_google_docstring = False
 autodoc_mock_imports = ["wearwell._core"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 smartquotes = False
-
-
-def _code_in(app, what, name, thing, options, lines):
-    """Docstrings are plain text: what stands indented between blank lines is code."""
-    for i in range(len(lines) - 1, 1, -1):
-        if lines[i].startswith("    ") and not lines[i - 1].strip() and lines[i - 2] and not lines[i - 2].startswith(" "):
-            if not lines[i - 2].rstrip().endswith("::"):
-                lines[i:i] = ["::", ""]
-
-
-def setup(app):
-    app.connect("autodoc-process-docstring", _code_in)
-
 
 html_theme = "furo"
 html_title = "wearwell"

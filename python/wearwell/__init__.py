@@ -1,10 +1,17 @@
-"""wearwell: wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.
+"""Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.
 
-    import wearwell as ww
-    fit = ww.fit("study.toml", seed=1)
-    fit.trusted, fit.parameters, fit.report("report.html")
+``fit`` fits a study file, ``Study`` makes a study of a formula, data and priors; both lead to a ``Fit`` with its checks. ``compare``
+ranks fits, ``select`` finds the terms of a regression, ``rainflow`` counts cycles; ``bearing`` and ``clutch`` have the formulas of
+these parts. Numbers are those of the program ``wearwell``, to the bit.
 
-docs/reference/python.md has the rest.
+Examples
+--------
+>>> import wearwell as ww
+>>> fit = ww.fit("examples/joint/study.toml", seed=1, report=False)
+>>> fit.trusted
+True
+>>> print(f"{fit.parameters.loc['k', 'mean']:.2e} {fit.parameters.loc['k', 'unit']}")
+7.76e-04 mm^3/(N m)
 """
 
 from . import _errors
@@ -12,24 +19,12 @@ from ._errors import CheckWarning, InputError, MachineError, NotTrusted
 from . import _core
 from . import bearing, clutch
 from ._arrow import ArrowTable, arrow
-from ._fit import Check, Fit
-from ._priors import (
-    beta,
-    default,
-    exponential,
-    flat,
-    gamma,
-    half_cauchy,
-    half_normal,
-    inverse_gamma,
-    jeffreys,
-    lognormal,
-    normal,
-    prior,
-    student_t,
-    uniform,
-)
-from ._study import Study, fit, table
+from ._check import Check
+from ._data import table
+from ._fit import Fit
+from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
+from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
+from ._study import Study, fit
 from ._tools import Comparison, Selection, compare, rainflow, select
 
 __version__ = _core.version

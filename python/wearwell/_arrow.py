@@ -7,15 +7,46 @@ from ._errors import InputError
 
 
 class ArrowTable:
-    """A table that any reader of Arrow takes by ``__arrow_c_stream__``: DuckDB, polars, pyarrow, pandas 2.2 and later. It can
-    be read any number of times; float64 and int64 columns are not copied. A unit is the field's metadata "unit"."""
+    """A table that readers of the Arrow C data interface take: DuckDB, polars, pyarrow, pandas 2.2 and later.
+
+    ``Fit.arrow`` and ``wearwell.arrow`` make it. It can be read any number of times; columns of float64 and int64 are not
+    copied. The unit of a column is the field's metadata "unit".
+
+    Parameters
+    ----------
+    columns : sequence of (str, str, array)
+        Name, unit ("" for none) and values of each column; all of one length.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> import wearwell as ww
+    >>> loads = ww.arrow(pd.DataFrame({"F": [100.0, 200.0]}), units={"F": "N"})
+    >>> loads
+    <wearwell.ArrowTable of 2 rows: F>
+    >>> ww.table(loads).headings()
+    ['F']
+    """
 
     def __init__(self, columns):
         self._columns = columns
 
     @property
     def columns(self):
-        """The names of the columns, in their order."""
+        """Names of the columns, in order.
+
+        Returns
+        -------
+        list of str
+            The names.
+
+        Examples
+        --------
+        >>> import pandas as pd
+        >>> import wearwell as ww
+        >>> ww.arrow(pd.DataFrame({"F": [100.0], "s": [4e4]})).columns
+        ['F', 's']
+        """
         return [name for name, _, _ in self._columns]
 
     def __len__(self):
@@ -42,8 +73,32 @@ def _values(column, name):
 
 
 def arrow(frame, units=None):
-    """A data frame, such as ``fit.predict`` and ``fit.life`` give, as an ArrowTable; its index goes before as columns where it
-    has names or is no plain count. units: by column. Raises InputError where a column holds neither numbers nor texts."""
+    """A data frame as an ArrowTable, such as ``Fit.predict`` and ``Fit.life`` return.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        The frame. An index with names, or one that does not count rows from 0, becomes columns before the others.
+    units : dict of str to str, optional
+        Units by column, kept as metadata "unit".
+
+    Returns
+    -------
+    ArrowTable
+        An object with ``__arrow_c_stream__``.
+
+    Raises
+    ------
+    InputError
+        If it is not a data frame, a heading is not a text or occurs twice, or a column holds neither numbers nor texts.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> import wearwell as ww
+    >>> len(ww.arrow(pd.DataFrame({"F": [100.0, 200.0]}), units={"F": "N"}))
+    2
+    """
     if not hasattr(frame, "columns") or not hasattr(frame, "iloc"):
         raise InputError(f"frame is {type(frame).__name__}; it is a data frame")
     units = dict(units or {})

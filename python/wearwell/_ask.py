@@ -3,7 +3,6 @@
 import json
 import re
 
-from . import _toml
 from ._data import headings_of
 from ._errors import InputError
 

@@ -130,6 +130,45 @@ def _headings(names, where):
             raise InputError(f"{where}: the heading {name!r} is {type(name).__name__}; headings are texts")
 
 
+def table(data, *, units=None, name="data"):
+    """A table for several studies, read once.
+
+    Parameters
+    ----------
+    data : pandas.DataFrame, dict of columns, structured array, Arrow stream, DuckDB relation, str or path
+        The table, of one row or more. Columns are one-dimensional: numbers (read in place where they are float64),
+        booleans, or texts; NaN, None and NA are empty cells. An object with ``__arrow_c_stream__`` is an Arrow stream
+        (polars, pyarrow). A path is a file: CSV, Parquet, Excel or JSON.
+    units : dict, optional
+        Unit of each column, by heading: a text or a pint unit. A heading may have it: "F [N]".
+    name : str
+        Name of the table in messages.
+
+    Returns
+    -------
+    table
+        An opaque table with ``headings()`` and ``rows``, for ``Study``, ``Study.from_toml`` and ``select``.
+
+    Raises
+    ------
+    InputError
+        If the object is no table, or a column holds dates, complex numbers, bytes, infinite values, whole numbers
+        beyond 2^53 or texts among numbers; the message names column and row.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> forces = ww.table({"F": [100, 200], "V": [0.41, 0.78]}, units={"F": "N", "V": "mm^3"})
+    >>> forces.headings(), forces.rows
+    (['F', 'V'], 2)
+    >>> ww.table({"F": [100 + 1j]})
+    Traceback (most recent call last):
+        ...
+    wearwell.InputError: data, column 'F' ...
+    """
+    return table_of(data, name, units)
+
+
 def table_of(data, name="data", units=None, only=None):
     """The library's table of ``data``: a data frame, a dict of columns, a structured array, anything with
     ``__arrow_c_stream__``, a DuckDB relation, or the path of a file (CSV, Parquet, Excel, JSON).

@@ -6,19 +6,62 @@ import warnings
 
 
 class InputError(ValueError):
-    """The request or the data is wrong; the message names file, row, column and value, and what is allowed."""
+    """The request or the data is wrong. It is a ValueError.
+
+    The message names file and key, or row, column and value, and says what is allowed.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> try:
+    ...     ww.lognormal([1e-7], log_sd=3)
+    ... except ww.InputError as error:
+    ...     print(str(error).split(";")[0])
+    median is list
+    """
 
 
 class MachineError(OSError, RuntimeError):
-    """The machine failed: disk, memory, a library that is missing."""
+    """The machine failed: disk, memory, or a missing library. It is an OSError and a RuntimeError.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> issubclass(ww.MachineError, OSError)
+    True
+    """
 
 
 class NotTrusted(RuntimeError):
-    """``Fit.require_trusted()`` of a fit of which a check failed."""
+    """A check of a fit failed: ``Fit.require_trusted`` raises it.
+
+    Examples
+    --------
+    Three readings and flat priors do not hold a wear coefficient:
+
+    >>> import wearwell as ww
+    >>> fit = ww.fit("examples/joint/improper_normal.toml", seed=1, report=False)
+    >>> try:
+    ...     fit.require_trusted()
+    ... except ww.NotTrusted as error:
+    ...     print(str(error).split(":")[0])
+    proper-posterior
+    """
 
 
 class CheckWarning(UserWarning):
-    """A check of a fit warns, or fails; all of them stand in ``Fit.checks``."""
+    """A check of a fit or a selection warns or fails. ``Fit.checks`` has all of them.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import wearwell as ww
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     fit = ww.fit("examples/joint/study.toml", seed=1, report=False)
+    >>> [str(each.message).split(":")[0] for each in caught if issubclass(each.category, ww.CheckWarning)]
+    ['fit warns']
+    """
 
 
 for _each in (InputError, MachineError, NotTrusted, CheckWarning):

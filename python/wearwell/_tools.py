@@ -1,4 +1,4 @@
-"""Selections and comparisons."""
+"""Selections, comparisons and cycle counting."""
 
 import json
 import os
@@ -7,21 +7,61 @@ import tempfile
 from . import _core
 from ._data import headings_of, table_of
 from ._errors import InputError, warn_of
-from ._fit import Check, Fit
+from ._check import checks_of
+from ._fit import Fit
 
 
 class Selection:
-    """The best terms of a regression. summary: as ``wearwell select --json`` prints it; models: frame, best first; trusted: the
-    best is proven to be the best."""
+    """The best terms of a regression, as ``select`` finds them.
+
+    Parameters
+    ----------
+    summary, text, models, page : str
+        What the search wrote: JSON, text, CSV and HTML. ``select`` makes a Selection.
+
+    Attributes
+    ----------
+    summary : dict
+        All numbers, as ``wearwell select --json`` prints them.
+    trusted : bool
+        Whether the best model is proven to be the best.
+    checks : list of Check
+        All checks of the selection.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> found = ww.select("examples/select/wear.csv", "w", inputs=["Td", "n"], degree=2)
+    >>> found.models.loc[0, "terms"], found.trusted
+    ('1 Td*Td Td*n n*n', True)
+    """
 
     def __init__(self, summary, text, models, page):
         self.summary = json.loads(summary)
         self._summary_text, self._text, self._models, self._page = summary, text, models, page
         self.trusted = self.summary["trusted"]
-        self.checks = [Check(c["name"], c["verdict"], c["detail"], c.get("advice", "")) for c in self.summary["checks"]]
+        self.checks = checks_of(self.summary)
 
     @property
     def models(self):
+        """The models found, best first.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each model. Columns: ``rank``; ``size`` (number of terms); the criterion; ``press`` (sum of squared
+            leave-one-out residuals), in the squared unit of the response; ``r2`` and ``r2p`` (R^2 and its
+            leave-one-out counterpart); ``weight`` (of stacking); ``terms``, separated by spaces.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> found = ww.select("examples/select/wear.csv", "w", inputs=["Td", "n"], degree=2, keep=2)
+        >>> found.models[["rank", "size", "r2p", "terms"]].round(3)
+           rank  size    r2p                terms
+        0     1     4  0.788    1 Td*Td Td*n n*n
+        1     2     5  0.785  1 Td Td*Td Td*n n*n
+        """
         import io
 
         import pandas
@@ -29,7 +69,30 @@ class Selection:
         return pandas.read_csv(io.StringIO(self._models))
 
     def report(self, path):
-        """Writes the page; of a selection that was made with report=True and found a model."""
+        """Write the report of the selection, one HTML page that needs no network.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, such as "selection.html".
+
+        Raises
+        ------
+        InputError
+            If the selection was made without ``report=True``, or the path cannot be written (no folder, no permission).
+        MachineError
+            If the disk fails.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import wearwell as ww
+        >>> found = ww.select("examples/select/wear.csv", "w", inputs=["Td", "n"], degree=2, report=True)
+        >>> page = os.path.join(tempfile.mkdtemp(), "selection.html")
+        >>> found.report(page)
+        >>> os.path.getsize(page) > 10_000
+        True
+        """
         if not self._page:
             raise InputError("there is no page: select again with report=True")
         _core.write_file(os.fspath(path), self._page)
@@ -43,10 +106,73 @@ class Selection:
 
 def select(data, response, *, inputs=(), degree=None, terms=(), criterion="loo", keep=10, near=0.0, force=(), weights="",
            folds=0, nested=None, seed=1, time=None, threads=0, report=False):
-    """The best terms of a regression among all submodels, with a proof (docs/how-to/select.md): options as ``wearwell select``.
+    """Find the best subset of regression terms by exact search, with a proof that it is the best.
 
-    data: whatever ``wearwell.table`` takes, or the path of a file. The interpreter's lock is released.
-    Raises InputError. Warns (CheckWarning) where the search is not proven or a check warns.
+    Candidates are the constant and the products of ``inputs`` up to ``degree``, or ``terms``. The interpreter's lock is
+    released.
+
+    Parameters
+    ----------
+    data : table, str or path
+        The data: whatever ``wearwell.table`` takes, or the path of a file.
+    response : str
+        Column to explain.
+    inputs : str or sequence of str
+        Columns whose products are the candidate terms.
+    degree : int, optional
+        Highest degree of these products; default 1.
+    terms : str or sequence of str
+        Candidate terms instead of ``inputs``: columns and products such as "A*A*B".
+    criterion : {"loo", "aic", "aicc", "bic", "cp", "adjr2"}
+        What the best model minimizes: PRESS, the sum of squared leave-one-out residuals (default); the criteria of Akaike
+        (with small-sample correction: aicc) or Schwarz; Mallows's Cp; or what it maximizes, the adjusted R^2.
+    keep : int
+        How many best models to return, 1 to 10000.
+    near : float
+        Also every model this near to the best: relative with "loo" (0.01: PRESS 1 % above), else in units of the
+        criterion.
+    force : str or sequence of str
+        Terms that every model holds; "1" is the constant.
+    weights : str
+        Column of weights of rows, 1/variance; "" for none.
+    folds : int
+        Folds of a k-fold cross-validation of the models found; 0 for none.
+    nested : int, optional
+        Parts of the rows that are left out of the whole search in turn; 0 for none; default 10, up to 2000 rows.
+    seed : int
+        Seed of folds and parts.
+    time : float, optional
+        Stop after so many seconds, proven or not.
+    threads : int
+        Threads, 0 for all. No answer depends on it.
+    report : bool
+        Whether to make the page that ``Selection.report`` writes.
+
+    Returns
+    -------
+    Selection
+        The best models.
+
+    Raises
+    ------
+    InputError
+        If a column is unknown or not numeric, a value is missing, or an option is out of its range.
+
+    Warns
+    -----
+    CheckWarning
+        If the search is not proven, or a check warns.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> found = ww.select("examples/select/wear.csv", "w", inputs=["Td", "n"], degree=2)
+    >>> found.models.loc[0, "terms"]
+    '1 Td*Td Td*n n*n'
+    >>> ww.select("examples/select/wear.csv", "w", inputs=["Tx"])
+    Traceback (most recent call last):
+        ...
+    wearwell.InputError: ...Tx...
     """
     inputs = [inputs] if isinstance(inputs, str) else list(inputs)
     terms = [terms] if isinstance(terms, str) else list(terms)
@@ -68,14 +194,57 @@ def select(data, response, *, inputs=(), degree=None, terms=(), criterion="loo",
 
 
 class Comparison:
-    """Studies side by side. summary: as ``wearwell compare --json`` prints it."""
+    """Fits side by side, as ``compare`` makes them.
+
+    Parameters
+    ----------
+    summary, text, page : str
+        What the comparison wrote: JSON, text and HTML. ``compare`` makes a Comparison.
+
+    Attributes
+    ----------
+    summary : dict
+        All numbers, as ``wearwell compare --json`` prints them.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
+    >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
+    >>> ww.compare(normal, lognormal, names=["normal", "lognormal"])
+    <wearwell.Comparison of normal, lognormal>
+    """
 
     def __init__(self, summary, text, page):
         self.summary = json.loads(summary)
         self._text, self._page = text, page
 
     def report(self, path):
-        """Writes the page: the tables, and the posteriors of the parameters overlaid."""
+        """Write the comparison, one HTML page that needs no network.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, such as "comparison.html".
+
+        Raises
+        ------
+        InputError
+            If the path cannot be written (no folder, no permission).
+        MachineError
+            If the disk fails.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import wearwell as ww
+        >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
+        >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
+        >>> page = os.path.join(tempfile.mkdtemp(), "comparison.html")
+        >>> ww.compare(normal, lognormal).report(page)
+        >>> os.path.exists(page)
+        True
+        """
         _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):
@@ -86,9 +255,35 @@ class Comparison:
 
 
 def compare(*fits, names=None):
-    """Which of several fits of the same data predicts best: Fit objects, or folders that ``wearwell fit`` wrote.
+    """Rank fits of the same data by how well they predict, by leave-one-out (elpd).
 
-    Fits of different data are shown, never ranked. names: in the order of the fits; "a", "b", ... where there are none.
+    Fits of different data are shown side by side and never ranked.
+
+    Parameters
+    ----------
+    *fits : Fit, str or path
+        Two or more fits, or folders that ``Fit.write`` or ``wearwell fit`` wrote.
+    names : sequence of str, optional
+        Names in the order of the fits; by default "a", "b", ..., and of a folder its path.
+
+    Returns
+    -------
+    Comparison
+        Criteria, their differences with standard errors, weights, and parameters.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two fits, another number of names, or a folder holds no result.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
+    >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
+    >>> both = ww.compare(normal, lognormal, names=["normal", "lognormal"])
+    >>> sorted(study["study"] for study in both.summary["studies"])
+    ['lognormal', 'normal']
     """
     if len(fits) < 2:
         raise InputError("a comparison takes two fits at least")
@@ -109,11 +304,36 @@ def compare(*fits, names=None):
 
 
 def rainflow(signal, *, method="four-point", residual="half"):
-    """Rainflow counting (ASTM E1049-85) of a load history, as ``wearwell rainflow`` counts it without classes: a frame of cycles
-    with their ends, range, mean, and count (1, or 0.5 of what closes no cycle).
+    """Count the cycles of a load history by the rainflow method of ASTM E1049-85.
 
-    signal: an array or a column of finite numbers, in any unit. method: "four-point" or "three-point"; residual: "half"
-    or "repeat" (the history is repeated, so that all cycles close).
+    Parameters
+    ----------
+    signal : array or column
+        Samples, or peaks and valleys: one dimension, finite numbers, in any unit.
+    method : {"four-point", "three-point"}
+        How closed cycles are found. Three-point is that of the standard; four-point finds the same cycles.
+    residual : {"half", "repeat"}
+        Ranges that close no cycle count half, or the history is repeated so that all cycles close.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each cycle, in the order in which they close. Columns: ``from`` and ``to`` (its ends), ``range``
+        (distance of the ends, twice the amplitude) and ``mean``, in the unit of the signal; ``count``, 1 or 0.5.
+
+    Raises
+    ------
+    InputError
+        If ``method`` or ``residual`` is another, or the signal is not one-dimensional, numeric and finite.
+
+    Examples
+    --------
+    The history of ASTM E1049-85, figure 6:
+
+    >>> import wearwell as ww
+    >>> cycles = ww.rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2], method="three-point")
+    >>> cycles.groupby("range")["count"].sum().to_dict()
+    {3.0: 0.5, 4.0: 1.5, 6.0: 0.5, 8.0: 1.0, 9.0: 0.5}
     """
     import pandas
 

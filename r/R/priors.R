@@ -1,4 +1,4 @@
-# Distributions of priors, as [prior] of a study has them (docs/reference/priors.md). What is wrong with a distribution is said when the study is read.
+# Priors, as [prior] of a study file has them. Their parameters are checked when the study is read.
 
 prior <- function(distribution, ..., unit = NULL) {
   keys <- list(...)

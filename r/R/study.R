@@ -14,7 +14,7 @@ slots <- list(
   `largest-extreme-value` = c("location", "scale", "sigma"),
   exponential = "mean",
   poisson = "mean")
-# Formulas of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
+# Distributions of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
 of_any_sign <- c("flat", "uniform", "normal", "student-t", "smallest-extreme-value", "largest-extreme-value", "beta", "default")
 scatters <- c("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
 

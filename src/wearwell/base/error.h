@@ -10,7 +10,7 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The machine failed (disk, memory): exit code 3.
+/// The machine failed (disk, memory, a missing library): exit code 3. The message names what failed.
 struct MachineError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -12,8 +12,9 @@ namespace wearwell {
 /// evaluation allocates.
 inline constexpr int max_dimension = 64;
 
-/// The logarithm of a density, up to a constant. -infinity outside the support and nowhere else;
-/// any other failure throws. Evaluations are thread-safe.
+/// The natural logarithm of a density, up to a constant. -infinity outside the support and nowhere
+/// else; any other failure throws. Evaluations are thread-safe. Every span `x` and `gradient` has
+/// dimension() entries; units are those of the caller, SI for a likelihood.
 class LogDensity {
  public:
   virtual ~LogDensity() = default;
@@ -21,6 +22,7 @@ class LogDensity {
   /// Number of variables, 1..max_dimension.
   virtual int dimension() const = 0;
 
+  /// The log density at `x`.
   virtual double value(std::span<const double> x) const = 0;
 
   /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the
@@ -38,24 +40,25 @@ class LogDensity {
     return {};
   }
 
-  /// The logarithm of each factor of a likelihood that is a product over independent observations;
-  /// empty for any other density.
+  /// The log of each factor at `x` of a likelihood that is a product over independent observations,
+  /// one entry a factor in an order that does not change; empty for any other density.
   virtual std::vector<double> pointwise(std::span<const double>) const { return {}; }
 
-  /// How many observations each of these stands for, where some were seen alike; empty when each is
-  /// one.
+  /// How many observations each factor of `pointwise` stands for, where some are alike; empty when
+  /// each is one.
   virtual std::vector<int> pointwise_counts() const { return {}; }
 
-  /// The likelihood without one observation of factor `term`; null where that is no simpler than to take the factor away.
+  /// The likelihood without one observation of factor `term` of `pointwise`; null where that is no simpler than to take the
+  /// factor away.
   virtual std::shared_ptr<const LogDensity> without(std::size_t) const { return nullptr; }
 
-  /// What is left open of the value at `x`, where integrals within it did not come to the tolerance that
-  /// they promise; 0 elsewhere.
+  /// Estimated error of the value at `x`, where integrals within it did not reach their tolerance; 0
+  /// elsewhere.
   virtual double unsettled(std::span<const double>) const { return 0; }
 
-  /// Whether one evaluation takes as long as tens or thousands of others (integrals within it, a limit's or a path's):
-  /// quadrature in more than two dimensions is then not for it, polynomials in its place are worth trying, and a
-  /// sampler leaps as early as it can.
+  /// Whether one evaluation is expensive, as long as tens or thousands of others (integrals within it, over a limit or a
+  /// path): then there is no quadrature in more than two dimensions, surrogates are tried, and a sampler proposes from them
+  /// as early as it can.
   virtual bool is_slow() const { return false; }
 };
 

@@ -10,12 +10,13 @@
 
 namespace wearwell {
 
-/// How a measurement scatters about its mean: normal, or lognormal with mean and standard deviation
-/// of the quantity itself (An et al. 2011, eqs. 7 and 8).
+/// Distribution of a measurement about its mean: normal, or lognormal with mean and standard
+/// deviation of the quantity itself (An et al. 2011, eqs. 7 and 8).
 enum class ObservationFamily { normal, lognormal };
 
-/// The law of one measurement whose mean and standard deviation are known, ready for many
-/// evaluations: normal in y, or in log y for the lognormal family.
+/// The distribution of one measurement whose mean and standard deviation are known, ready for many
+/// evaluations: normal in y, or in log y for the lognormal family. Numbers are in the unit of the
+/// measurement, logarithms natural.
 struct ObservationDistribution {
   double location;
   double scale;
@@ -35,7 +36,7 @@ struct ObservationDistribution {
     }
   }
 
-  /// (t - location)/scale: the measurement's place in the standard normal law.
+  /// (t - location)/scale: the standardized residual, standard normal.
   double score(double t) const { return (t - location) / scale; }
 
   /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
@@ -47,7 +48,8 @@ struct ObservationDistribution {
   }
 };
 
-/// Log density of one measurement; `t` is it, or its logarithm for the lognormal family. -infinity where that has no mean.
+/// Natural log density of one measurement y; `t` is y, or log y for the lognormal family. `mean` and `sd` > 0 are in the unit
+/// of y, and the density is per this unit. -infinity where a lognormal mean is not positive.
 inline double log_density(ObservationFamily family, double t, double mean, double sd) {
   if (family == ObservationFamily::normal) return normal_log_density(t, mean, 1 / sd, std::log(sd));
   return mean > 0 ? lognormal_log_density(t, mean, sd) : -infinity;
@@ -56,7 +58,7 @@ inline double log_density(ObservationFamily family, double t, double mean, doubl
 /// Measurements of one quantity, all with the same standard deviation, in SI.
 class Observations {
  public:
-  /// `y` must be positive for the lognormal family.
+  /// `y`: the measurements, SI; positive for the lognormal family, which is not checked.
   Observations(ObservationFamily family, std::vector<double> y)
       : family_(family), y_(std::move(y)) {
     if (family_ == ObservationFamily::lognormal) {
@@ -64,8 +66,8 @@ class Observations {
     }
   }
 
-  /// Sum of log densities where `mean(i)` is the mean of measurement i; -infinity where a lognormal
-  /// mean is not positive.
+  /// Sum of log densities where `mean(i)` is the mean of measurement i, SI, and `sd` > 0 the standard
+  /// deviation; -infinity where a lognormal mean is not positive.
   template <class T, class Mean>
   T log_likelihood(const Mean& mean, const T& sd) const {
     using std::log;
@@ -86,7 +88,7 @@ class Observations {
     return sum;
   }
 
-  /// The same, measurement by measurement.
+  /// The log density of each measurement, in their order.
   template <class Mean>
   std::vector<double> pointwise(const Mean& mean, double sd) const {
     std::vector<double> terms;
@@ -96,7 +98,7 @@ class Observations {
     return terms;
   }
 
-  /// Where each measurement lies in its law.
+  /// The standardized residual of each measurement, in their order.
   template <class Mean>
   std::vector<NormalScore> scores(const Mean& mean, double sd) const {
     std::vector<NormalScore> scores;

@@ -8,15 +8,15 @@
 
 namespace wearwell {
 
-/// One unknown of a model, in SI.
+/// One unknown of a model. Its numbers are in SI, or plain where `si` is "1".
 struct Parameter {
   std::string name;
   std::string si;            ///< its SI unit
   Unit unit;                 ///< in which it is reported: the one its prior is written in
   std::string distribution;  ///< the prior's name as in the study file
   Distribution prior;
-  double start = 1;  ///< a plausible value inside the support, where searches start
-  double scale = 1;  ///< the size of a plausible change, > 0
+  double start = 1;  ///< a plausible value inside the support, SI, where searches start
+  double scale = 1;  ///< the size of a plausible change, SI, > 0
   double natural_lower =
       -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
   double natural_upper = std::numeric_limits<double>::infinity();

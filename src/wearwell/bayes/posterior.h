@@ -14,8 +14,9 @@ namespace wearwell {
 /// every parameter (z, with the Jacobian of the transform); the natural parameters are x.
 class Posterior final : public LogDensity {
  public:
-  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError when
-  /// a start value is outside its support or when the posterior is not finite there.
+  /// `likelihood` takes the natural parameters, SI, in the order of `parameters`, 1 to
+  /// `max_dimension` of them. Throws InputError when a start value is outside its support or when
+  /// the posterior is not finite there.
   Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood);
 
   int dimension() const override { return static_cast<int>(parameters_.size()); }
@@ -28,6 +29,8 @@ class Posterior final : public LogDensity {
   /// Of each parameter, z to x.
   const std::vector<Transform>& transforms() const { return transforms_; }
 
+  /// Sum of the log densities of the priors at natural parameters; up to a constant where one is
+  /// improper.
   double log_prior(std::span<const double> x) const;
 
   /// log prior + log likelihood of natural parameters, -infinity outside the support.
@@ -36,7 +39,7 @@ class Posterior final : public LogDensity {
   /// The same with its derivatives by natural parameters; x lies inside the support.
   double natural_value_and_gradient(std::span<const double> x, std::span<double> gradient) const;
 
-  /// Natural parameters of z.
+  /// Natural parameters, SI, of z; both have dimension() entries.
   void to_natural(std::span<const double> z, std::span<double> x) const;
 
   /// z of the parameters' start values.

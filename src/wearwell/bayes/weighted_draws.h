@@ -41,13 +41,14 @@ struct WeightedDraws {
   }
 };
 
-/// The distribution of one number: points, each spread evenly over center +- half_width (0 for
-/// draws), which keep mean and variance of their cells. Nodes of a quadrature without weight do not
-/// count; where the number is NaN with more than 1e-8 of the weight it has no distribution, and all
-/// that is asked of it is NaN.
+/// The distribution of one number, in the unit of that number: points, each spread evenly over
+/// center +- half_width (0 for draws), which keep mean and variance of their cells. Nodes of a
+/// quadrature without weight do not count; where the number is NaN with more than 1e-8 of the weight
+/// it has no distribution, and mean, sd, cdf and quantile are NaN.
 class QuantityDistribution {
  public:
   QuantityDistribution() = default;
+  /// `quantity` of the natural parameters, SI: an array of `draws.values.cols()` entries.
   QuantityDistribution(const WeightedDraws& draws,
                        const std::function<double(const double* x)>& quantity);
 
@@ -58,11 +59,11 @@ class QuantityDistribution {
   double sd() const;
   double cdf(double x) const;
 
-  /// The x with cdf(x) = p. For draws, R's type 7 (linear between order statistics).
+  /// The x with cdf(x) = p, 0 <= p <= 1. For draws, R's type 7 (linear between order statistics).
   double quantile(double p) const;
 
-  /// What it is made of: calls back with the weight, the center and the half width of each point. None where it has no
-  /// distribution.
+  /// Calls back with the weight, the center and the half width of each point; never where the number
+  /// has no distribution.
   void visit(
       const std::function<void(double weight, double center, double half_width)>& each) const;
 
@@ -85,7 +86,9 @@ class QuantityDistribution {
 /// One draw: a point by its weight, then a place within its cell, by a density linear along each axis.
 class WeightedSampler {
  public:
+  /// `draws` must outlive the sampler.
   explicit WeightedSampler(const WeightedDraws& draws);
+  /// Natural parameters, SI.
   Eigen::VectorXd operator()(Rng& rng) const;
 
  private:

@@ -13,11 +13,12 @@
 
 namespace wearwell {
 
+/// How exact, and how far, quadrature goes.
 struct ExactSettings {
   double tolerance = 1e-5;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   bool cells = true;           ///< false: nodes for sums alone, not for distributions (lattice.h)
-  long max_evaluations = 20'000'000;
+  long max_evaluations = 20'000'000;  ///< of the density; more is a failure
   /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
   std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
@@ -30,16 +31,16 @@ inline constexpr int max_exact_dimension = 4;
 
 /// A posterior normalized by adaptive quadrature: no sampling, so no Monte Carlo error.
 struct ExactPosterior {
-  WeightedDraws nodes;
-  Eigen::VectorXd mean;  ///< natural, SI; NaN where the moment does not exist
-  Eigen::VectorXd sd;
-  Eigen::MatrixXd covariance;
+  WeightedDraws nodes;         ///< natural parameters, SI, with weights and cells
+  Eigen::VectorXd mean;        ///< natural, SI; NaN where the moment does not exist
+  Eigen::VectorXd sd;          ///< likewise
+  Eigen::MatrixXd covariance;  ///< likewise, parameters x parameters
   std::optional<double>
       log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
   double log_mass = 0;  ///< log of the integral of likelihood x prior kernels
   double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
-  double highest = 0;  ///< log density (on the real line) of the highest node
-  long evaluations = 0;
+  double highest = 0;        ///< log density (on the real line) of the highest node
+  long evaluations = 0;      ///< of the density
   bool along_ridge = false;  ///< its lattice follows the ridge of a funnel (lattice_chart.h)
   std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
                         ///< not to be trusted
@@ -55,7 +56,8 @@ struct ExactPosterior {
 /// nodes: what is found raises the error. Where there are several maxima, boxes cover all of them from the beginning, no longer than a
 /// few of their widths about each; four parameters are integrated maximum by maximum (parted_posterior.h). The
 /// outcome is held against what the walk along the ridge met: a higher density than that of any node,
-/// or another integral by Laplace's approximation by far, is a failure.
+/// or another integral by Laplace's approximation by far, is a failure. A failure is reported in
+/// `failure`, not thrown; throws `Cancelled` when `settings.stop` asks for it.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
 
@@ -64,7 +66,8 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings, const Posterior& shape);
 
-/// Independent draws from the exact posterior: `chains` x `draws`, a stream of random numbers each.
+/// Independent draws from the exact posterior: `chains` chains of `draws` draws; chain c uses stream
+/// `first_stream` + c of `seed`.
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,
                         int draws, std::uint64_t seed, std::uint64_t first_stream);
 

@@ -17,8 +17,10 @@
 
 namespace wearwell {
 
+/// How draws are made: independently from the exact posterior by quadrature, by NUTS, or by random-walk Metropolis.
 enum class Method { exact, nuts, metropolis };
 
+/// How a posterior is fitted.
 struct FitSettings {
   Method method = Method::nuts;
   RunSettings run;
@@ -31,11 +33,12 @@ struct FitSettings {
   double redraw_level = 1e-4;
 };
 
-/// A posterior as one method drew it, and beside it the exact one where quadrature can reach.
+/// A posterior as one method drew it, and beside it the exact one where quadrature can reach. Parameters are in their order in
+/// the posterior, in SI.
 struct Fit {
   Method method;  ///< as asked for; NUTS where exact was asked for and cannot be
   Whitening whitening;
-  std::vector<Tail> tails;
+  std::vector<Tail> tails;  ///< two a parameter
   std::optional<ExactPosterior> exact;
   std::string no_exact;  ///< why there is no exact posterior; empty when there is one
   Draws draws;
@@ -72,7 +75,8 @@ bool proper(const Fit& fit);
 std::string beyond_quadrature(std::size_t parameters);
 
 /// Finds the mode, examines the tails, searches for other local maxima, integrates exactly when there are at most
-/// `max_exact_dimension` parameters and the posterior is proper, and draws.
+/// `max_exact_dimension` parameters and the posterior is proper, and draws. What a stage does not reach is in `shortfalls`, not
+/// thrown; ask `trust_checks` before you use the numbers. Throws `Cancelled` when it is asked to stop.
 Fit fit(const Posterior& posterior, const FitSettings& settings);
 
 }  // namespace wearwell

@@ -38,7 +38,8 @@ struct Maxima {
 /// than e times its mass.
 Maxima find_maxima(const Posterior& posterior, const Mode& known);
 
-/// "12 starts found one maximum"; "24 starts: 2 maxima, at th = 2.01 (88 %) and th = -2.00 (12 %)".
+/// A sentence for the check of the computation, with the parameters in their units: "12 starts found one maximum"; "24 starts:
+/// 2 maxima, at th = 2.01 (88 %) and th = -2.00 (12 %)".
 std::string description(const Posterior& posterior, const Maxima& maxima);
 
 }  // namespace wearwell

@@ -27,7 +27,7 @@ struct StageDiagnostic {
 /// "search for the mode".
 const char* stage_name(Stage stage);
 
-/// The check "computation": one finding a shortfall. `precision` is what is said when there is none.
+/// The check "computation", with one finding for each shortfall. `precision` is its finding where there is none.
 Check computation(const std::vector<StageDiagnostic>& stage_diagnostics,
                   const std::string& precision);
 

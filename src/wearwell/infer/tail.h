@@ -33,10 +33,10 @@ struct Tail {
   bool has_moment(int order) const;
 };
 
-/// All tails: two a parameter. `mode` is the posterior's.
+/// All tails, two a parameter, in the order of the parameters: towards smaller values, then larger. `mode` is the posterior's.
 std::vector<Tail> tails(const Posterior& posterior, const Mode& mode);
 
-/// Every one of them.
+/// Whether the posterior has a finite integral in the direction of every tail.
 bool all_integrable(const std::vector<Tail>& tails);
 
 }  // namespace wearwell

@@ -14,15 +14,15 @@ namespace wearwell {
 /// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
 /// computation. The last tells what any stage of the computation fell short of (stage.h).
 ///
-/// A `flat` law is the absence of knowledge: an answer that hangs on where it was cut fails. A `uniform` law, or a bound on
-/// another law, is knowledge: the same dependence is a warning.
+/// A `flat` prior is the absence of knowledge: an answer that depends on where it is truncated fails. A `uniform` prior, or a
+/// bound on another distribution, is knowledge: the same dependence is a warning.
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit);
 
-/// What the stages after the fit fell short of, to be added to its own.
+/// What the stages after the fit did not reach, to be added to its own shortfalls.
 std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior, const Fit& fit,
                                                      const NaturalMode& mode);
 
-/// No check fails.
+/// Whether no check fails.
 bool trusted(const std::vector<Check>& checks);
 
 }  // namespace wearwell

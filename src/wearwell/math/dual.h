@@ -7,8 +7,8 @@
 
 namespace wearwell {
 
-/// A value with its derivatives by N variables. A formula written as a template over its scalar
-/// gives both.
+/// A value with its derivatives by N variables, for forward automatic differentiation: a formula
+/// written once as a template over its scalar gives both.
 template <int N>
 using Dual = ceres::Jet<double, N>;
 
@@ -21,7 +21,8 @@ double scalar(const Dual<N>& x) {
   return x.a;
 }
 
-/// g(x) from the value and derivative of g at x; used for special functions.
+/// g(x) by the chain rule, where the value of g at x and its derivative `slope` there are known:
+/// special functions enter formulas this way.
 inline double chained(double, double value, double) {
   return value;
 }
@@ -30,8 +31,10 @@ Dual<N> chained(const Dual<N>& x, double value, double slope) {
   return Dual<N>(value, slope * x.v);
 }
 
-/// The value of `f` at `x` and, in `gradient`, its derivatives. `f` takes `const T* x` for T =
-/// double and Dual<N>, an array of MaxN entries; those beyond x.size() are 0. Does not allocate.
+/// The value of `f` at `x` and, in `gradient`, its derivatives; `x` and `gradient` have 1 to MaxN
+/// entries each. `f` takes `const T* x` for T = double and Dual<N>, an array of always MaxN entries,
+/// of which those beyond x.size() are 0. Nothing is allocated. Throws std::logic_error for an empty
+/// `x`, and what `f` throws.
 template <int MaxN, int N = MaxN, class F>
 double value_and_gradient(const F& f, std::span<const double> x, std::span<double> gradient) {
   if constexpr (N == 0) {

@@ -12,6 +12,7 @@ namespace wearwell::netcdf {
 /// Name and text of an attribute of a variable, a group or a file.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
+/// A dimension of arrays and its length.
 struct Dimension {
   std::string name;
   std::size_t size = 0;
@@ -27,6 +28,7 @@ struct Variable {
   Attributes attributes = {};
 };
 
+/// A group of variables with their dimensions.
 struct Group {
   std::string name;
   std::vector<Dimension> dimensions;
@@ -42,7 +44,8 @@ std::string plain_name(const std::string& text);
 /// have the size of its dimensions.
 std::string file_of(const std::vector<Group>& groups);
 
-/// The same as a file that appears complete or not at all. Throws as StagedFile does.
+/// Writes the same as a file that appears whole or not at all. Throws also InputError when `target`
+/// cannot be written (no folder, no permission), and MachineError when the disk fails.
 void write(const std::filesystem::path& target, const std::vector<Group>& groups);
 
 }  // namespace wearwell::netcdf

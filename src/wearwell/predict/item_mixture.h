@@ -26,9 +26,9 @@ class ItemMixture {
   bool defined_ = true;
 };
 
-/// `count` points of the standard normal law for the draw of this index, one in each of as many
-/// strata of equal probability. Where in their strata they lie moves evenly from draw to draw, so
-/// that over many draws the points fill the law.
+/// `count` points of the standard normal distribution for the draw of this index, one in each of as
+/// many strata of equal probability. Where in their strata they lie moves evenly from draw to draw,
+/// so that over many draws the points fill the distribution.
 void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z);
 
 }  // namespace wearwell

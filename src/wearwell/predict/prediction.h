@@ -8,7 +8,7 @@
 
 namespace wearwell {
 
-/// A number that depends on the parameters; `x` has one entry a parameter, natural, SI.
+/// A number that depends on the parameters: `x` has one entry a parameter, natural, SI; the result is SI.
 using Function = std::function<double(const double* x)>;
 
 /// The same for one item of a population, where items differ: z is standard normal over them.
@@ -22,12 +22,12 @@ struct DominantDraws {
   std::vector<double> weights;
 };
 
-/// The probabilities at which intervals end.
+/// The probabilities at which intervals end: 0 < lower < upper < 1.
 struct Ends {
   double lower = 0.05, upper = 0.95;
 };
 
-/// What a measurement will read: the law of the true mean, and of one measurement of it.
+/// A prediction in SI: the posterior of the true mean, and the predictive distribution of one measurement of it.
 struct Prediction {
   double mean = 0;  ///< of the true mean
   double ci05 = 0;  ///< credible interval of the true mean, 5 % to 95 %
@@ -45,7 +45,7 @@ Prediction predict(const WeightedDraws& draws, const Function& mean, const Funct
                    ObservationFamily family, const ItemFunction& item = {},
                    std::size_t points = 200'000, const Ends& ends = {});
 
-/// When something is reached that every draw reaches at its own time.
+/// Quantiles of a life, in the unit of the life; infinite where it is never reached.
 struct Life {
   double b1 = 0;  ///< reached by then with probability 1 %
   double b10 = 0;
@@ -57,7 +57,7 @@ struct Life {
   double passed = 0;          ///< the probability that it is reached by `now`
 };
 
-/// The distribution of a life.
+/// The distribution of a life, mixed over a posterior: cdf and its inverse.
 struct LifeDistribution {
   std::function<double(double life)> cdf;
   std::function<double(double p)> quantile;  ///< 0 < p < 1
@@ -71,7 +71,7 @@ LifeDistribution life_distribution(const WeightedDraws& draws, const Function& l
 LifeDistribution life_distribution(const WeightedDraws& draws, double constant,
                                    const Function& driver, const Function& log_sd);
 
-/// `now` in the same unit, `risk` in (0, 1).
+/// `now` in the unit of the life; `risk` in (0, 1), the tolerated probability that the life ends before the next inspection.
 Life predict_life(const LifeDistribution& lives, double now, double risk);
 inline Life predict_life(const WeightedDraws& draws, const Function& life, double now,
                          double risk) {

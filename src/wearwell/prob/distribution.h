@@ -7,13 +7,13 @@
 
 namespace wearwell {
 
-/// A family with its parameters, in the order of its slots, in SI.
+/// A family of distributions with its parameters in the order of its slots (family_form.h), in SI.
 struct Family {
   ResponseFamily id;
   std::array<double, most_response_parameters> parameter = {};
 };
 
-// By name, for families constructed in code.
+// Families by name, for priors that are written in code.
 struct Flat {
   operator Family() const { return {ResponseFamily::flat}; }
 };
@@ -78,8 +78,7 @@ struct LogDensityAndSlope {
   double slope;  ///< derivative by x
 };
 
-/// log density at x inside the support (up to a constant for an improper distribution), with its
-/// derivative.
+/// Natural log density at x, SI, inside the support (up to a constant where it is improper), with its derivative.
 LogDensityAndSlope log_density(const Distribution& distribution, double x);
 
 /// The x with P(X <= x) = p, 0 < p < 1. Throws std::logic_error for an improper distribution.

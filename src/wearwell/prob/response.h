@@ -17,21 +17,24 @@ enum class Censoring {
 /// One observation, in SI.
 struct Response {
   Censoring seen = Censoring::none;
-  double at = 0;
-  double until = 0;
-  /// Left truncation: smaller values are not observable.
+  double at =
+      0;  ///< the value, or the bound that it lies above or below; of an interval the lower end
+  double until = 0;  ///< of an interval the upper end
+  /// It would not have been seen below that (left truncation).
   double entry = -std::numeric_limits<double>::infinity();
   double trials = 0;  ///< of the binomial family
 };
 
-/// A log density or log probability with its derivatives by the slots.
+/// A natural log density or log probability with its derivatives by the slots.
 struct ResponseTerm {
   double value = 0;
   double slope[most_response_parameters] = {};
 };
 
-/// For one observation, natural logarithm; -infinity if a slot is invalid or the observation is
-/// outside the support. Accurate far in the tails. `slots` has those of the family.
+/// Log-likelihood of one observation: log density of an exact one, log probability of a censored one,
+/// given that it lies above `entry` (Meeker and Escobar 1998, ch. 2). -infinity where the slots lie
+/// outside their kind or the observation outside the support. It has all digits far in the tails.
+/// `slots` has the parameters of the family, SI, in their order.
 ResponseTerm log_response(ResponseFamily family, const Response& response, const double* slots);
 double log_response_value(ResponseFamily family, const Response& response, const double* slots);
 
@@ -40,7 +43,7 @@ double log_response_value(ResponseFamily family, const Response& response, const
 double log_cdf(ResponseFamily family, double y, const double* slots, double trials = 0);
 double log_survival(ResponseFamily family, double y, const double* slots, double trials = 0);
 
-/// The y with P(Y <= y) = p, 0 < p < 1, for a family that is not a count.
+/// The y with P(Y <= y) = p, 0 < p < 1, of a continuous family.
 double quantile(ResponseFamily family, double p, const double* slots);
 
 /// The mean if it exists and has a formula; else the median.

@@ -10,6 +10,7 @@
 
 namespace wearwell {
 
+/// How terms are searched, and how the models found are validated.
 struct SelectionSettings {
   SearchSettings search;
   int folds = 0;  ///< k-fold cross-validation of the models found; 0: none
@@ -41,8 +42,10 @@ struct Selection {
   std::vector<double> k_fold_press;  ///< by model, the first `most_stacked`; empty without folds
 };
 
-/// Searches the terms of `design` and describes the outcome. Throws InputError as search_subsets.
-/// If a search was stopped before it found any model, `search.models` and the rest are empty.
+/// Searches the terms of `design` and describes the outcome. `response` has one entry a row of
+/// `design.columns`; `weights` likewise, 1/variance of a row, or empty. Throws InputError as
+/// search_subsets. Where a search was stopped before it found any model, `search.models` and the rest
+/// are empty.
 Selection select_terms(const Design& design, const Eigen::VectorXd& response,
                        const Eigen::VectorXd& weights, const SelectionSettings& settings);
 

@@ -32,7 +32,8 @@ struct Design {
 /// finite, or a term that is the same in every row.
 Design make_design(const std::vector<Term>& terms, const Eigen::MatrixXd& inputs);
 
-/// The terms of one model at new inputs, with the scaling of `design`: rows x chosen.
+/// The terms of one model at new inputs (rows x inputs), with the scaling of `design`: rows x chosen.
+/// `chosen`: indices of `design.terms`.
 Eigen::MatrixXd scaled_terms(const Design& design, std::span<const int> chosen,
                              const Eigen::MatrixXd& inputs);
 
@@ -44,7 +45,8 @@ struct OriginalCoefficients {
   Eigen::VectorXd standard_errors;  ///< the same
 };
 
-/// From coefficients of the scaled terms `chosen` of `design` and their covariance.
+/// From coefficients of the scaled terms `chosen` of `design` and their covariance, chosen x chosen,
+/// in the unit of the response.
 OriginalCoefficients original_coefficients(const Design& design, std::span<const int> chosen,
                                            const Eigen::VectorXd& coefficients,
                                            const Eigen::MatrixXd& covariance);

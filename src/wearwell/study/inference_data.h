@@ -10,7 +10,7 @@
 
 namespace wearwell {
 
-/// The study's posterior. Throws InputError for a clutch campaign, which has none.
+/// The study of a posterior. Throws InputError where it has none, as of a clutch campaign.
 const PosteriorStudy& require_posterior_study(const Study& study);
 
 /// Limit on the number of log-likelihood values that are computed and written.
@@ -22,7 +22,7 @@ inline constexpr std::size_t most_log_likelihoods = 50'000'000;
 std::vector<Eigen::MatrixXd> log_likelihood(const PosteriorStudy& study,
                                             const PosteriorSummary& result, std::string& why);
 
-/// A predicted measurement for each draw: chains by draws.
+/// Posterior predictive draws of one measured quantity, in `unit`, at the places `at`.
 struct PredictiveDraws {
   std::string quantity, unit, at_name;
   std::vector<double> at;
@@ -35,8 +35,8 @@ std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
 
 /// The groups and names that ArviZ reads: posterior, sample_stats, log_likelihood,
 /// posterior_predictive, observed_data, constant_data; chain and draw first. Parameters and columns
-/// are in the units of the study (attribute "units"). An attribute of the group "posterior" lists
-/// what is omitted.
+/// in the units of the study, which each names (attribute "units"). The attribute "left_out" of the
+/// group "posterior" says what is left out.
 std::vector<netcdf::Group> inference_data(const PosteriorStudy& study,
                                           const PosteriorSummary& result);
 

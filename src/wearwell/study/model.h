@@ -26,19 +26,19 @@ struct ExampleFile {
   std::string_view (*content)();
 };
 
-/// The interface of a model to the commands.
+/// What the commands know of a model: its key, its example, and how its studies are read.
 struct Model {
   std::string_view key;                  ///< in study files: model = "archard-joint"
-  std::string_view preset;               ///< for `wearwell new`: "joint"
+  std::string_view preset;               ///< its application, for `wearwell new`: "joint"
   std::span<const ExampleFile> example;  ///< the study first, then its data
   /// Reads the model's part of the study file; the caller refuses unused keys. Throws InputError.
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// All keys of its studies, for messages and docs/reference/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
-  /// Generates a study for a table whose columns have these roles; empty if the table does not suit
-  /// this model. May be null.
+  /// A study of a table whose columns have these roles; nothing where the table is of another
+  /// application. May be null.
   std::optional<Scaffold> (*scaffold)(ColumnRoles& roles) = nullptr;
-  /// Tracks single units online from a saved fit of this model (prognosis/tracker.h). May be null.
+  /// Tracks single units, from the state that a fit of this model left (prognosis/tracker.h). May be null.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;
 };

@@ -26,7 +26,7 @@
 
 namespace wearwell {
 
-/// A request to predict one measurement, past or future.
+/// A measurement to predict, past or future. Functions take natural parameters and give SI.
 struct PredictionRequest {
   std::string at_name;  ///< "cycles"
   double at = 0;
@@ -47,7 +47,7 @@ struct PredictionRequest {
   std::shared_ptr<const std::function<WeightedDraws(const WeightedDraws& draws)>> with_item = {};
 };
 
-/// A request for the life until a limit is reached.
+/// A life to predict: when a failure threshold is reached.
 struct LifeRequest {
   Unit unit;              ///< of the life
   std::string unit_name;  ///< "cycles"
@@ -77,11 +77,10 @@ struct QuantityRequest {
   bool headline = false;  ///< one of the main answers of the study
 };
 
-/// The predictive distribution of a life, SI, from its starting point, given that the unit has
-/// reached that point.
+/// The predictive distribution of a life, SI, from where it counts on, given that the unit has survived until there.
 struct PredictiveLife {
   LifeDistribution distribution;
-  double survival = 1;  ///< the predictive probability that the unit reached that point
+  double survival = 1;  ///< the predictive probability that it has survived until there
   std::optional<double> numerical_error =
       {};  ///< QuantityQuantiles::numerical_error, of its quantiles
 };
@@ -94,7 +93,7 @@ struct QuantityGroup {
   std::function<std::vector<PredictiveLife>(const WeightedDraws& draws)> lives = {};
 };
 
-/// A quantity whose maximum likelihood value and profile interval are reported.
+/// A quantity whose maximum likelihood estimate and profile interval are reported.
 struct ProfileRequest {
   std::string name, of, at;
   Unit unit;
@@ -107,8 +106,8 @@ inline constexpr std::size_t most_stages = 300;  ///< limit for updates by singl
 inline constexpr int min_draws = 10;             ///< diagnostics need at least these
 inline constexpr int max_iterations = 10'000'000;
 
-/// A study of a posterior in the form that the engine needs, for any model: parameters with priors,
-/// a likelihood of the first data sets, and requests for predictions.
+/// A study of a posterior as the engine sees it: parameters with priors, a likelihood of the first
+/// data sets, and what to predict. Numbers are in SI.
 struct PosteriorStudy : Study {
   std::string description() const override;
   Result run(const RunOptions& options, const Monitor& monitor) const override;
@@ -125,6 +124,7 @@ struct PosteriorStudy : Study {
   TableLayout data_layout;
   std::string observation = "row";  ///< the unit of the likelihood's factors: "row", "bearing"
   std::vector<Parameter> parameters;
+  /// The likelihood of the first `rows` data sets, of natural parameters in the order of `parameters`.
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   std::optional<FitData> fit_data;  ///< for the check of fit
   std::vector<Reach> reaches;       ///< how far predictions extrapolate beyond the data
@@ -147,8 +147,8 @@ struct PosteriorStudy : Study {
   std::vector<std::string> data_notes;  ///< remarks on the data, as sentences
   NothingSeen nothing_seen;             ///< set if no failure or wear was observed
   std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
-  /// Additional checks of the model, and its additions to the sections of the report; both may be
-  /// empty.
+  /// What the application checks beside the engine's checks, and shows in each section of the
+  /// report; both may be empty.
   std::function<std::vector<Check>(const Fit&)> checks;
   std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> figures;
@@ -158,11 +158,11 @@ struct PosteriorStudy : Study {
   MetropolisSettings metropolis;
 };
 
-/// Reads the model's part of a study file and its data, beyond the keys that all studies of a
-/// posterior share.
+/// What an application reads of a study file and its data, beyond what all studies of a posterior have.
 using ReadPreset = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// Reads title, data, stages and sampler, and the rest with `read_preset`. Throws InputError.
+/// Reads title, data, stages and sampler, and with `read_preset` the rest. Throws InputError that names
+/// file, line, column and key of the study, or file, row and column of the data.
 std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
                                                   ReadPreset read_preset);
 

@@ -33,14 +33,15 @@ struct Bearing {
   std::optional<double> time;         ///< s
 };
 
+/// What `solve` finds (Ligterink and de Gee 1996, Tribotest 3-1, 45-54).
 struct Solution {
-  double value = 0;  ///< of the quantity, SI
-  double sigma = 0;
-  double delta = 0;
-  double wear_number = 0;
+  double value = 0;        ///< of the quantity, SI
+  double sigma = 0;        ///< clearance/radius
+  double delta = 0;        ///< depth/radius
+  double wear_number = 0;  ///< p_a k n
 };
 
-/// Throws InputError, naming the offender, if an input is missing, given twice, not used, not
+/// The wanted quantity of a bearing, from the others. Throws InputError, naming the offender, when an input is missing, given twice, not used, not
 /// positive, or impossible together with the others (a depth beyond the geometry, a wear number
 /// that no depth reaches).
 Solution solve(Quantity wanted, const Bearing& bearing);
@@ -49,8 +50,8 @@ Solution solve(Quantity wanted, const Bearing& bearing);
 /// width), and nothing else; `value` is the wear number too. Throws InputError as `solve` does.
 Solution geometry(const Bearing& bearing);
 
-/// d ln(quantity) / d ln(input) for each given input: the change of the quantity in percent when
-/// the input changes by 1 %.
+/// d ln(quantity) / d ln(input) for each input given, without a unit: the percent by which the
+/// quantity changes when the input grows by 1 %. Throws InputError as `solve` does.
 Bearing sensitivity(Quantity wanted, const Bearing& bearing);
 
 }  // namespace wearwell::bearing

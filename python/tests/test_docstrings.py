@@ -1,0 +1,63 @@
+"""Docstrings are in the form of numpydoc: each argument, what is returned and raised, and examples that run."""
+
+import inspect
+import re
+
+import pytest
+
+import wearwell as ww
+from public_names import docstrings, public_names, sections
+
+names = public_names()
+texts = docstrings()
+return_nothing = {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Selection.report"}
+raise_nothing = {"ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Selection",
+                 "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
+
+
+def is_exception(each):
+    return isinstance(each, type) and issubclass(each, Exception)
+
+
+def arguments(each):
+    if not callable(each) or is_exception(each):
+        return set()
+    stars = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
+    found = inspect.signature(each).parameters.values()
+    return {stars.get(p.kind, "") + p.name for p in found if p.name not in ("self", "cls")}
+
+
+def described(lines):
+    return {name for line in lines if line and not line.startswith(" ") for name in line.split(" : ")[0].split(", ")}
+
+
+def test_names_of_all_kinds_are_found():
+    assert {"fit", "Fit.life", "Fit.parameters", "Study.from_file", "bearing.rate", "clutch.CycleSum.add", "InputError"} <= set(names)
+    assert len(names) > 60
+
+
+@pytest.mark.parametrize("name", names)
+def test_sections(name):
+    each, found = names[name], sections(texts[name])
+    first = texts[name].split("\n")
+    assert first[0].endswith((".", ":")) and (len(first) == 1 or not first[1]), "a summary of one line comes first"
+    own = [*found.get("Parameters", []), *(found.get("Attributes", []) if isinstance(each, type) else [])]
+    assert arguments(each) - described(own) == set(), "arguments without a description"
+    if "Parameters" in found:
+        assert described(found["Parameters"]) <= arguments(each), "descriptions of no argument"
+    if not isinstance(each, type) and name not in return_nothing:
+        assert "Returns" in found
+    assert ("Raises" in found) == (name not in raise_nothing and not is_exception(each))
+    assert any(line.startswith(">>> ") for line in found["Examples"])
+
+
+def test_attributes_are_described():
+    fit = described(sections(texts["Fit"])["Attributes"])
+    assert fit == {"study", "seed", "trusted", "checks", "summary"}
+    assert described(sections(texts["Check"])["Attributes"]) == set(ww.Check._fields)
+
+
+@pytest.mark.parametrize("name", texts)
+def test_docstrings_stand_alone(name):
+    """They say what is so, and point to no file of the project's documents."""
+    assert not re.search(r"docs/|\.md\b", texts[name])

@@ -1,0 +1,72 @@
+"""The examples of all docstrings run, each by itself, where the examples are."""
+
+import doctest
+import json
+import os
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import wearwell as ww
+from conftest import source
+from public_names import docstrings
+
+parser = doctest.DocTestParser()
+examples = {name: parser.get_doctest(text, {}, name, name, 0) for name, text in docstrings().items()}
+few = {"lowest": 0.4, "highest": 1.2, "step": 0.4, "replicates": 0}
+options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("doctests")
+    os.symlink(os.path.join(source, "examples"), folder / "examples")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def clutch_results(folder):
+    """The results of the clutch's study, with few exponents tried and no repetitions: that is fast."""
+    place = os.path.join(source, "examples", "clutch")
+    with open(os.path.join(place, "study.toml")) as file:
+        text = file.read()
+    fast = re.sub(r"(?m)^(lowest|highest|step|replicates) = [0-9.]+", lambda line: f"{line[1]} = {few[line[1]]}", text)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        ww.Study.from_toml(fast, folder=place).fit(report=False).write(folder / "clutch-results")
+    return folder / "clutch-results"
+
+
+@pytest.mark.parametrize("name", [name for name, test in examples.items() if test.examples])
+def test_examples_run(name, folder, monkeypatch, request):
+    if name.startswith("clutch."):
+        request.getfixturevalue("clutch_results")
+    monkeypatch.chdir(folder)
+    said = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        result = doctest.DocTestRunner(optionflags=options).run(examples[name], out=said.append)
+    assert result.failed == 0, "".join(said)
+
+
+def test_there_are_examples():
+    assert sum(len(test.examples) for test in examples.values()) > 150
+
+
+def leaves(value, at=""):
+    if isinstance(value, dict):
+        return [leaf for key, each in value.items() for leaf in leaves(each, f"{at}.{key}")]
+    if isinstance(value, list):
+        return [leaf for i, each in enumerate(value) for leaf in leaves(each, f"{at}[{i}]")]
+    return [(at, value)]
+
+
+def test_wear_model_of_the_r_package_is_this_one(clutch_results):
+    """The example of its help page comes with the package."""
+    with open(clutch_results / "model.json") as here, open(os.path.join(source, "r", "inst", "extdata", "clutch_model.json")) as there:
+        here, there = leaves(json.load(here)), leaves(json.load(there))
+    assert [at for at, _ in here] == [at for at, _ in there]
+    for (at, a), (_, b) in zip(here, there):
+        assert a == b if isinstance(a, str) else np.isclose(a, b, rtol=1e-6, atol=0), at

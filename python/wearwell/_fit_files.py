@@ -1,0 +1,149 @@
+"""The files of a fit."""
+
+import os
+import tempfile
+
+from . import _core
+from ._errors import InputError
+
+
+class FitFiles:
+    """Results, report and NetCDF. Part of ``Fit``."""
+
+    def _files(self):
+        if self._kept is None:
+            self._kept = dict(self._run.files())
+        return self._kept
+
+    def write(self, folder):
+        """Write the folder of results, as ``wearwell fit -o`` does: whole or not at all.
+
+        Parameters
+        ----------
+        folder : str or path
+            The folder. Files of an earlier result are replaced; other files stay.
+
+        Raises
+        ------
+        InputError
+            If the folder cannot be made, or a file in it that is not of an earlier result has the name of a new one.
+        MachineError
+            If the disk fails.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1, report=False)
+        >>> folder = os.path.join(tempfile.mkdtemp(), "results")
+        >>> fit.write(folder)
+        >>> os.path.exists(os.path.join(folder, "summary.json"))
+        True
+        """
+        files = self._files()
+        if "report.json" in files:
+            files = {**files, "report.html": self._page()}
+        _core.write_folder(os.fspath(folder), list(files.items()))
+
+    def _page(self):
+        files = self._files()
+        if "report.json" not in files:
+            raise InputError("this fit was made with report=False; fit it again with a report")
+        return _core.page_of(files["summary.json"], files["report.json"])
+
+    def report(self, path):
+        """Write the report, one HTML page that needs no network.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, such as "report.html".
+
+        Raises
+        ------
+        InputError
+            If the fit was made with ``report=False``, or the path cannot be written (no folder, no permission).
+        MachineError
+            If the disk fails.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1)
+        >>> page = os.path.join(tempfile.mkdtemp(), "report.html")
+        >>> fit.report(page)
+        >>> os.path.getsize(page) > 10_000
+        True
+        """
+        _core.write_file(os.fspath(path), self._page())
+
+    def to_netcdf(self, path):
+        """Write draws, sampler statistics, log-likelihoods and data as NetCDF-4, for ArviZ and xarray.
+
+        The groups are those of InferenceData: posterior, sample_stats, log_likelihood, posterior_predictive,
+        observed_data, constant_data. Variables have the attribute ``units``.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, such as "fit.nc".
+
+        Raises
+        ------
+        InputError
+            If the study has no posterior, or the path cannot be written (no folder, no permission).
+        MachineError
+            If libnetcdf is missing, or the disk fails.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import wearwell as ww
+        >>> import xarray
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1, method="exact", chains=2, draws=100, report=False)
+        >>> path = os.path.join(tempfile.mkdtemp(), "fit.nc")
+        >>> fit.to_netcdf(path)
+        >>> xarray.load_dataset(path, group="posterior")["k"].shape
+        (2, 100)
+        """
+        self._live().write_netcdf(os.fspath(path))
+
+    def to_datatree(self):
+        """The content of ``to_netcdf`` in memory.
+
+        Returns
+        -------
+        xarray.DataTree or dict of str to xarray.Dataset
+            A DataTree with xarray 2024.10 or later, else a dict of data sets by group.
+
+        Raises
+        ------
+        InputError
+            If the study has no posterior.
+        ImportError
+            If xarray or netCDF4 is missing.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1, method="exact", chains=2, draws=100, report=False)
+        >>> fit.to_datatree()["posterior"]["k"].dims
+        ('chain', 'draw')
+        """
+        import xarray
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "fit.nc")
+            self.to_netcdf(path)
+            if hasattr(xarray, "open_datatree"):
+                return xarray.open_datatree(path).load()
+            import netCDF4
+
+            with netCDF4.Dataset(path) as file:
+                groups = list(file.groups)
+            found = {}
+            for group in groups:
+                with xarray.open_dataset(path, group=group) as data:
+                    found[group] = data.load()
+            return found
