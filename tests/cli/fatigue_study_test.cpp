@@ -78,7 +78,7 @@ const json& check(const json& result, const std::string& name) {
 
 // The numbers in a cell of the tutorial's table, "2.81 / 3.00 / 3.28", in the row that begins so.
 std::vector<double> cell(const std::string& beginning, int column) {
-  std::ifstream text(PROJECT_SOURCE_DIR "/docs/reference/fatigue.md");
+  std::ifstream text(PROJECT_SOURCE_DIR "/docs/explanation/validation.md");
   for (std::string line; std::getline(text, line);) {
     if (line.rfind(beginning, 0) != 0) continue;
     std::stringstream row(line), numbers;

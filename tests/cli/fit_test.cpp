@@ -127,9 +127,9 @@ TEST_F(FitCommand, ExamplesMeetTheGridOfTables6And7) {
   EXPECT_EQ(compared, 20 * 8);
 }
 
-// Every row of the two tables in docs/reference/joint.md ends with what the examples give.
+// Every row of the two tables in docs/explanation/validation.md ends with what the examples give.
 TEST_F(FitCommand, TablesOfTheTutorialAreTrue) {
-  const std::string tutorial = slurp(PROJECT_SOURCE_DIR "/docs/reference/joint.md");
+  const std::string tutorial = slurp(PROJECT_SOURCE_DIR "/docs/explanation/validation.md");
   const auto expect_row = [&](const std::string& beginning, const std::string& end) {
     const auto at = tutorial.find("\n" + beginning);
     ASSERT_NE(at, std::string::npos) << beginning;
