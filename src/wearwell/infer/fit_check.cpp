@@ -95,7 +95,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      for (const std::size_t i : order) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbors along " + data.drivers.front().name + " are correlated",
+                   "residuals of neighbours along " + data.drivers.front().name + " are correlated",
                    other_distribution});
   if (data.unit.empty()) return tests;
   // Unit by unit, or where rows are judged one by one measured column by column: what is alike within one may
@@ -111,7 +111,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      for (const std::size_t i : within) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbors within one " + one + " are correlated",
+                   "residuals of neighbours within one " + one + " are correlated",
                    other_distribution});
   return tests;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 // Includes toml++; use no other include. Some invalid TOML ("[.=") fails an assertion of toml++,
-// and without assertions the behavior is undefined. So its assertions are enabled and throw. It is
+// and without assertions the behaviour is undefined. So its assertions are enabled and throw. It is
 // used as headers because Debian's library is built without assertions.
 namespace wearwell {
 

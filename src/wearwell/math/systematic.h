@@ -2,7 +2,7 @@
 
 namespace wearwell {
 
-/// Systematic sampling of items in an order in which neighbors are similar: one item for every
+/// Systematic sampling of items in an order in which neighbours are similar: one item for every
 /// `share` of cumulative weight, so that the frequency is proportional to the weight. Each sampled
 /// item has weight `share`.
 class Systematic {

@@ -13,7 +13,7 @@
     return {found, step};
   }
 
-  // As many decimals as distinguish neighbors.
+  // As many decimals as distinguish neighbours.
   function label(x, step) {
     if (Math.abs(x) >= 1e7 || (step < 1e-3 && x !== 0)) return wearwell.number(x);
     const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (/^25/.test(String(step).replace(/[0.]/g, '') + '0') ? 1 : 0));

@@ -45,7 +45,7 @@ class MqttSession {
   /// Reads arrivals, up to a number of messages and bytes. "" or the error of the connection.
   std::string read(std::size_t messages, std::size_t bytes);
   std::vector<Message>& arrived() { return arrived_; }
-  /// Sends acknowledgements, queued messages and keep-alives. Returns the same.
+  /// Sends acknowledgements, queued messages and keep-alive. Returns the same.
   std::string write();
   /// Queues a message; false without a connection. `quality`: of service, 0 or 1.
   bool publish(const std::string& topic, const std::string& payload, bool retain, int quality = 1);

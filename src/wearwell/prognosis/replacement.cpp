@@ -11,7 +11,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double as_good = 1.01;
-// Savings below this share may be an artifact of points that stand for a density.
+// Savings below this share may be an artefact of points that stand for a density.
 constexpr double no_saving = 1.001;
 
 double infinite_share(const WeightedLives& lives) {

@@ -45,7 +45,7 @@ struct AgeReplacement {
   double from = 0, to = 0;  ///< ages about it whose rate is at most 1 % above; `to` may be infinite
   double failing = 0;       ///< the share of units that fail before that age
   /// The minimum is at the end of the computed lives: some never fail within this range, and their
-  /// later behavior is unknown.
+  /// later behaviour is unknown.
   bool beyond_known = false;
 };
 AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs);

@@ -48,7 +48,7 @@ struct Bins {
     }
   }
 
-  // The bin of a quantile, and its nonempty neighbors.
+  // The bin of a quantile, and its nonempty neighbours.
   struct Range {
     std::size_t first, last;
   };

@@ -10,7 +10,7 @@ namespace wearwell::bearing {
 struct FlankNoise {
   double sd = 0;           ///< of the sum
   double half_width = 0;   ///< of its 90 % interval
-  double correlation = 1;  ///< number of neighboring points that count as one
+  double correlation = 1;  ///< number of neighbouring points that count as one
 };
 
 /// Noise whose autocorrelation at lag j is a phi^j (a first-order memory beside white noise), of

@@ -130,7 +130,7 @@ double correlation(const Alignment& alignment, const Window& window, double vari
 }
 
 // The shift of least misfit, at most `farthest`: the best on a grid as fine as the points, refined
-// between its neighbors. Empty if the flanks have no features. Uses averages: between two points
+// between its neighbours. Empty if the flanks have no features. Uses averages: between two points
 // interpolated noise is smaller, which looks like a better fit. The minimum of many misfits is
 // small by chance, so a shift must improve the fit by more than the scatter of noise, the root of
 // the number of independent points.
@@ -308,7 +308,7 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   // Wear in the flanks looks like correlated noise; the step reveals it.
   if (degrees < least_independent * result.correlation && !(result.flank_step > suspicious_step)) {
     throw InputError(fmt::format(
-        "{:.3g} neighboring points of the flanks are correlated, so their {} points count as no "
+        "{:.3g} neighbouring points of the flanks are correlated, so their {} points count as no "
         "more than {:.2g} independent ones; {} are needed: use longer flanks",
         result.correlation, window.flank_points(), degrees / result.correlation,
         least_independent));

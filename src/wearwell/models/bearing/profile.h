@@ -22,7 +22,7 @@ struct WornArea {
   double offset = 0;        ///< its shift in height at the middle, m
   double tilt = 0;          ///< its tilt, height over position
   double noise = 0;         ///< standard deviation of the aligned difference on the flanks, m
-  double correlation = 1;   ///< of that noise: number of neighboring points that count as one
+  double correlation = 1;   ///< of that noise: number of neighbouring points that count as one
   double from = 0, to = 0;  ///< the worn region, between the flanks, m
   /// by how much the inner quarter of the flanks is lower than the rest, in
   double flank_step = 0;
@@ -40,7 +40,7 @@ inline constexpr double suspicious_step = 4;
 /// `curvature` 1/R as h (1 + h/2R): positive for a bore, negative for a shaft, in 1/m.
 ///
 /// Uncertainty: the noise of the difference on the flanks, assumed to continue between them, in the
-/// integral and in the height, tilt and shift that it depends on. Neighboring points are correlated
+/// integral and in the height, tilt and shift that it depends on. Neighbouring points are correlated
 /// (stylus, filter, roughness); the correlation is estimated (flank_noise.h) and is itself
 /// uncertain, so the interval is wider than 1.645 standard deviations. Waves longer than a flank
 /// are not visible there and not included.

@@ -143,7 +143,7 @@ Rule::Place Rule::place(double d0, double z0, double z1) const {
           std::max(known + by * rest_ * rest_ * b.bend, 0.5 * known)};
 }
 
-// Along z1, starting from the extrapolated modes of the neighbors.
+// Along z1, starting from the extrapolated modes of the neighbours.
 bool Rule::go_to_mode(double d0, double z0, double& z1, Place& at) const {
   constexpr double close = 0.3, longest = 3;
   at = place(d0, z0, z1);

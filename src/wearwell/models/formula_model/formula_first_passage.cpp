@@ -125,7 +125,7 @@ void ScoreTable::look_up(double size, double scale, double* values) const {
     }
     return;
   }
-  // The cubic through four neighbors.
+  // The cubic through four neighbours.
   const auto i = static_cast<std::size_t>(x);
   const double t = x - static_cast<double>(i);
   const double weight[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,

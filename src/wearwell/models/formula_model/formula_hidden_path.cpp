@@ -169,7 +169,7 @@ bool HiddenPath::place(double per_width) {
   return true;
 }
 
-// Of the reading at each position. Away from the center by the ratio of neighbors, which itself
+// Of the reading at each position. Away from the center by the ratio of neighbours, which itself
 // changes by a constant ratio.
 void HiddenPath::fill_density(Row& row) const {
   const double width = h_ / row.noise, falls = std::exp(-width * width);

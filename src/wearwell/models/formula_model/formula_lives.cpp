@@ -140,7 +140,7 @@ class Part {
   }
 
   // A path that continues from the unit's last row starts there. If it has passed the threshold by
-  // then, by so much that a curve through its neighbors gives the share that has passed.
+  // then, by so much that a curve through its neighbours gives the share that has passed.
   void from_last_row(std::size_t u) {
     const double now = path_.seen[u].now;
     double pace = 0;

@@ -13,7 +13,7 @@ namespace wearwell::formula_model {
 ///   E[g(x + W)] = sum over k of lag[k - first] g(x + k h)
 ///
 /// for functions g that are smooth over three widths, as products of normal densities are:
-/// expectations of the polynomials through twelve neighbors, by Gauss-Legendre rules on panels of
+/// expectations of the polynomials through twelve neighbours, by Gauss-Legendre rules on panels of
 /// eight widths (fewer if the step is narrower than the lattice). The density may have a pole at 0,
 /// or all its mass between 0 and the next lattice point: the first panel of a gamma step is a rule
 /// with weight w^(shape - 1), by its moments of Legendre's polynomials; panels of an inverse

@@ -81,7 +81,7 @@ class MismatchMaker {
     std::vector<double> x, sums;  // by unit
   };
 
-  // The best x of each unit: the lowest of a grid, refined between its neighbors.
+  // The best x of each unit: the lowest of a grid, refined between its neighbours.
   Best best_at(double theta) {
     constexpr int places = 120, rounds = 30;
     constexpr double golden = 0.381966011250105;

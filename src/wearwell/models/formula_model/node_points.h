@@ -23,7 +23,7 @@ inline double fraction(std::size_t i, double of) {
   return x - std::floor(x);
 }
 
-/// On the logarithms of neighbors in a ScoreTable, by the cubic through four of them.
+/// On the logarithms of neighbours in a ScoreTable, by the cubic through four of them.
 inline double at_score(const double* values, double score) {
   constexpr double last = ScoreTable::edges - 1;
   const double x =
@@ -40,7 +40,7 @@ inline double at_score(const double* values, double score) {
 inline constexpr std::size_t parts = 4;     ///< of a node's position on its line
 inline constexpr double negligible = 1e-8;  ///< smaller nodes are left out
 
-/// Refines the nodes of a line by interpolation: parabolas through each node and its neighbors, of
+/// Refines the nodes of a line by interpolation: parabolas through each node and its neighbours, of
 /// the logarithm of the weight and of the value. The sum of the weights is that of the trapezoidal
 /// rule with the finer step.
 class DrawnLines {

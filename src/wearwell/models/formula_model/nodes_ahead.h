@@ -65,7 +65,7 @@ struct NodeLives::Ahead {
 
   // Turns positions into remaining lives: negative if the threshold is passed. A path that
   // continues has no positions before its last row: the excess over the threshold is divided by the
-  // rate of the fastest neighbor.
+  // rate of the fastest neighbour.
   void count_from(const double* start, double* place) const {
     double pace = 0;
     for (std::size_t i = 0; i < count; ++i) {

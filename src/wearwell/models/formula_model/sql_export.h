@@ -40,7 +40,7 @@ struct SqlExport {
   std::vector<Nodes> draws;        ///< of each; with equal weights
 };
 
-/// Quantiles at 5, 50 and 95 % over n draws, n a multiple of 20: the mean of the two neighboring
+/// Quantiles at 5, 50 and 95 % over n draws, n a multiple of 20: the mean of the two neighbouring
 /// order statistics. `sorted` ascending.
 double quantile_of_draws(const std::vector<double>& sorted, double p);
 

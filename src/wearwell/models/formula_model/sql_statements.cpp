@@ -147,7 +147,7 @@ std::string SqlStatements::steps(std::string from) const {
   return from;
 }
 
-/// The mean of the two neighboring order statistics, in the unit of the answer.
+/// The mean of the two neighbouring order statistics, in the unit of the answer.
 std::string SqlStatements::answer_of(const std::string& sorted, double p) const {
   const auto k = static_cast<std::size_t>(p * static_cast<double>(choice.draws) + 0.5);
   std::string text = fmt::format("({0}[{1}] + {0}[{2}]) * 0.5e0", sorted, k, k + 1);
