@@ -17,7 +17,7 @@ def tables_of(fit, models=("formula",)):
     study = tomllib.loads(fit.study.toml)
     if study.get("model") not in models:
         raise InputError(f"this is asked of studies of the model {' or '.join(models)}, and this one is of the model "
-                         f"{study.get('model')}; fit.ask(predict) asks it by the keys of its own [predict], and fit.quantities "
+                         f"{study.get('model')}; fit.ask(predict) asks it by the keys of its [predict], and fit.quantities "
                          "and fit.tables hold what it found")
     return study
 
@@ -41,7 +41,7 @@ def conditions_of(study, columns):
 
 
 def axis_of(study, columns, along):
-    """The column of wear and life, None where the study does not tell."""
+    """The column of wear and life, None if the study does not state it."""
     known = along or study.get("predict", {}).get("along")
     if known:
         if known not in columns:

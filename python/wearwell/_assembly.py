@@ -10,7 +10,7 @@ _name = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _heading = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*)\s*(?:[\[(].*)?\Z", re.DOTALL)
 _text = re.compile(r'"[^"]*"|\[[^\]]*\]')  # of an expression: texts and units are no names
 _special = ("status", "lower", "upper", "entry", "count")
-# Of a family: the slot that the formula gives, the slot of its scatter, and what that is called where nobody says.
+# Of a family: the parameter that the formula gives, the parameter of its scatter, and the default name of that.
 _slots = {
     "normal": ("mean", "sd", "sigma"),
     "lognormal": ("median", "log_sd", "sigma"),
@@ -162,7 +162,7 @@ def assemble(formula, data, priors, units, unit, random_effects, family, scatter
         likelihood, lines = _likelihood(lines, columns, family, scatter)
     entries, added = _varies(random_effects, unit, _middles(lines, likelihood), priors) if unit is not None else ({}, {})
     if unit is None and random_effects is not None:
-        raise InputError("random_effects needs unit: the column that names what differs")
+        raise InputError("random_effects needs unit: the column that names the units")
     priors.update(added)
     used = _names_in(lines, likelihood, predict or {}, [k for k in likelihood]) | set(_special) | {unit}
     chosen = {n: h for n, h in columns.items() if n in used}

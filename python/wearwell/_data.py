@@ -222,7 +222,7 @@ def _columns(items, name, units, only, names):
             unit = unit_text(column.units)
         columns.append((heading, unit or "", _values(column, f"{name}, column '{heading}'")))
     if units:
-        raise InputError(f"{name} has no column '{next(iter(units))}', of which units tell (columns: {', '.join(names)})")
+        raise InputError(f"{name} has no column '{next(iter(units))}', which units names (columns: {', '.join(names)})")
     return _core.table_of(name, columns)
 
 
@@ -248,7 +248,7 @@ def _has_few_kinds(column):
     try:
         values = _values(column, "data, column 'x'")
     except InputError:
-        return False  # a column that nobody uses may hold anything
+        return False  # a column that is not used may hold anything
     if isinstance(values, list):
         return len({each for each in values if each}) <= most
     return len(np.unique(values[values == values])) <= most

@@ -27,7 +27,7 @@ def _levels(b, confidence):
     return [float(each) for each in dict.fromkeys(b)], float(confidence)
 
 
-def _of_law(study, limit, unit, survived, along):
+def _of_formula(study, limit, unit, survived, along):
     """The keys of [predict] that ask it of a study of a formula model."""
     table = {} if survived is None else {"survived": _toml.quantity(survived, "survived")}
     if limit is None:
@@ -57,15 +57,15 @@ def _of_law(study, limit, unit, survived, along):
     return {**table, "along": axis, "limit": {named(k): _toml.quantity(v, "limit") for k, v in limit.items()}}
 
 
-def _of_trade(study, limit, unit, survived, along):
+def _of_preset(study, limit, unit, survived, along):
     model = study["model"]
     if unit is not None:
-        raise InputError(f"unit is of studies of a formula model whose parameters differ from item to item; one of the model {model} tells of "
+        raise InputError(f"unit is of studies of a formula model whose parameters differ from item to item; a study of the model {model} predicts "
                          "the next one: leave unit out")
     if survived is not None:
         raise InputError(f"survived is of studies of a formula model; of the model {model} "
-                         + ("fit.ask(predict) tells by survival_to how many outlast a life" if model == "sn" else
-                            "fit.summary['life'] tells within how much to inspect what has come so far"))
+                         + ("use fit.ask(predict) with survival_to for the share that outlasts a life" if model == "sn" else
+                            "fit.summary['life'] has the time within which to inspect"))
     if along is not None:
         raise InputError(f"along is of studies of a formula model; lives of the model {model} have their axis")
     table = {k: v for k, v in study.get("predict", {}).items() if k in _kept[model]}
@@ -105,16 +105,16 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
     study = tables_of(fit, ("formula", *_kept))
     b, confidence = _levels(b, confidence)
     formula = study["model"] == "formula"
-    table = (_of_law if formula else _of_trade)(study, limit, unit, survived, along)
+    table = (_of_formula if formula else _of_preset)(study, limit, unit, survived, along)
     if given:
         table = {**table, **({"given": given} if formula else given)}
     answers = fit.ask({**table, "b_lives": b, "credible_level": confidence})
     rows = [_row(each) for each in answers.get("quantities", [])]
     if "life" in answers:
-        told = answers["life"]
+        life = answers["life"]
         of = answers["life"].get("of", "")
-        rows = [{"name": "life", "of": of or "joint", "at": f"to {told['limit']:g} {told['limit_unit']}", "unit": told["unit"],
-                 **{q: _number(told[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
+        rows = [{"name": "life", "of": of or "joint", "at": f"to {life['limit']:g} {life['limit_unit']}", "unit": life["unit"],
+                 **{q: _number(life[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
                  "bound": _nan}, *rows] if study["model"] == "archard-joint" else rows
     wanted = "remaining useful life" if unit is not None or (formula and survived is not None) else "life"
     if unit is None:

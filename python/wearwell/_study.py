@@ -247,8 +247,8 @@ class Study:
         """
         choice = {"method": method, "chains": chains, "warmup": warmup, "draws": draws, "seed": seed}
         _require_choice(choice, threads)
-        with reporter(progress) as told:
-            run = self._read.run(method or "", chains, warmup, draws, seed, threads, bool(report), told)
+        with reporter(progress) as report_progress:
+            run = self._read.run(method or "", chains, warmup, draws, seed, threads, bool(report), report_progress)
         return Fit._of(self, run, choice)
 
     def _asking(self, predict):

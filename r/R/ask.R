@@ -15,7 +15,7 @@ keys_of <- function(fit, models = "formula") {
   study <- core(C_keys, fit$study$text)
   if (!isTRUE(study$model %in% models)) {
     stop_input("this is asked of studies of the model ", paste(models, collapse = " or "), ", and this one is of the model ", study$model,
-               "; ww_ask(fit, predict) asks it by the keys of its own [predict], and fit$quantities and fit$tables hold what it found")
+               "; ww_ask(fit, predict) asks it by the keys of its [predict], and fit$quantities and fit$tables hold what it found")
   }
   study
 }

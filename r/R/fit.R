@@ -12,7 +12,7 @@ ww_fit <- function(study, data = NULL, units = NULL, seed = NULL, method = NULL,
   threads <- whole(threads, "threads", 0, 1024)
   report <- one_truth(report, "report")
   study <- as_study(study, data, units)
-  run <- with_progress(progress, function(told) run_of(study, choice, threads, report, told))
+  run <- with_progress(progress, function(report_progress) run_of(study, choice, threads, report, report_progress))
   fit_of(study, run, choice, report)
 }
 

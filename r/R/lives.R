@@ -17,7 +17,7 @@ require_levels <- function(b, confidence) {
 }
 
 # The keys of [predict] that ask it of a study of a formula model.
-asked_of_law <- function(study, limit, unit, survived, along) {
+asked_of_formula <- function(study, limit, unit, survived, along) {
   question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
   units <- column_units(study)
   if (is.null(limit)) {
@@ -53,16 +53,16 @@ asked_of_law <- function(study, limit, unit, survived, along) {
 
 is_process <- function(slots) isTRUE(endsWith(as.character(slots$family), "process"))
 
-asked_of_trade <- function(study, limit, unit, survived, along) {
+asked_of_preset <- function(study, limit, unit, survived, along) {
   model <- study$model
   if (!is.null(unit)) {
     stop_input("unit is of studies of a formula model whose parameters differ from item to item; one of the model ", model,
-               " tells of the next one: leave unit out")
+               " predicts the next one: leave unit out")
   }
   if (!is.null(survived)) {
     stop_input("survived is of studies of a formula model; of the model ", model, if (model == "sn")
-      " ww_ask(fit, predict) tells by survival_to how many outlast a life" else
-      " fit$summary$life tells within how much to inspect what has come so far")
+      " use ww_ask(fit, predict) with survival_to for the share that outlasts a life" else
+      " fit$summary$life has the time within which to inspect")
   }
   if (!is.null(along)) stop_input("along is of studies of a formula model; lives of the model ", model, " have their axis")
   question <- study$predict[intersect(names(study$predict), kept_of[[model]])]
@@ -82,7 +82,7 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
   require_levels(b, confidence)
   b <- unique(as.double(b))
   formula <- study$model == "formula"
-  question <- (if (formula) asked_of_law else asked_of_trade)(study, limit, unit, survived, along)
+  question <- (if (formula) asked_of_formula else asked_of_preset)(study, limit, unit, survived, along)
   if (length(given)) question <- c(question, if (formula) list(given = as.list(given)) else as.list(given))
   answers <- ww_ask(fit, c(question, list(b_lives = as.list(b), credible_level = as.double(confidence))))
   rows <- life_rows(answers, study$model)
@@ -128,10 +128,10 @@ life_rows <- function(answers, model) {
   rows <- data.frame(name = column(of, "name", ""), of = column(of, "of", ""), at = column(of, "at", ""), unit = column(of, "unit", ""))
   for (key in c("q05", "q50", "q95", "predictive", "bound")) rows[[key]] <- never(key)
   if (model != "archard-joint" || is.null(answers$life)) return(rows)
-  told <- answers$life
-  first <- data.frame(name = "life", of = if (is.null(told$of) || told$of == "") "joint" else told$of,
-                      at = paste("to", format(told$limit, digits = 6), told$limit_unit), unit = told$unit, q05 = life(told$q05),
-                      q50 = life(told$b50), q95 = life(told$q95), predictive = NA_real_, bound = NA_real_)
+  answer <- answers$life
+  first <- data.frame(name = "life", of = if (is.null(answer$of) || answer$of == "") "joint" else answer$of,
+                      at = paste("to", format(answer$limit, digits = 6), answer$limit_unit), unit = answer$unit, q05 = life(answer$q05),
+                      q50 = life(answer$b50), q95 = life(answer$q95), predictive = NA_real_, bound = NA_real_)
   rbind(first, rows)
 }
 

@@ -1,7 +1,7 @@
 # Studies: from a file, from text with tables in memory, or put together of a formula model, data and priors.
 
 special <- c("status", "lower", "upper", "entry", "count")
-# Of a family: the slot that the formula gives, the slot of its scatter, and what that is called where nobody says.
+# Of a family: the parameter that the formula gives, the parameter of its scatter, and the default name of that.
 slots <- list(
   normal = c("mean", "sd", "sigma"),
   lognormal = c("median", "log_sd", "sigma"),
@@ -159,7 +159,7 @@ ww_study <- function(formula, data, units = NULL, priors, unit = NULL, random_ef
     likelihood <- likelihood_of(lines, columns, family, scatter)
     lines <- lines[setdiff(names(lines), names(likelihood))]
   }
-  if (is.null(unit) && !is.null(random_effects)) stop_input("random_effects needs unit: the column that names what differs")
+  if (is.null(unit) && !is.null(random_effects)) stop_input("random_effects needs unit: the column that names the units")
   entries <- list()
   if (!is.null(unit)) {
     found <- varies_of(random_effects, unit, lines, likelihood, priors)
@@ -226,7 +226,7 @@ ww_read_study <- function(path, data = NULL, units = NULL) {
   ww_study_toml(text, data, units, dirname(path), basename(path))
 }
 
-# An address that R may keep beyond its session, in a place that may be filled anew.
+# An address that R may keep beyond its session, in a place that may be filled again.
 living <- function(address) {
   live <- new.env(parent = emptyenv())
   live$address <- address

@@ -20,6 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string example = PROJECT_SOURCE_DIR "/examples/spring/";
 
@@ -217,6 +218,24 @@ TEST_F(FatigueStudy, MoreStressIsNeverMoreLife) {
       }
     }
   }
+}
+
+// The ratio of a part is not that of the tests, and no correction is chosen: the lives are those of the tests' ratio.
+TEST_F(FatigueStudy, WarnsOfAStressRatioThatNothingCorrectsFor) {
+  write("data.csv", some_data);
+  const auto detail = [&](const char* ratio) {
+    const json result = fit_text(
+        head + columns + "status = \"end\"\n[conditions]\nstress_ratio = -1\n" + law + prior +
+        "[predict]\nb_lives = [10]\n[predict.stress]\nx = { alternating_stress = \"300 MPa\", "
+        "stress_ratio = " +
+        ratio + " }\n");
+    for (const json& check : result["checks"])
+      if (check["name"] == "extrapolation") return check["detail"].get<std::string>();
+    return std::string();
+  };
+  EXPECT_THAT(detail("0.5"),
+              HasSubstr("the stress ratio of x, 0.5, lies outside those tested (-1 to -1)"));
+  EXPECT_THAT(detail("-1"), Not(HasSubstr("stress ratio")));
 }
 
 // A test that was stopped unbroken says no less than that its life is at least as long. Where slope
@@ -487,6 +506,9 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
          "needs data given as displacements");
   expect(study + "[predict.stress]\nx = { mean_stress = \"1 MPa\" }\n",
          "give the stress in one way");
+  expect(study + "[predict.stress]\nx = { alternating_stress = \"300 MPa\", stress_ratio = 0.5 }\n",
+         "predict.stress.x.stress_ratio: has no effect: the study does not have the stress_ratio "
+         "of its tests");
   expect(study + "[predict]\ntipes = \"all\"\n", "did you mean 'types'?");
   // A width is a difference: no MPa in it.
   expect(study + "[sampler.half_width]\nlog10_a = \"0.1 log10(MPa)\"\nb = 0.01\nsigma = 0.1\n",

@@ -226,6 +226,7 @@ std::string item_text(const std::string& of, bool is_kind) {
   const auto begins = [&](const char* word) { return of.starts_with(word); };
   if (begins("new ")) return "a " + of;
   if (begins("median ")) return "the " + of;
+  if (begins("my ") || begins("our ") || begins("the ")) return of;
   const bool has_label = of.find(' ') != of.npos && (!is_kind || begins("type "));
   return has_label ? of : "the " + of;
 }

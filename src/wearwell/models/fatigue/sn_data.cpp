@@ -98,6 +98,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
                  "stress_ratio, max_stress with min_stress, or displacement_amplitude with "
                  "displacement_mean");
   }
+  data.has_mean_stress = displacement || extremes || ratio || inputs.has("mean_stress");
   if (displacement) {
     if (!conditions) columns.fail("displacement_amplitude", "needs the spring in [conditions]");
     const fatigue::HelicalSpring spring = read_spring(*conditions);

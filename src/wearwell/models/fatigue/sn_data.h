@@ -29,6 +29,7 @@ struct SnData {
   std::string source;  ///< the file, for messages
   TableLayout layout;
   std::string mean_stress_column;
+  bool has_mean_stress = false;  ///< the study has the mean stress or stress ratio of its tests
   std::optional<fatigue::HelicalSpring> spring;  ///< if the study gives displacements
   std::vector<DataColumn> columns;               ///< as read
 };

@@ -199,6 +199,10 @@ std::string description(const SnLaw& law, const SnData& data, const StressLine& 
                      after_number(data.stress_unit));
 }
 
+double ratio_of(const Stress& stress) {
+  return (stress.mean - stress.alternating) / (stress.mean + stress.alternating);
+}
+
 struct Span {
   double low = INFINITY, high = -INFINITY;
 
@@ -217,13 +221,14 @@ struct Span {
 
 // The range of the tests.
 struct Tested {
-  Span alternating, mean, life;
+  Span alternating, mean, ratio, life;
   long count = 0;
 
   explicit Tested(const SnData& data) {
     for (const LifeTest& test : data.tests) {
       alternating.take(test.stress.alternating);
       mean.take(test.stress.mean);
+      ratio.take(ratio_of(test.stress));
       life.take(test.life);
       if (test.outcome == Outcome::interval) life.take(test.until);
       count += test.count;
@@ -253,6 +258,16 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
                                point.name, from_si(data.stress_unit, point.stress.mean),
                                data.stress_unit.text, tested.mean.in(data.stress_unit)),
                    advice);
+    }
+    if (law.correction == MeanStress::none && data.has_mean_stress &&
+        !tested.ratio.holds(ratio_of(point.stress))) {
+      findings.add(
+          Verdict::warn,
+          fmt::format(
+              "the stress ratio of {}, {:.4g}, lies outside those tested ({:.4g} to {:.4g}), and "
+              "mean_stress = \"none\" does not correct for it",
+              point.name, ratio_of(point.stress), tested.ratio.low, tested.ratio.high),
+          "Give law.mean_stress a correction, such as \"goodman\", or test at this ratio.");
     }
   }
   for (const AllowedStress& allowed : predictions.allowed) {
@@ -387,8 +402,16 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   if (predict.has("types")) result.points = points_of_types(predict, law, data);
   if (const auto stresses = predict.table("stress")) {
     for (const std::string& name : stresses->keys()) {
-      const Stress stress =
-          read_stress(stresses->required_table(name), law.correction, data.spring, data.stress_si);
+      const TomlReader table = stresses->required_table(name);
+      const Stress stress = read_stress(table, law.correction, data.spring, data.stress_si);
+      for (const char* key : {"mean_stress", "stress_ratio"}) {
+        if (table.has(key) && !data.has_mean_stress)
+          table.fail(
+              key,
+              fmt::format("has no effect: the study does not have the {} of its tests; add it to "
+                          "[data.columns] or [conditions], or remove this key",
+                          key));
+      }
       result.points.push_back({name, stress});
     }
   }

@@ -452,8 +452,17 @@ class Reader {
                    const Bounds& bounds) {
     const LabelColumn* column = model_->data.label(label);
     if (!column) {
+      const auto& labels = model_->data.labels;
+      const bool is_level = std::any_of(labels.begin(), labels.end(), [&](const LabelColumn& each) {
+        return std::find(each.levels.begin(), each.levels.end(), label) != each.levels.end();
+      });
       priors.fail(
-          base, fmt::format("is indexed by [{}], but '{}' is not a label under data.columns", label,
+          base,
+          is_level
+              ? fmt::format("an expression has {0}[{1}]; write {0}['{1}'] for the value at the "
+                            "level '{1}'",
+                            base, label)
+              : fmt::format("is indexed by [{}], but '{}' is not a label under data.columns", label,
                             label));
     }
     if (std::any_of(drawn_.begin(), drawn_.end(),
