@@ -10,6 +10,7 @@
 #include "wearwell/models/clutch/clutch_predict.h"
 #include "wearwell/models/clutch/clutch_study.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/map_fit.h"
 #include "wearwell/models/clutch/nested_map.h"
 #include "wearwell/study/units_check.h"
 
@@ -187,23 +188,6 @@ Check validation_check(const Validation& validation) {
                   validation.all.points, validation.critical, validation.all.r2));
 }
 
-Check scatter_check(const ScatterFit& fit) {
-  // Of correct campaigns at most 6 in 1000 get a warning, and 1 in 1000 fails.
-  constexpr double warns_below = 0.003, fails_below = 0.0005;
-  Findings findings("scatter");
-  for (const auto& [name, p] : {std::pair{"Kolmogorov-Smirnov", fit.kolmogorov.p},
-                                std::pair{"Anderson-Darling", fit.anderson_darling.p}}) {
-    if (p < warns_below)
-      findings.add(p < fails_below ? Verdict::fail : Verdict::warn,
-                   fmt::format("{}: scaled residuals are not normal, p = {:.3g}", name, p),
-                   "Check the normal probability plot; the intervals assume normality.");
-  }
-  return findings.result(
-      fmt::format("scaled residuals are normal (Kolmogorov-Smirnov p = {:.3f}, "
-                  "Anderson-Darling p = {:.3f})",
-                  fit.kolmogorov.p, fit.anderson_darling.p));
-}
-
 Check sequence_check(const std::vector<SequenceResult>& sequences) {
   Findings findings("sequences");
   std::vector<std::string> good;
@@ -221,21 +205,6 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
   return findings.result(sequences.empty() ? "the campaign has no sequence"
                                            : fmt::format("{}", fmt::join(good, "; ")));
 }
-
-}  // namespace
-
-std::vector<DataColumn> cycle_columns(const Campaign& campaign) {
-  std::vector<DataColumn> columns;
-  for (const Input& input : inputs) {
-    const bool celsius = input.value == &OperatingPoint::temperature;
-    columns.push_back({input.name, input.si, read_unit(celsius ? "degC" : input.si, input.si), {}});
-    for (const Cycle& cycle : campaign.cycles)
-      columns.back().values.push_back(cycle.at.*input.value + (celsius ? celsius_zero : 0));
-  }
-  return columns;
-}
-
-namespace {
 
 Check data_check(const Campaign& campaign, const ClutchResult& r) {
   Findings findings("data");
@@ -355,9 +324,12 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
     const Cycle cycle{1, 1, at, closing_energy(at)};
     r.lives.push_back({name, at, predict_life(r.model, {cycle}, study.levels)});
   }
-  r.checks = {data_check(study.campaign, r),           run_in_check(r.run_in),
-              map_check(r.maps, r.nested, r.held_out), scatter_check(r.scatter_fit()),
-              validation_check(r.validation),          sequence_check(r.sequences)};
+  r.checks = {data_check(study.campaign, r),
+              run_in_check(r.run_in),
+              map_check(r.maps, r.nested, r.held_out),
+              fit_check(judge_map(r.points, map, r.scatter_fit().law)),
+              validation_check(r.validation),
+              sequence_check(r.sequences)};
   if (!r.lives.empty()) {
     r.checks.push_back(extrapolation_check(r.model, r.lives));
     r.checks.push_back(sense_check(r.lives));

@@ -302,4 +302,15 @@ std::string realized_csv(const std::vector<Realized>& realized) {
   return csv;
 }
 
+std::vector<DataColumn> cycle_columns(const Campaign& campaign) {
+  std::vector<DataColumn> columns;
+  for (const Input& input : inputs) {
+    const bool celsius = input.value == &OperatingPoint::temperature;
+    columns.push_back({input.name, input.si, read_unit(celsius ? "degC" : input.si, input.si), {}});
+    for (const Cycle& cycle : campaign.cycles)
+      columns.back().values.push_back(cycle.at.*input.value + (celsius ? celsius_zero : 0));
+  }
+  return columns;
+}
+
 }  // namespace wearwell::clutch

@@ -151,7 +151,6 @@ ScatterFit fit_candidate(ScatterKind kind, const WearPoints& points, const WearM
   const std::vector<double> list(scaled.begin(), scaled.end());
   fit.kolmogorov = kolmogorov_test(list);
   fit.lilliefors = lilliefors_test(list);
-  fit.anderson_darling = anderson_darling_test(list);
   return fit;
 }
 

@@ -17,7 +17,6 @@ struct ScatterFit {
   bool converged = false;
   int starts = 0, agreeing = 0;  ///< number tried; number that reached the best
   KolmogorovTest kolmogorov, lilliefors;
-  AndersonDarlingTest anderson_darling;
 };
 
 struct ScatterSearch {

@@ -15,6 +15,7 @@
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/staircase.h"
+#include "wearwell/models/fatigue/staircase_fit.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
@@ -332,6 +333,12 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
         data.limit, {data.tests.begin(), data.tests.begin() + static_cast<std::ptrdiff_t>(rows)});
   };
   add_limits(data, study);
+  const fatigue::StairFit check{data.limit, data.tests, study.parameters[0].prior,
+                                study.parameters[1].prior, data.unit};
+  study.checks = [=](const Fit& fit) -> std::vector<Check> {
+    if (!proper(fit)) return {};
+    return {staircase_fit_check(check, fit.exact ? fit.exact->nodes : fit.pooled)};
+  };
   study.figures = [=](const Fit& fit) {
     return std::map<std::string, std::vector<html::Figure>>{
         {"verdict", {failure_figure(data, fit.exact ? fit.exact->nodes : fit.pooled)}}};
