@@ -193,5 +193,36 @@ TEST(ResidualTests, RoundingIsNoTrend) {
   EXPECT_LT(trend_test(rising, along), 1e-6);
 }
 
+// Scores of very many rows that are the same under every draw.
+FitOutcome judged(const std::vector<double>& z) {
+  FitData data;
+  data.scores = [&](const double*) {
+    std::vector<NormalScore> all;
+    for (const double each : z) all.push_back({each, each});
+    return all;
+  };
+  WeightedDraws draws;
+  draws.values = Eigen::MatrixXd::Zero(50, 1);
+  draws.weights = Eigen::VectorXd::Constant(50, 0.02);
+  return judge_fit(data, draws, {});
+}
+
+TEST(FitCheck, OfVeryManyRowsASampleIsJudgedAndTheOutermostOfAll) {
+  Rng rng(20261125, 5);
+  std::vector<double> z = normals(60'000, rng);
+  const Check right = fit_check(judged(z));
+  EXPECT_EQ(right.verdict, Verdict::pass) << right.detail;
+  EXPECT_THAT(right.detail, HasSubstr("20000 rows, drawn from 60000"));
+  for (const std::size_t row : {0u, 31'417u, 59'999u}) {
+    std::vector<double> one = z;
+    one[row] = -9;
+    const Check far = fit_check(judged(one));
+    EXPECT_EQ(far.verdict, Verdict::fail);
+    EXPECT_THAT(far.detail, HasSubstr(std::to_string(row + 1) + " lies farther out"));
+  }
+  for (double& each : z) each *= 1.05;
+  EXPECT_EQ(fit_check(judged(z)).verdict, Verdict::fail);
+}
+
 }  // namespace
 }  // namespace wearwell

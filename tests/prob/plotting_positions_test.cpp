@@ -7,6 +7,7 @@
 
 #include "support/golden.h"
 
+#include "wearwell/base/rng.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell {
@@ -72,6 +73,79 @@ TEST(PlottingPositions, OfIntervalsAreTurnbulls) {
       if (each.at <= std::stod(row[1])) p = each.p;
     }
     EXPECT_NEAR(p, std::stod(row[2]), 5e-3) << row[1];
+  }
+}
+
+// Who is at risk at each failure, counted one by one.
+TEST(PlottingPositions, OfManyLivesWithTiesAndEntriesAreThoseOfTheDefinition) {
+  Rng rng(20261125, 0);
+  std::vector<Response> all;
+  std::vector<int> counts;
+  for (int i = 0; i < 400; ++i) {
+    const double life = std::ceil(30 * rng.uniform());
+    all.push_back({.seen = rng.uniform() < 0.3 ? Censoring::right : Censoring::none, .at = life});
+    if (rng.uniform() < 0.5) all.back().entry = std::floor(life * rng.uniform());
+    counts.push_back(1 + i % 3);
+  }
+  double survival = 1;
+  std::size_t found = 0;
+  const auto positions = plotting_positions(all, counts);
+  for (double at = 1; at <= 30; ++at) {
+    double failed = 0, at_risk = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].at >= at && all[i].entry < at) at_risk += counts[i];
+      if (all[i].at == at && all[i].seen == Censoring::none) failed += counts[i];
+    }
+    if (failed == 0) continue;
+    const double before = survival;
+    survival *= 1 - failed / at_risk;
+    ASSERT_LT(found, positions.size());
+    EXPECT_EQ(positions[found].at, at);
+    EXPECT_DOUBLE_EQ(positions[found].p, 1 - 0.5 * (before + survival));
+    ++found;
+  }
+  EXPECT_EQ(found, positions.size());
+}
+
+// Turnbull's estimate is consistent with itself: each step is what all observations that can lie there bring to it.
+TEST(PlottingPositions, OfManyIntervalsAreSelfConsistent) {
+  Rng rng(20261125, 4);
+  std::vector<Response> all;
+  for (int i = 0; i < 3000; ++i) {
+    const double life = 1000 * std::pow(-std::log(rng.uniform()), 0.5),
+                 width = 100 + 300 * rng.uniform();
+    const double looked = width * (std::floor(life / width - rng.uniform()) + rng.uniform());
+    const double from = std::max(looked, 0.0), to = std::max(from + width, life);
+    if (to > 1800)
+      all.push_back({.seen = Censoring::right, .at = from});
+    else if (from == 0)
+      all.push_back({.seen = Censoring::left, .at = to});
+    else
+      all.push_back({.seen = Censoring::interval, .at = from, .until = to});
+  }
+  const auto positions = plotting_positions(all, std::vector<int>(all.size(), 1));
+  const auto failed_by = [&](double at) {
+    double p = 0;
+    for (const PlottingPosition& each : positions) {
+      if (each.at <= at) p = each.p;
+    }
+    return p;
+  };
+  ASSERT_GE(positions.size(), 20u);
+  std::vector<double> brought(positions.size());
+  for (const Response& y : all) {
+    const double from = y.seen == Censoring::left ? -infinity : y.at;
+    const double to = y.seen == Censoring::right  ? infinity
+                      : y.seen == Censoring::left ? y.at
+                                                  : y.until;
+    const double mass = (to == infinity ? 1 : failed_by(to)) - failed_by(from);
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      if (positions[k].at > from && positions[k].at <= to) brought[k] += 1 / mass / 3000;
+    }
+  }
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const double step = positions[k].p - (k == 0 ? 0 : positions[k - 1].p);
+    EXPECT_NEAR(step * brought[k], step, 1e-4) << positions[k].at;
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/residual_shape.h"
+#include "wearwell/infer/row_sample.h"
 #include "wearwell/infer/score_tests.h"
 #include "wearwell/infer/studentized_scores.h"
 
@@ -44,21 +45,6 @@ std::vector<double> each_draw(const std::vector<std::vector<double>>& scores,
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Which of `count` are judged, in order: all, or a sample (Knuth's selection sampling).
-std::vector<std::size_t> judged(std::size_t count) {
-  std::vector<std::size_t> chosen;
-  Rng rng(seed, 0);
-  std::size_t wanted = std::min(count, most_observations);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (wanted == 0) break;
-    if (rng.uniform() * static_cast<double>(count - i) < static_cast<double>(wanted)) {
-      chosen.push_back(i);
-      --wanted;
-    }
-  }
-  return chosen;
 }
 
 template <class Value>
@@ -178,7 +164,8 @@ void add_scatter_tests(const FitData& data, const ScoreSample& sample,
 
 std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& sample) {
   const std::size_t draws = sample.scores.size();
-  const std::vector<std::size_t> which = judged(sample.row.size());
+  const std::vector<std::size_t> which =
+      row_sample(sample.row.size(), most_observations, Rng(seed, 0));
   const std::vector<std::size_t> row = taken(sample.row, which);
   std::vector<bool> exact;
   for (const std::size_t i : row) exact.push_back(sample.exact[i]);

@@ -12,6 +12,7 @@
 #include "wearwell/infer/copied_rows.h"
 #include "wearwell/infer/distribution_tests.h"
 #include "wearwell/infer/residual_tests.h"
+#include "wearwell/infer/row_sample.h"
 
 namespace wearwell {
 namespace {
@@ -19,11 +20,16 @@ namespace {
 // Draws that are judged: enough for a median.
 constexpr double evaluations = 60'000;
 constexpr Eigen::Index fewest_draws = 40, most_draws = 400;
+// Of very many observations so many are judged, drawn, and scores of fewer draws are asked for: the posterior is narrow.
+constexpr std::size_t most_judged = 20'000;
+constexpr double most_scores = 4e6;
+constexpr Eigen::Index fewest_of_many = 10;
 // An observation that stands for more alike is judged as so many.
 constexpr int most_alike = 1000;
 // A passing check names what has a p value below.
 constexpr double noted_below = 0.005;
 constexpr std::uint64_t seed = 20261121;  // of the scores of observations in intervals
+constexpr std::uint64_t of_the_sample = 1ULL << 32, of_the_others = of_the_sample + 1;  // streams
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -246,16 +252,20 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   std::vector<bool> exact;
   for (std::size_t i = 0; i < rows; ++i) exact.push_back(of_first[i].exact());
   std::vector<std::size_t> row;  // of each single observation
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (const std::size_t i : row_sample(rows, most_judged, Rng(seed, of_the_sample))) {
     row.insert(
         row.end(),
         static_cast<std::size_t>(data.counts.empty() ? 1 : std::min(data.counts[i], most_alike)),
         i);
   }
+  const bool sampled = rows > most_judged;
+  const Eigen::Index fewest =
+      std::clamp(static_cast<Eigen::Index>(most_scores / static_cast<double>(rows)), fewest_of_many,
+                 fewest_draws);
   const Eigen::Index count =
       std::min(draws.values.rows(),
                std::clamp(static_cast<Eigen::Index>(evaluations / static_cast<double>(row.size())),
-                          fewest_draws, most_draws));
+                          fewest, most_draws));
   std::vector<std::vector<double>> scores(static_cast<std::size_t>(count)), effects(scores.size());
   tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t s) {
     const Eigen::VectorXd x =
@@ -265,7 +275,13 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
     for (const std::size_t i : row) scores[s].push_back(drawn(ends[i], rng));
     for (std::size_t i = rows; i < ends.size(); ++i) effects[s].push_back(ends[i].low);
   });
+  // Of observations that are not judged the score of the first draw.
+  Rng lots(seed, of_the_others);
   for (std::size_t i = 0, at = 0; i < rows; ++i) {
+    if (at == row.size() || row[at] != i) {
+      outcome.residuals.push_back(drawn(of_first[i], lots));
+      continue;
+    }
     std::vector<double> values;
     for (const auto& z : scores) values.push_back(z[at]);
     outcome.residuals.push_back(median(values));
@@ -279,7 +295,8 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
     outcome.tests.push_back(
         {judged.name, std::min(1.0, 2 * median(p)), judged.finding, judged.advice});
   }
-  outcome.tests.push_back(extreme(data, loo, outcome.residuals, scores));
+  const std::vector<std::vector<double>> of_all = {outcome.residuals};
+  outcome.tests.push_back(extreme(data, loo, outcome.residuals, sampled ? of_all : scores));
   judge_effects(data, effects, outcome);
   if (data.rise) {
     const std::string impossible =
@@ -316,11 +333,14 @@ Check fit_check(const FitOutcome& outcome) {
                  fmt::format("{} (p = {:.1g})", test.finding, test.p), test.advice);
   }
   if (outcome.copies) add_copies(*outcome.copies, findings);
+  const std::string of_what = outcome.residuals.size() > most_judged
+                                  ? fmt::format("the residuals of {} rows, sampled from {},",
+                                                most_judged, outcome.residuals.size())
+                                  : "the residuals";
   const FitTest& least = *std::min_element(
       sorted.begin(), sorted.end(), [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
-  std::string passed =
-      fmt::format("the smallest p value of {} tests of the residuals is {:.2g} ({})",
-                  outcome.tests.size(), least.p, least.name);
+  std::string passed = fmt::format("the smallest p value of {} tests of {} is {:.2g} ({})",
+                                   outcome.tests.size(), of_what, least.p, least.name);
   // Within chance among so many tests, but what an engineer sees.
   if (least.p < noted_below && !least.finding.empty())
     passed += fmt::format("; not significant among so many tests, but note: {}", least.finding);

@@ -11,15 +11,15 @@
 namespace wearwell {
 namespace {
 
-constexpr int most_parameters = 3;
-constexpr std::size_t fewest_terms = 30;
+constexpr int most_parameters = 4;
+constexpr std::size_t fewest_terms = 30, fewest_of_four = 20'000;
 constexpr double reach = 7;      // standard deviations, by polynomials
 constexpr double farthest = 21;  // by the parabola
 constexpr double close = 1e-5;   // of log densities within `near` of the highest
 constexpr double near = 15, roughly = 1e-2;
 constexpr double gone = 18;  // log density that has to be lost where the parabola begins
 constexpr std::array<int, 3> nodes_of_one = {17, 25, 33}, nodes_of_two = {11, 15, 19},
-                             nodes_of_three = {9, 11, 13};
+                             nodes_of_three = {9, 11, 13}, nodes_of_four = {7, 9, 11};
 
 using U = std::array<double, most_parameters>;
 
@@ -56,23 +56,27 @@ class Series {
             2 * value[a][k - 1] + 2 * t[a] * derivative[a][k - 1] - derivative[a][k - 2];
       }
     }
-    const int second = d_ > 1 ? n_ : 1, third = d_ > 2 ? n_ : 1;
+    const int second = d_ > 1 ? n_ : 1, third = d_ > 2 ? n_ : 1, fourth = d_ > 3 ? n_ : 1;
     double sum = 0;
     U of{};
-    for (int l = 0; l < third; ++l) {
-      for (int k = 0; k < second - l; ++k) {
-        const double* c =
-            &coefficient_[static_cast<std::size_t>(n_) * static_cast<std::size_t>(k + n_ * l)];
-        double line = 0, line_slope = 0;
-        for (int j = 0; j < n_ - k - l; ++j) {
-          line += c[j] * value[0][j];
-          if (slope) line_slope += c[j] * derivative[0][j];
+    for (int m = 0; m < fourth; ++m) {
+      for (int l = 0; l < third - m; ++l) {
+        for (int k = 0; k < second - l - m; ++k) {
+          const double* c = &coefficient_[static_cast<std::size_t>(n_) *
+                                          static_cast<std::size_t>(k + n_ * (l + n_ * m))];
+          double line = 0, line_slope = 0;
+          for (int j = 0; j < n_ - k - l - m; ++j) {
+            line += c[j] * value[0][j];
+            if (slope) line_slope += c[j] * derivative[0][j];
+          }
+          const double others = value[2][l] * value[3][m];
+          sum += line * value[1][k] * others;
+          if (!slope) continue;
+          of[0] += line_slope * value[1][k] * others;
+          of[1] += line * derivative[1][k] * others;
+          of[2] += line * value[1][k] * derivative[2][l] * value[3][m];
+          of[3] += line * value[1][k] * value[2][l] * derivative[3][m];
         }
-        sum += line * value[1][k] * value[2][l];
-        if (!slope) continue;
-        of[0] += line_slope * value[1][k] * value[2][l];
-        of[1] += line * derivative[1][k] * value[2][l];
-        of[2] += line * value[1][k] * derivative[2][l];
       }
     }
     for (int a = 0; slope && a < d_; ++a) slope[a] = of[a];
@@ -236,13 +240,18 @@ std::optional<QuickPosterior> surrogate_posterior(const Posterior& posterior,
                                                   const Whitening& whitening) {
   const int d = posterior.dimension();
   if (d > most_parameters) return {};
+  const bool slow = posterior.likelihood()->is_slow();
   Eigen::VectorXd x(d);
   posterior.to_natural(view(whitening.center), view(x));
-  if (!posterior.likelihood()->is_slow() &&
-      posterior.likelihood()->pointwise(view(x)).size() < fewest_terms)
+  if (slow ? d == 4
+           : posterior.likelihood()->pointwise(view(x)).size() <
+                 (d < 4 ? fewest_terms : fewest_of_four))
     return {};
   const Trial trial(posterior, whitening);
-  for (const int n : d == 1 ? nodes_of_one : d == 2 ? nodes_of_two : nodes_of_three) {
+  for (const int n : d == 1   ? nodes_of_one
+                     : d == 2 ? nodes_of_two
+                     : d == 3 ? nodes_of_three
+                              : nodes_of_four) {
     std::optional<Series> series = trial.series(n);
     if (!series) return {};
     const auto quick = std::make_shared<const Posterior>(

@@ -119,10 +119,12 @@ std::vector<Driver> drivers_of(const FormulaModel& model) {
   return all;
 }
 
-// Labels of the study that distinguish observations.
+// Labels of the study that distinguish observations. The status of an observation is not a label: it depends on the life
+// itself, and scores of early and late lives scatter differently under a correct distribution.
 std::vector<Label> labels_of(const FormulaModel& model) {
   std::vector<Label> all;
   for (const LabelColumn& column : model.data.labels) {
+    if (column.name == "status") continue;
     Label label{column.name, {}};
     for (const Measured& measured : model.measured) {
       for (const std::size_t row : measured.observed.rows)

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_gathered.h"
 #include "wearwell/models/formula_model/formula_hidden_path.h"
+#include "wearwell/models/formula_model/formula_row_columns.h"
 #include "wearwell/models/formula_model/linear_form.h"
 
 // Longer than others: one likelihood: rows, integrals over effects, gradients of both.
@@ -13,32 +16,6 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t rows_of_call = 256;
-
-// Columns and labels of these rows, kept while a program uses them.
-struct RowColumns {
-  std::vector<std::vector<double>> numbers;
-  std::vector<std::vector<int>> labels;
-  formula::Rows rows;
-
-  RowColumns(const FormulaModel& model, const std::vector<std::size_t>& which,
-             const formula::Program& program) {
-    rows.count = which.size();
-    for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
-      numbers.emplace_back();
-      if (!program.uses_column(c)) continue;
-      const NumberColumn* column = model.data.number(model.row_symbols.columns[c].name);
-      for (const std::size_t row : which) numbers.back().push_back(column->values[row]);
-    }
-    for (std::size_t c = 0; c < model.row_symbols.labels.size(); ++c) {
-      labels.emplace_back();
-      if (!program.uses_label(c)) continue;
-      const LabelColumn* column = model.data.label(model.row_symbols.labels[c].name);
-      for (const std::size_t row : which) labels.back().push_back(column->at[row]);
-    }
-    for (const auto& each : numbers) rows.columns.emplace_back(each);
-    for (const auto& each : labels) rows.labels.emplace_back(each);
-  }
-};
 
 void note_growth(BoundColumn& bound) {
   bound.log_growth.resize(bound.unit.size());
@@ -325,7 +302,7 @@ void UnitRows::evaluate(std::span<const double> z, std::span<const std::uint8_t>
     const std::size_t n = chunk.end - chunk.begin;
     for (std::size_t i = 0; i < n; ++i) {
       const double count = chunk.column->count[chunk.begin + i];
-      if (count > 0) value[chunk.column->unit[chunk.begin + i]] += count * value_[i];
+      if (count != 0) value[chunk.column->unit[chunk.begin + i]] += count * value_[i];
     }
     if (!sloped) return;
     fill_adjoints(chunk, nullptr);
@@ -494,9 +471,10 @@ class FormulaLikelihood : public LogDensity {
       if (const auto sum = quick_sum(scratch, x, {})) return number(*sum);
       return number(rows_->integrate(x.data()).sum());
     }
-    scratch.rows.move_to(x.data());
+    UnitRows& rows = scratch.to_sum();
+    rows.move_to(x.data());
     scratch.value.resize(model_->units.size());
-    scratch.rows.evaluate({}, all_, scratch.value, {});
+    rows.evaluate({}, all_, scratch.value, {});
     double sum = 0;
     for (const double each : scratch.value) sum += each;
     return number(sum);
@@ -515,7 +493,7 @@ class FormulaLikelihood : public LogDensity {
         model_->has_random_effects() ? number(rows_->integrate(x.data()).sum()) : value(x);
     if (!(sum > -infinity)) return sum;
     if (!model_->has_random_effects()) {
-      scratch.rows.add_gradient({}, ones_, gradient);
+      scratch.to_sum().add_gradient({}, ones_, gradient);
       return sum;
     }
     if (scratch.linear) {
@@ -640,6 +618,23 @@ FormulaRows::FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t 
   linear_ = is_linear(*model_, columns_);
   proportional_ = is_proportional(*model_, columns_);
   if (again_and_again && !linear_) tabled_ = tabled_form(*model_, columns_);
+  if (again_and_again) gathered_ = gathered_columns(*model_, columns_);
+}
+
+void FormulaRows::keep_gathered_at(const double* x) {
+  // Of the log likelihood: far below what moves a posterior, and above what rounding does to a sum of a million terms.
+  constexpr double close = 1e-4;
+  if (gathered_.empty()) return;
+  const auto sum = [&](const std::vector<BoundColumn>& columns) {
+    std::vector<double> of_unit(model_->units.size());
+    UnitRows rows(*model_, columns);
+    rows.move_to(x);
+    rows.evaluate({}, std::vector<std::uint8_t>(of_unit.size(), 1), of_unit, {});
+    return std::accumulate(of_unit.begin(), of_unit.end(), 0.0);
+  };
+  if (std::abs(sum(gathered_) - sum(columns_)) <= close) return;
+  gathered_.clear();
+  scratch_.clear();
 }
 
 const latent::UnitIntegrals& FormulaRows::integrate(const double* x) const {
@@ -667,7 +662,8 @@ const latent::UnitIntegrals& FormulaRows::integrate(const double* x) const {
 FormulaRows::Scratch& FormulaRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
-    scratch.reset(new Scratch{UnitRows(*model_, columns_), {}, {}, {}, {}, {}});
+    scratch.reset(new Scratch{UnitRows(*model_, columns_), {}, {}, {}, {}, {}, {}});
+    if (!gathered_.empty()) scratch->gathered = std::make_unique<UnitRows>(*model_, gathered_);
     if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
     if (proportional_) scratch->steps = std::make_unique<StepUnits>(scratch->rows);
     if (tabled_) {

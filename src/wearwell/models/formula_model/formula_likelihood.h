@@ -138,16 +138,25 @@ class FormulaRows {
     std::unique_ptr<TabledUnits> tabled;  ///< for a curve with one random effect
     latent::UnitIntegrals integrals;
     std::vector<double> value;
+    std::unique_ptr<UnitRows>
+        gathered;  ///< few rows for many, where there are (formula_gathered.h)
+
+    /// For sums over all rows of a law without effects.
+    UnitRows& to_sum() { return gathered ? *gathered : rows; }
   };
   /// This thread's own.
   Scratch& mine() const;
   /// For a model with random effects: integrates them out at x, into this thread's `integrals`.
   const latent::UnitIntegrals& integrate(const double* x) const;
   const FormulaModel& model() const { return *model_; }
+  /// Holds sums over gathered rows against those over all at these parameters, and sums over all from then on
+  /// where they differ. Before other threads ask.
+  void keep_gathered_at(const double* x);
+  bool is_gathered() const { return !gathered_.empty(); }
 
  private:
   std::shared_ptr<const FormulaModel> model_;
-  std::vector<BoundColumn> columns_;
+  std::vector<BoundColumn> columns_, gathered_;
   bool linear_ = false, proportional_ = false;
   std::optional<TabledForm> tabled_;
   mutable std::once_flag table_made_;

@@ -23,9 +23,9 @@
 namespace wearwell {
 namespace {
 
-using formula_model::FormulaRows;
 using formula_model::Effect;
 using formula_model::FormulaModel;
+using formula_model::FormulaRows;
 using formula_model::Measured;
 using formula_model::Observed;
 
@@ -224,11 +224,13 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   }
   study.data_rows = model->data.table.rows;
   study.data_layout = model->data.table.layout;
-  const auto rows = std::make_shared<const FormulaRows>(model, study.data_rows, true);
+  const auto bound = std::make_shared<FormulaRows>(model, study.data_rows, true);
+  const std::shared_ptr<const FormulaRows> rows = bound;
   const auto likelihood = formula_model::formula_likelihood(rows);
   formula_model::find_starts(*likelihood, model->parameters);
   std::vector<double> start;
   for (const Parameter& each : model->parameters) start.push_back(each.start);
+  bound->keep_gathered_at(start.data());
   if (!(likelihood->value(start) > -infinity)) require_numbers(*model);
 
   study.parameters = model->parameters;

@@ -23,6 +23,8 @@ using Numbers = std::vector<double>;
 // Number of conditions per plot, and number of conditions drawn in all.
 constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000;
 constexpr std::size_t curve_points = 40;
+// Maximum number of points drawn per condition: further points overlap.
+constexpr std::size_t most_points = 2000;
 constexpr Eigen::Index few_draws = 1000;
 
 // The observations by condition with the distribution of each; of many conditions those with the
@@ -207,9 +209,21 @@ class Drawing {
     marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(colour), label(g), 1, 2}));
   }
 
+  // All, or of very many so many that stand evenly apart on the paper: the outermost are all there.
+  std::vector<PlottingPosition> drawn_positions(std::size_t g) const {
+    const std::vector<PlottingPosition>& all = positions_[g];
+    if (all.size() <= most_points) return all;
+    const double apart = (height(all.back().p) - height(all.front().p)) / most_points;
+    std::vector<PlottingPosition> drawn;
+    for (const PlottingPosition& each : all) {
+      if (drawn.empty() || height(each.p) >= height(drawn.back().p) + apart) drawn.push_back(each);
+    }
+    return drawn;
+  }
+
   void add_points(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
     Numbers x, y, percent;
-    for (const PlottingPosition& each : positions_[g]) {
+    for (const PlottingPosition& each : drawn_positions(g)) {
       x.push_back(shown(each.at));
       y.push_back(height(each.p));
       percent.push_back(100 * each.p);
@@ -223,13 +237,14 @@ class Drawing {
   }
 
   std::string caption() const {
-    bool intervals = false, censored = false, none = false;
+    bool intervals = false, censored = false, none = false, thinned = false;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       for (const Response& each : groups_[g].responses) {
         intervals |= each.seen == Censoring::left || each.seen == Censoring::interval;
         censored |= each.seen == Censoring::right;
       }
       none |= positions_[g].empty();
+      thinned |= positions_[g].size() > most_points;
     }
     std::string words = paper_.straight ? "A distribution of this family is a straight line here"
                                         : fmt::format("The {} distribution is curved on this paper",
@@ -244,6 +259,7 @@ class Drawing {
     if (none)
       words +=
           " Conditions without failures, or with delayed entries and intervals, have no points.";
+    if (thinned) words += fmt::format(" At most {} points of a condition are drawn.", most_points);
     if (left_out_ > 0) {
       words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
                            left_out_ + groups_.size(), groups_.size());
