@@ -165,7 +165,7 @@ def test_what_is_no_table_is_refused_in_words(change, message):
 
 
 @pytest.mark.parametrize("options, message", [
-    ({"formula": "V k*F*s"}, "is no equation"),
+    ({"formula": "V k*F*s"}, "is not an equation"),
     ({"formula": ""}, "the formula is empty"),
     ({"formula": "W = k*F*s"}, "no left side of the formula is a column"),
     ({"formula": "V = k*F*s\nV = k"}, "gives 'V' twice"),
@@ -178,7 +178,7 @@ def test_what_is_no_table_is_refused_in_words(change, message):
     ({"priors": {**priors, "k": ww.lognormal("1e-7 mm^2/(N m)", log_sd=3)}}, "'k\\*F\\*s' is m\\^2, but must be m\\^3"),
     ({"formula": "V = (k + b)*F*s", "priors": {**priors, "b": ww.half_normal("1e-7 mm^3/(N m)")}}, "which of k, b differ"),
     ({"unit": None, "random_effects": ["k"]}, "random_effects needs unit"),
-    ({"family": "gamma"}, "no one slot"),
+    ({"family": "gamma"}, "likelihood="),
 ])
 def test_studies_that_are_none_are_refused_in_words(options, message):
     with pytest.raises(ValueError, match=message):

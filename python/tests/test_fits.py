@@ -195,7 +195,7 @@ def test_pickled_fit_of_other_data_is_refused(joint, tmp_path):
     assert (tmp_path / "joint_wear.csv").read_text() != table
     again = pickle.loads(kept)
     assert again.parameters.equals(fit.parameters)
-    with pytest.raises(ww.InputError, match="not those of this fit"):
+    with pytest.raises(ww.InputError, match="have changed since this fit"):
         again.to_netcdf(tmp_path / "fit.nc")
 
 

@@ -124,8 +124,8 @@ def test_units_lie_as_their_data_do(fit):
 @pytest.mark.parametrize("options, message", [
     ({"unit": "J99"}, "no item 'J99' \\(items: J1"), ({"b": [0]}, "b holds 0"), ({"b": [100]}, "b holds 100"), ({"b": []}, "b is empty"),
     ({"b": "B10"}, "b holds 'B10'"), ({"confidence": 95}, "confidence is 95"), ({"along": None}, "along is missing"),
-    ({"unit": "J5", "survived": "30 km"}, "J5 was seen until 50000 m already"), ({"survived": 5}, "survived: 5 has no unit"),
-    ({"unit": "J5", "survived": "3000 km"}, "J5 comes to 3000 km with a probability of 0 %"), ({"limit": None, "unit": "J5"}, "unit is of"),
+    ({"unit": "J5", "survived": "30 km"}, "the last row of J5 is at 50000 m"), ({"survived": 5}, "survived: 5 has no unit"),
+    ({"unit": "J5", "survived": "3000 km"}, "J5 survives to 3000 km with a probability of 0 %"), ({"limit": None, "unit": "J5"}, "unit needs a limit"),
     ({"survived": "3 N"}, "survived")])
 def test_lives_that_cannot_be_had_are_refused(fit, options, message):
     with pytest.raises(ValueError, match=message):
@@ -149,7 +149,7 @@ def test_kind_unit_where_nothing_differs():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
         alike = study(frame, unit=None).fit(seed=1, method="exact", draws=100, report=False)
-    with pytest.raises(ValueError, match="nothing differs"):
+    with pytest.raises(ValueError, match="needs a study with random effects"):
         alike.predict({"F": [1.0], "s": [1.0]}, kind="unit")
     one = alike.life(limit="10 mm^3", along="s", given={"F": "200 N"}, b=[20], confidence=0.8)
     assert len(one) == 1 and one.loc[0, "bound"] == one.loc[0, "b20"]  # of one thing these are one number
@@ -213,7 +213,7 @@ def test_life_of_the_worn_joint(joint):
     assert found.loc[0, "b50"] == pytest.approx(lives.quantile(0.5), rel=0.02)
     assert found.loc[0, "b5"] == pytest.approx(lives.quantile(0.05), rel=0.02)
     assert joint.life(b=[10]).loc[0, "b10"] == joint.lives.loc[0, "b10"]
-    for options, message in (({"unit": "J1"}, "leave unit out"), ({"survived": 1000}, "inspect"), ({"along": "cycles"}, "along is of")):
+    for options, message in (({"unit": "J1"}, "leave unit out"), ({"survived": 1000}, "inspect"), ({"along": "cycles"}, "leave along out")):
         with pytest.raises(ValueError, match=message):
             joint.life(**options)
 
@@ -251,7 +251,7 @@ def test_weibull_lives_given_that_they_were_reached():
         assert (outlasts(60 + value).mean() / outlasts(60).mean()) == pytest.approx(1 - p, abs=0.01)
     with pytest.raises(ValueError, match="survived is 60 without a unit"):
         life.life(survived=60)
-    with pytest.raises(ValueError, match="a new one comes to"):
+    with pytest.raises(ValueError, match="a new item survives to"):
         life.life(survived="900e6 cycles")
 
 

@@ -16,9 +16,9 @@ def tables_of(fit, models=("formula",)):
                          "fit.ask(predict) does without") from None
     study = tomllib.loads(fit.study.toml)
     if study.get("model") not in models:
-        raise InputError(f"this is asked of studies of the model {' or '.join(models)}, and this one is of the model "
-                         f"{study.get('model')}; fit.ask(predict) asks it by the keys of its [predict], and fit.quantities "
-                         "and fit.tables hold what it found")
+        raise InputError(f"this needs a study of the model {' or '.join(models)}, and this study is of the model "
+                         f"{study.get('model')}: use fit.ask(predict) with the keys of its [predict], or fit.quantities and "
+                         "fit.tables")
     return study
 
 
@@ -50,7 +50,7 @@ def axis_of(study, columns, along):
     rates = [line for line in study.get("formula", {}) if line.startswith("d(")]
     text = json.dumps(study.get("formula", {})) + json.dumps(study["likelihood"])
     if rates or "cum(" in text:
-        raise InputError("along is missing: this formula is a rate or a running sum along a column")
+        raise InputError("along is missing: the column along which the formula is a rate or a running sum")
     return None
 
 
@@ -134,15 +134,15 @@ def predict(fit, new, level, kind, along):
         raise InputError(f"new: the study has no column {unknown[0]!r} (columns: {', '.join(conditions)})")
     label = next(iter(study.get("random_effects", {})), None)
     if kind == "unit" and label is None:
-        raise InputError("kind='unit' is of studies whose parameters differ from item to item (random_effects), and nothing differs "
-                         "here: kind='next' is a measurement to come")
+        raise InputError("kind='unit' needs a study with random effects, and this one has none: kind='next' predicts a "
+                         "measurement of a new item")
     whose = _whose(frame, label) if kind == "unit" else [None] * len(frame)
     asked = [c for c in frame.columns if c in conditions]
     numbers = [c for c in asked if frame[c].dtype.kind in "iufb"]
     axis = axis_of(study, columns, along)
     if axis is None and kind == "unit" and len(numbers) > 1:
-        raise InputError(f"along is missing: the column along which it wears ({', '.join(numbers)}), since beyond its last row an "
-                         "item goes on from where it stands")
+        raise InputError(f"along is missing: the column along which it wears ({', '.join(numbers)}), since beyond its last row "
+                         "the path of an item goes on from its present value")
     axis = axis or next(iter(numbers), None)
     if axis is None or axis not in asked:
         raise InputError(f"new has no column '{axis or conditions[0]}'")
@@ -161,8 +161,8 @@ def predict(fit, new, level, kind, along):
         for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]])):
             answers[position] = found
     if not all(answers[i] for i in range(len(rows))):
-        raise InputError("where two parameters differ from item to item, or what is measured is a process, measurements of a new "
-                         "item are not predicted, its path is: fit.ask({'along': ..., 'at': ...})['quantities']")
+        raise InputError("measurements of a new item are not predicted with two random effects, or of a process; its path is: "
+                         "fit.ask({'along': ..., 'at': ...})['quantities']")
     ends = ("ci05", "ci95") if kind == "mean" else ("pi05", "pi95")
     several = len(study["likelihood"]) > 1
     columns_out = {}

@@ -1,4 +1,4 @@
-"""The text of a study that is put together of a formula model, data and priors."""
+"""The text of a study that is put together of a formula, data and priors."""
 
 import re
 
@@ -10,7 +10,7 @@ _name = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _heading = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*)\s*(?:[\[(].*)?\Z", re.DOTALL)
 _text = re.compile(r'"[^"]*"|\[[^\]]*\]')  # of an expression: texts and units are no names
 _special = ("status", "lower", "upper", "entry", "count")
-# Of a family: the parameter that the formula gives, the parameter of its scatter, and the default name of that.
+# Of a family: the slot that the formula gives, the slot of its scatter, and the default name of that parameter.
 _slots = {
     "normal": ("mean", "sd", "sigma"),
     "lognormal": ("median", "log_sd", "sigma"),
@@ -44,7 +44,7 @@ def _lines(formula):
     if isinstance(formula, dict):
         return {str(k).strip(): v for k, v in formula.items()}
     if not isinstance(formula, str):
-        raise InputError(f"the formula is {type(formula).__name__}; it is a text like 'V = k*F*s', one line an equation")
+        raise InputError(f"the formula is {type(formula).__name__}; it is a text like 'V = k*F*s', one equation a line")
     lines = {}
     for line in re.split(r"[\n;]", formula):
         if not line.strip():
@@ -52,13 +52,13 @@ def _lines(formula):
         # The first = that is no comparison.
         parts = re.split(r"(?<![<>=!])=(?!=)", line, maxsplit=1)
         if len(parts) != 2 or not parts[0].strip() or not parts[1].strip():
-            raise InputError(f"'{line.strip()}' is no equation; a formula is written like 'V = k*F*s'")
+            raise InputError(f"'{line.strip()}' is not an equation; write one like 'V = k*F*s'")
         name = parts[0].strip()
         if name in lines:
             raise InputError(f"the formula gives '{name}' twice")
         lines[name] = parts[1].strip()
     if not lines:
-        raise InputError("the formula is empty; it is written like 'V = k*F*s'")
+        raise InputError("the formula is empty; write one like 'V = k*F*s'")
     return lines
 
 
@@ -81,7 +81,7 @@ def in_python(message):
 
 
 def _middles(lines, likelihood):
-    """The formula without what says how measurements scatter about it."""
+    """The formula without the scatter of measurements about it."""
     scatters = ("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
     return list(lines.values()) + [text for slots in likelihood.values() for slot, text in slots.items() if slot not in scatters]
 
@@ -115,8 +115,8 @@ def _varies(random_effects, unit, texts, priors):
 
 def _likelihood(lines, columns, family, scatter):
     if family not in _slots:
-        raise InputError(f"family '{family}' has no single parameter for a formula; likelihood={{...}} gives all of them "
-                         f"(families with one: {', '.join(_slots)})")
+        raise InputError(f"family '{family}': a formula does not give one of its parameters; likelihood={{...}} gives all of them "
+                         f"(families that take a formula: {', '.join(_slots)})")
     middle, spread, usual = _slots[family]
     measured = [name for name in lines if name in columns]
     if not measured:

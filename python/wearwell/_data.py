@@ -222,7 +222,7 @@ def _columns(items, name, units, only, names):
             unit = unit_text(column.units)
         columns.append((heading, unit or "", _values(column, f"{name}, column '{heading}'")))
     if units:
-        raise InputError(f"{name} has no column '{next(iter(units))}', which units names (columns: {', '.join(names)})")
+        raise InputError(f"units: {name} has no column '{next(iter(units))}' (columns: {', '.join(names)})")
     return _core.table_of(name, columns)
 
 

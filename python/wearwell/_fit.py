@@ -88,7 +88,7 @@ class Fit(FitTables, FitAnswers, FitFiles):
                                        choice["seed"], 0, False, None)
             again = json.loads(run.summary())
             if again["data"]["fingerprint"] != self.summary["data"]["fingerprint"]:
-                raise InputError(f"the data of {self.study!r} are not those of this fit any more")
+                raise InputError(f"the data of {self.study!r} have changed since this fit")
             self._run = run
         return self._run
 

@@ -27,13 +27,13 @@ def _levels(b, confidence):
     return [float(each) for each in dict.fromkeys(b)], float(confidence)
 
 
-def _of_formula(study, limit, unit, survived, along):
-    """The keys of [predict] that ask it of a study of a formula model."""
+def _of_law(study, limit, unit, survived, along):
+    """The keys of [predict] for a study of a formula."""
     table = {} if survived is None else {"survived": _toml.quantity(survived, "survived")}
     if limit is None:
         if unit is not None:
-            raise InputError("unit is of lives to a limit, fit.life(limit=..., unit=...): where lives are what is measured, each is "
-                             "known, and those to come are of the next item")
+            raise InputError("unit needs a limit, fit.life(limit=..., unit=...): where the data are lives, the life of each item is "
+                             "known, and fit.life predicts that of the next one: leave unit out")
         measured = next(iter(study["likelihood"]))
         shown = columns_of(study)[measured]
         if survived is not None and not isinstance(table["survived"], str) and shown not in ("", "1"):
@@ -50,7 +50,7 @@ def _of_formula(study, limit, unit, survived, along):
     if axis is None:
         raise InputError(f"along is missing: the column along which it wears ({', '.join(conditions_of(study, columns))})")
 
-    def named(key):  # what is measured is no name in expressions, but of a process; its formula is
+    def named(key):  # expressions do not name what is measured, but that of a process
         slots = study["likelihood"].get(key, {})
         return key if "family" in slots and slots["family"].endswith("process") else slots.get("mean", slots.get("median", key))
 
@@ -60,14 +60,14 @@ def _of_formula(study, limit, unit, survived, along):
 def _of_preset(study, limit, unit, survived, along):
     model = study["model"]
     if unit is not None:
-        raise InputError(f"unit is of studies of a formula model whose parameters differ from item to item; a study of the model {model} predicts "
-                         "the next one: leave unit out")
+        raise InputError(f"unit needs a study of a formula with random effects; the model {model} predicts the next item: leave "
+                         "unit out")
     if survived is not None:
-        raise InputError(f"survived is of studies of a formula model; of the model {model} "
-                         + ("use fit.ask(predict) with survival_to for the share that outlasts a life" if model == "sn" else
+        raise InputError(f"survived needs a study of a formula; for the model {model} "
+                         + ("fit.ask(predict) with survival_to gives the probability of survival" if model == "sn" else
                             "fit.summary['life'] has the time within which to inspect"))
     if along is not None:
-        raise InputError(f"along is of studies of a formula model; lives of the model {model} have their axis")
+        raise InputError(f"along needs a study of a formula; lives of the model {model} have their axis: leave along out")
     table = {k: v for k, v in study.get("predict", {}).items() if k in _kept[model]}
     if model == "sn":
         if limit is not None:
@@ -95,8 +95,8 @@ def _row(each, unit=None):
 def _require_survival(rows, what, survived):
     for row in rows:
         if row["name"].startswith("survival to ") and not row["q50"] >= _least:
-            raise InputError(f"survived: {what} comes to {survived} with a probability of {row['q50']:.2g} % by this fit; lives from "
-                             "then on are known where it is more than 0.1 %")
+            raise InputError(f"survived: {what} survives to {survived} with a probability of {row['q50']:.2g} %; lives from there on "
+                             "need more than 0.1 %")
 
 
 def life(fit, limit, b, confidence, unit, survived, along, given):
@@ -130,12 +130,12 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
         begins = [row["at"] for row in rows if row["name"] == wanted and (mine(row) or row["of"].startswith("new "))]
         if len(set(at.rsplit("from ", 1)[-1] for at in begins)) > 1:
             last = next(row["at"] for row in rows if row["name"] == wanted and mine(row)).rsplit("from ", 1)[-1]
-            raise InputError(f"survived: {unit} was seen until {last.removesuffix(' on')} already, and {survived} lies before: leave "
-                             "survived out, what remains counts from its last row")
+            raise InputError(f"survived: the last row of {unit} is at {last.removesuffix(' on')}, and {survived} lies before: leave survived "
+                             "out; the remaining life counts from the last row")
     rows = [row for row in rows if mine(row) and (row["name"] == wanted or row["name"].startswith("survival to ")
                                                   or (_b_life.match(row["name"]) and row["name"].endswith(" " + wanted)
                                                       and ("remaining" in row["name"]) == (wanted != "life")))]
-    _require_survival(rows, unit if unit is not None else "a new one", survived)
+    _require_survival(rows, unit if unit is not None else "a new item", survived)
     # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
     one = formula and limit is not None and (unit is not None or not ("random_effects" in study or any(
         slots["family"].endswith("process") for slots in study["likelihood"].values()))) or study["model"] == "archard-joint"

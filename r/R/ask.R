@@ -14,8 +14,8 @@ ww_ask <- function(fit, predict, level = 0.9) {
 keys_of <- function(fit, models = "formula") {
   study <- core(C_keys, fit$study$text)
   if (!isTRUE(study$model %in% models)) {
-    stop_input("this is asked of studies of the model ", paste(models, collapse = " or "), ", and this one is of the model ", study$model,
-               "; ww_ask(fit, predict) asks it by the keys of its [predict], and fit$quantities and fit$tables hold what it found")
+    stop_input("this needs a study of the model ", paste(models, collapse = " or "), ", and this study is of the model ", study$model,
+               ": use ww_ask(fit, predict) with the keys of its [predict], or fit$quantities and fit$tables")
   }
   study
 }
@@ -43,7 +43,7 @@ axis_of <- function(study, units, along) {
   }
   texts <- c(unlist(study$formula), unlist(study$likelihood))
   if (any(startsWith(c(names(study$formula), ""), "d(")) || any(grepl("cum(", texts, fixed = TRUE))) {
-    stop_input("along is missing: this formula is a rate or a running sum along a column")
+    stop_input("along is missing: the column along which the formula is a rate or a running sum")
   }
   NULL
 }
@@ -106,8 +106,8 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   if (length(unknown)) stop_input("newdata: the study has no column '", unknown[1], "' (columns: ", words(conditions), ")")
   label <- names(study$random_effects)[1]
   if (kind == "unit" && is.null(label)) {
-    stop_input("kind = 'unit' is of studies whose parameters differ from item to item (random_effects), and nothing differs here: ",
-               "kind = 'next' is a measurement to come")
+    stop_input("kind = 'unit' needs a study with random effects, and this one has none: kind = 'next' predicts a measurement of ",
+               "a new item")
   }
   whose <- if (kind == "unit") whose_of(newdata, label) else rep(NA_character_, nrow(newdata))
   asked <- intersect(names(newdata), conditions)
@@ -139,8 +139,8 @@ predictions_at <- function(fit, newdata, asked, axis, units, level, kind, whose,
     answers[places] <- answers_of(fit, question, level, whose[places[1]])
   }
   if (!all(lengths(answers) > 0)) {
-    stop_input("where two parameters differ from item to item, or what is measured is a process, measurements of a new item are not ",
-               "predicted, its path is: ww_ask(fit, list(along = ..., at = ...))$quantities")
+    stop_input("measurements of a new item are not predicted with two random effects, or of a process; its path is: ",
+               "ww_ask(fit, list(along = ..., at = ...))$quantities")
   }
   ends <- if (kind == "mean") c("ci05", "ci95") else c("pi05", "pi95")
   result <- data.frame(row.names = rownames(newdata))

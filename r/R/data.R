@@ -54,7 +54,7 @@ table_of <- function(data, name = "data", units = NULL, only = NULL) {
   require_columns(data, name)
   headings <- names(data)
   unknown <- setdiff(names(units), headings)
-  if (length(unknown)) stop_input(name, " has no column '", unknown[1], "', which units names (columns: ", words(headings), ")")
+  if (length(unknown)) stop_input("units: ", name, " has no column '", unknown[1], "' (columns: ", words(headings), ")")
   taken <- if (is.null(only)) headings else headings[headings %in% only]
   each_unit <- vapply(taken, function(heading) {
     if (heading %in% names(units)) units[[heading]] else if (inherits(data[[heading]], "units")) units_of(data[[heading]]) else ""

@@ -166,7 +166,7 @@ run_again <- function(fit) {
     choice$seed <- seed_text(if (nzchar(choice$seed)) choice$seed else fit$seed)
     run <- run_of(fit$study, choice, 0L, fit$report, NULL)
     if (core(C_summary, run)$data$fingerprint != fit$summary$data$fingerprint) {
-      stop_input("the data of '", fit$study$shown, "' are not those of this fit any more")
+      stop_input("the data of '", fit$study$shown, "' have changed since this fit")
     }
     live$address <- run
   }

@@ -16,14 +16,14 @@ require_levels <- function(b, confidence) {
   }
 }
 
-# The keys of [predict] that ask it of a study of a formula model.
-asked_of_formula <- function(study, limit, unit, survived, along) {
+# The keys of [predict] for a study of a formula.
+asked_of_law <- function(study, limit, unit, survived, along) {
   question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
   units <- column_units(study)
   if (is.null(limit)) {
     if (!is.null(unit)) {
-      stop_input("unit is of lives to a limit, ww_life(fit, limit = ..., unit = ...): where lives are what is measured, each is known, ",
-                 "and those to come are of the next item")
+      stop_input("unit needs a limit, ww_life(fit, limit = ..., unit = ...): where the data are lives, the life of each item is ",
+                 "known, and ww_life predicts that of the next one: leave unit out")
     }
     measured <- names(study$likelihood)[1]
     shown <- units[[measured]]
@@ -42,7 +42,7 @@ asked_of_formula <- function(study, limit, unit, survived, along) {
   if (is.null(axis)) {
     stop_input("along is missing: the column along which it wears (", words(conditions_of(study, units)), ")")
   }
-  # What is measured is no name in expressions, but of a process; its formula is.
+  # Expressions do not name what is measured, but that of a process.
   of <- vapply(names(limit), function(name) {
     slots <- study$likelihood[[name]]
     if (is_process(slots)) name else if (!is.null(slots$mean)) slots$mean else if (!is.null(slots$median)) slots$median else name
@@ -56,15 +56,14 @@ is_process <- function(slots) isTRUE(endsWith(as.character(slots$family), "proce
 asked_of_preset <- function(study, limit, unit, survived, along) {
   model <- study$model
   if (!is.null(unit)) {
-    stop_input("unit is of studies of a formula model whose parameters differ from item to item; one of the model ", model,
-               " predicts the next one: leave unit out")
+    stop_input("unit needs a study of a formula with random effects; the model ", model, " predicts the next item: leave unit out")
   }
   if (!is.null(survived)) {
-    stop_input("survived is of studies of a formula model; of the model ", model, if (model == "sn")
-      " use ww_ask(fit, predict) with survival_to for the share that outlasts a life" else
+    stop_input("survived needs a study of a formula; for the model ", model, if (model == "sn")
+      " ww_ask(fit, predict) with survival_to gives the probability of survival" else
       " fit$summary$life has the time within which to inspect")
   }
-  if (!is.null(along)) stop_input("along is of studies of a formula model; lives of the model ", model, " have their axis")
+  if (!is.null(along)) stop_input("along needs a study of a formula; lives of the model ", model, " have their axis: leave along out")
   question <- study$predict[intersect(names(study$predict), kept_of[[model]])]
   if (model == "sn") {
     if (!is.null(limit)) stop_input("limit is of wear; a life of an S-N study ends with failure: leave limit out")
@@ -102,7 +101,7 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
   keep <- mine & (rows$name == wanted | startsWith(rows$name, "survival to ") | of_all)
   rows <- rows[keep, ]
   of_all <- of_all[keep]
-  require_survival(rows, if (is.null(unit)) "a new one" else unit, survived)
+  require_survival(rows, if (is.null(unit)) "a new item" else unit, survived)
   # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
   spread <- function() !is.null(study$random_effects) || any(vapply(study$likelihood, is_process, NA))
   one <- study$model == "archard-joint" || (formula && !is.null(limit) && (!is.null(unit) || !spread()))
@@ -139,14 +138,14 @@ require_after <- function(rows, wanted, mine, is_new, unit, survived) {
   begins <- sub("^.*from ", "", rows$at[rows$name == wanted & (mine | is_new)])
   if (length(unique(begins)) < 2) return()
   last <- sub(" on$", "", sub("^.*from ", "", rows$at[rows$name == wanted & mine][1]))
-  stop_input("survived: ", unit, " was seen until ", last, " already, and ", survived, " lies before: leave survived out, what remains ",
-             "counts from its last row")
+  stop_input("survived: the last row of ", unit, " is at ", last, ", and ", survived, " lies before: leave survived out; the remaining ",
+             "life counts from the last row")
 }
 
 require_survival <- function(rows, what, survived) {
   rare <- startsWith(rows$name, "survival to ") & !(rows$q50 >= least_survival)
   if (any(rare)) {
-    stop_input("survived: ", what, " comes to ", survived, " with a probability of ", format(rows$q50[rare][1], digits = 2),
-               " % by this fit; lives from then on are known where it is more than 0.1 %")
+    stop_input("survived: ", what, " survives to ", survived, " with a probability of ", format(rows$q50[rare][1], digits = 2),
+               " %; lives from there on need more than 0.1 %")
   }
 }

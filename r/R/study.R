@@ -1,7 +1,7 @@
-# Studies: from a file, from text with tables in memory, or put together of a formula model, data and priors.
+# Studies: from a file, from text with tables in memory, or put together of a formula, data and priors.
 
 special <- c("status", "lower", "upper", "entry", "count")
-# Of a family: the parameter that the formula gives, the parameter of its scatter, and the default name of that.
+# Of a family: the slot that the formula gives, the slot of its scatter, and the default name of that parameter.
 slots <- list(
   normal = c("mean", "sd", "sigma"),
   lognormal = c("median", "log_sd", "sigma"),
@@ -27,25 +27,25 @@ names_in <- function(x) {
 
 law_lines <- function(formula) {
   if (!is.null(names(formula)) && (is.list(formula) || is.character(formula))) return(stats::setNames(as.list(formula), trimws(names(formula))))
-  if (!is.character(formula) || anyNA(formula)) stop_input("the formula is ", kind_of(formula), "; it is a text like 'V = k*F*s', one line an equation")
+  if (!is.character(formula) || anyNA(formula)) stop_input("the formula is ", kind_of(formula), "; it is a text like 'V = k*F*s', one equation a line")
   lines <- list()
   for (line in unlist(strsplit(formula, "[\n;]"))) {
     if (trimws(line) == "") next
     at <- regexpr("(?<![<>=!])=(?!=)", line, perl = TRUE)  # the first = that is no comparison
     name <- trimws(substr(line, 1, at - 1))
     side <- trimws(substr(line, at + 1, nchar(line)))
-    if (at < 0 || name == "" || side == "") stop_input("'", trimws(line), "' is no equation; a formula is written like 'V = k*F*s'")
+    if (at < 0 || name == "" || side == "") stop_input("'", trimws(line), "' is not an equation; write one like 'V = k*F*s'")
     if (name %in% names(lines)) stop_input("the formula gives '", name, "' twice")
     lines[[name]] <- side
   }
-  if (!length(lines)) stop_input("the formula is empty; it is written like 'V = k*F*s'")
+  if (!length(lines)) stop_input("the formula is empty; write one like 'V = k*F*s'")
   lines
 }
 
 likelihood_of <- function(lines, columns, family, scatter) {
   if (!is_path(family) || !family %in% names(slots)) {
-    stop_input("family ", shown_value(family), " has no single parameter for a formula; likelihood = list(...) gives all of them (families with ",
-               "one: ", words(names(slots)), ")")
+    stop_input("family ", shown_value(family), ": a formula does not give one of its parameters; likelihood = list(...) gives all of them ",
+               "(families that take a formula: ", words(names(slots)), ")")
   }
   slot <- slots[[family]]
   measured <- intersect(names(lines), names(columns))

@@ -38,7 +38,7 @@ test_that("measurements of a joint that was seen lie where its own rate says", {
   refused(predict(fit, data.frame(F = 300, s = 6e4), kind = "unit", along = "s"), "newdata has no column 'joint'")
   refused(predict(fit, new, kind = "unit"), "along is missing: the column along which it wears (F, s)")
   alone <- quiet(ww_fit(of_a_formula(), seed = 1, method = "exact", report = FALSE))
-  refused(predict(alone, data.frame(F = 300, s = 6e4), kind = "unit"), "nothing differs here")
+  refused(predict(alone, data.frame(F = 300, s = 6e4), kind = "unit"), "needs a study with random effects")
 })
 
 test_that("lives to a limit, of a new joint and of those seen", {
@@ -70,8 +70,8 @@ test_that("lives to a limit, of a new joint and of those seen", {
   refused(asked(b = numeric()), "b is numeric(0)")
   refused(asked(b = "B10"), "b is \"B10\"")
   refused(asked(confidence = 95), "confidence is 95")
-  refused(asked(unit = "J5", survived = "30 km"), "J5 was seen until 50000 m already")
-  refused(ww_life(fit, unit = "J5"), "unit is of lives to a limit")
+  refused(asked(unit = "J5", survived = "30 km"), "the last row of J5 is at 50000 m")
+  refused(ww_life(fit, unit = "J5"), "unit needs a limit")
 })
 
 test_that("lives of a joint's own study", {
@@ -82,8 +82,8 @@ test_that("lives of a joint's own study", {
   expect_identical(c(found$b1, found$b10), c(fit$lives$b1, fit$lives$b10))
   sooner <- ww_life(fit, limit = "50 mm^3", b = 10)
   expect_lt(sooner$b10, found$b10)
-  refused(ww_life(fit, unit = "J1"), "unit is of studies of a formula model")
-  refused(ww_life(fit, along = "cycles"), "along is of studies of a formula model")
+  refused(ww_life(fit, unit = "J1"), "unit needs a study of a formula")
+  refused(ww_life(fit, along = "cycles"), "along needs a study of a formula")
 })
 
 test_that("any study is asked by its own keys", {
@@ -91,5 +91,5 @@ test_that("any study is asked by its own keys", {
   later <- ww_ask(fit, list(cycles = c(30000, 20585)))
   expect_identical(later$predictions[[2]], fit$summary$predictions[[1]])
   refused(ww_ask(fit, list(cykles = list(1))), "cykles")
-  refused(predict(fit, data.frame(cycles = 1)), "asked of studies of the model formula")
+  refused(predict(fit, data.frame(cycles = 1)), "this needs a study of the model formula")
 })

@@ -80,7 +80,7 @@ test_that("wrong tables are refused", {
 })
 
 test_that("formulas and priors that are none are refused", {
-  refused(ww_study("k*F*s", joints(), priors = list()), "is no equation")
+  refused(ww_study("k*F*s", joints(), priors = list()), "is not an equation")
   refused(ww_study("", joints(), priors = list()), "the formula is empty")
   refused(ww_study(3, joints(), priors = list()), "the formula is double")
   refused(ww_study("V = k*F*s", joints()), "priors is missing")

@@ -150,7 +150,7 @@ test_that("a kept fit of data that changed is refused", {
   writeLines(sub("44.41", "45.41", readLines(table), fixed = TRUE), table)
   again <- readRDS(file)
   expect_identical(again$parameters, fit$parameters)
-  refused(ww_netcdf(again, tempfile()), "not those of this fit")
+  refused(ww_netcdf(again, tempfile()), "have changed since this fit")
 })
 
 test_that("forked children fit too, to the same bits", {
