@@ -335,7 +335,7 @@ TEST_F(BearingStudy, RefusesDepthsBelowAtomsWithTheLikelyUnit) {
   write("data.csv", "b,c,p,n,d\nA,30,1,1e5,1e-11\nA,30,1,2e5,1e-11\nB,30,1,1e5,1e-11\n");
   EXPECT_THAT(refusal(study),
               HasSubstr("column 'd' (data.columns.depth): the largest depth is 1e-11 um, less than "
-                        "the size of an atom (1e-10 m); no unit of length makes a wear depth"));
+                        "the size of an atom (1e-10 m); no unit of length makes it a wear depth"));
   write("data.csv", "b,c,p,n,d\nA,30,1,1e5,1.5e-5\nA,30,1,2e5,3e-5\nB,30,1,1e5,2e-5\n");
   EXPECT_THAT(refusal(study), HasSubstr("in m it would be 30 um: check the unit"));
 }

@@ -430,7 +430,7 @@ TEST_F(Clutch, FitRefusesBadCampaigns) {
   auto bad = w;
   bad.insert(bad.begin() + 3, w[2]);  // row 3 repeats row 2
   EXPECT_THAT(fit_refusal(c, bad),
-              HasSubstr("weighings.csv, row 3: plate 1 was weighed twice at cycle 10"));
+              HasSubstr("weighings.csv, row 3: plate 1 is weighed twice at cycle 10"));
   bad = w;
   bad[3] = "1,30,run-in,260";
   EXPECT_THAT(fit_refusal(c, bad),

@@ -124,8 +124,9 @@ TEST_F(FatigueDriver, CurvesOfForcesAndStrainsTakeTheirLikeOnly) {
   EXPECT_THAT(refused("force stress.csv"),
               AllOf(HasSubstr("MPa"), HasSubstr("dimension of N"), HasSubstr("--scale")));
   EXPECT_THAT(refused("strain stress.csv"), AllOf(HasSubstr("MPa"), HasSubstr("as a strain")));
-  EXPECT_THAT(refused("stress force.csv"), AllOf(HasSubstr("no stress"), HasSubstr("0.35 MPa/N")));
-  EXPECT_THAT(refused("force stress.csv --scale '2 MPa/kN'"), HasSubstr("no load in N"));
+  EXPECT_THAT(refused("stress force.csv"),
+              AllOf(HasSubstr("not a stress"), HasSubstr("0.35 MPa/N")));
+  EXPECT_THAT(refused("force stress.csv --scale '2 MPa/kN'"), HasSubstr("not a load in N"));
   // The other way about: a measured stress makes the force that the study knows.
   expect_same_lives(result("fatigue life force stress.csv --scale '1 kN/MPa'"), expected, drawn);
 }
@@ -147,7 +148,7 @@ TEST_F(FatigueDriver, RefusesLoadsThatReadTwoWays) {
   write("counted.csv", "force_range [kN],cycles\n300,10\n");
   EXPECT_THAT(refused("res counted.csv --unit MPa"),
               AllOf(HasSubstr("kN"), HasSubstr("--unit says MPa")));
-  EXPECT_THAT(refused("res counted.csv"), HasSubstr("no stress"));
+  EXPECT_THAT(refused("res counted.csv"), HasSubstr("not a stress"));
   EXPECT_LE(run("fatigue life res counted.csv --scale '2 MPa/kN'").exit_code, 1);
   write("stress.csv", "stress [MPa]\n-300\n300\n-300\n");
   EXPECT_THAT(refused("res stress.csv --rule haibach --knee 150"),

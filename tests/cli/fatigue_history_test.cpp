@@ -286,7 +286,7 @@ TEST_F(FatigueLife, RefusesWhatMayBeMisread) {
   write("strain.csv", "strain [um/m]\n100\n900\n100\n");
   EXPECT_THAT(refused("life res strain.csv"), AllOf(HasSubstr("strain"), HasSubstr("--scale")));
   EXPECT_EQ(run("life res strain.csv --scale '206 GPa'").exit_code, 0);
-  EXPECT_THAT(refused("life res strain.csv --scale '206 N'"), HasSubstr("no stress"));
+  EXPECT_THAT(refused("life res strain.csv --scale '206 N'"), HasSubstr("not a stress"));
   write("bare.csv", "load\n100\n900\n100\n");
   EXPECT_THAT(refused("life res bare.csv"), HasSubstr("no unit"));
   EXPECT_THAT(refused("life res bare.csv --unit MPa --rule haibach"), HasSubstr("--knee"));

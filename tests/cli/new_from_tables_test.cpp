@@ -89,7 +89,7 @@ TEST_F(NewFromTables, WearAgainstDistanceInInches) {
              "--limit '10 mils'");
   EXPECT_THAT(said, AllOf(HasSubstr("distance: column 'Sliding distance (km)' in km"),
                           HasSubstr("depth: column 'Wear depth (mils)' in mils"),
-                          HasSubstr("taken not to depend on 'Temp (degF)'")));
+                          HasSubstr("assumed not to depend on 'Temp (degF)'")));
   EXPECT_NEAR(middle("rate"), 0.5, 0.05);
   EXPECT_THAT(content("out/study.toml"), HasSubstr("limit = { wear = \"10 mils\" }"));
 }
@@ -125,7 +125,7 @@ TEST_F(NewFromTables, AColumnForEachUnit) {
                                   "750,2.11,1.90,1.73,1.36\n1000,2.72,2.30,1.99,\n");
   EXPECT_THAT(
       said, AllOf(HasSubstr("columns Laser 1 [%], Laser 2 [%], Laser 3 [%], Laser 4 [%] are units "
-                            "with a"),
+                            "with one column each"),
                   HasSubstr("unit: column 'unit'"), HasSubstr("in %")));
   EXPECT_EQ(result_["data"]["rows"], 15);
   EXPECT_NEAR(middle("rate"), 0.0024, 0.0006);

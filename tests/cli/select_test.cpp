@@ -193,7 +193,7 @@ TEST_F(Select, NamesWhatIsWrongInOneSentence) {
   EXPECT_THAT(refusal(data + " --inputs Td"), HasSubstr("--response is missing"));
   EXPECT_THAT(refusal(data + " --response w"), HasSubstr("--inputs (with --degree) or --terms"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --terms Td"), HasSubstr("give one"));
-  EXPECT_THAT(refusal(data + " --response w --terms Td --degree 2"), HasSubstr("--degree goes"));
+  EXPECT_THAT(refusal(data + " --response w --terms Td --degree 2"), HasSubstr("--degree applies"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td,w"),
               HasSubstr("'w' is the response; it cannot be a term"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td,Td"), HasSubstr("'Td' is given twice"));

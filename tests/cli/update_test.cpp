@@ -230,7 +230,7 @@ limit = { depth = "100 um" }
 
   write("slip.csv", "machine,hours,wear_um\nM5,450,52\n");
   EXPECT_THAT(run("life both --unit M5 --readings slip.csv").out,
-              HasSubstr("look at machine M5 at hours = 450: as far off as that"));
+              HasSubstr("check machine M5 at hours = 450: two-sided predictive p-value"));
 }
 
 TEST_F(UpdateCommand, TellsWhatContradictsLoudly) {

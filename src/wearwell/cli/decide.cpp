@@ -51,8 +51,7 @@ double amount(const std::string& option, const std::string& text, std::string& c
     first = false;
   } else if (said != currency) {
     throw InputError(fmt::format(
-        "{}: '{}' is in another currency than '{}'; give all amounts in one currency, or all "
-        "without",
+        "{}: '{}' is in another currency than '{}'; give all amounts in one, or all without",
         option, printable(text), currency.empty() ? "no currency" : printable(currency)));
   }
   return value;

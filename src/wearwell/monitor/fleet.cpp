@@ -26,8 +26,7 @@ struct Fleet::Unit {
 
 namespace {
 
-/// The displayed curve: the forecast itself is a hundred times as large, and there is one for every
-/// unit.
+/// The displayed curve: a forecast is a hundred times as large, and every unit has one.
 std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
     const prognosis::WeightedLives& lives, const TrackerUnits& reported) {
   auto curve = std::make_shared<std::vector<UnitDetail::CurvePoint>>();
@@ -90,8 +89,7 @@ Fleet::Unit& Fleet::unit_named(const std::string& name) {
   return *unit;
 }
 
-// The age of readings from before the start of this program follows the system clock; from then on
-// a monotonic clock.
+// Ages of readings follow the system clock until the program starts, then a monotonic clock.
 void Fleet::hear(Unit& unit, std::int64_t received_ms) {
   const std::int64_t age = live_ ? 0 : std::max<std::int64_t>(0, unix_ms_now() - received_ms);
   unit.heard = Clock::now() - std::chrono::milliseconds(age);
@@ -130,8 +128,7 @@ std::size_t Fleet::apply() {
   place_ = readings.back().place;
   using std::chrono::milliseconds;
   std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
-  // No reading from before the start is newer than the start, even if the system clock has jumped
-  // since.
+  // No reading from before the start is newer than it, even if the system clock has jumped.
   if (live_)
     lag = std::min<std::int64_t>(
         lag, std::chrono::duration_cast<milliseconds>(Clock::now() - all_known_).count());

@@ -179,7 +179,7 @@ TEST_F(CampaignTables, WhatCannotBeFilled) {
   EXPECT_EQ(some.cycles[99].energy, 1e4 + 99);
   EXPECT_THAT(some.filled,
               testing::ElementsAre("plate 1: 3 of 100 cycles (3 %) were not logged; each "
-                                   "counts as the cycle before it"));
+                                   "counts as a copy of the previous cycle"));
   // 3 of 40 are more than can be made up.
   Campaign many = campaign;
   std::erase_if(many.cycles, [](const Cycle& c) { return c.number > 70 && c.number < 74; });

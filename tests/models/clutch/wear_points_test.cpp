@@ -79,7 +79,7 @@ std::string refused(const Change& change) {
 
 TEST(WornBlocks, RefusesWhatCannotBe) {
   EXPECT_THAT(refused([](Campaign& c) { c.weighings[2].cycle = 2; }),
-              HasSubstr("weighings, row 3: plate 7 was weighed twice at cycle 2"));
+              HasSubstr("weighings, row 3: plate 7 is weighed twice at cycle 2"));
   EXPECT_THAT(refused([](Campaign& c) { std::swap(c.weighings[1], c.weighings[2]); }),
               HasSubstr("row 3: plate 7: the weighing at cycle 2 follows that at cycle 4"));
   EXPECT_THAT(refused([](Campaign& c) { c.weighings[2].block = Block::start; }),

@@ -140,7 +140,7 @@ TEST_F(CExported, RefusesWhatHasNoC) {
   EXPECT_THAT(refusal(with("family = \"normal\"\nmean = \"wear\"\nsd = \"sigma\"",
                            "family = \"gamma-process\"\nmean = \"wear\"\nscale = \"sigma\""),
                       rows_of(1)),
-              HasSubstr("random steps"));
+              HasSubstr("random increments"));
   EXPECT_THAT(refusal(with("wear = \"b * time\"", "\"d(wear)/d(time)\" = \"b\""), rows_of(1)),
               HasSubstr("depends on earlier rows"));
   EXPECT_THAT(refusal(with("family = \"normal\"\nmean = \"wear\"\nsd = \"sigma\"",

@@ -52,7 +52,7 @@ void print_text(const Answer& a) {
     print_row("depth", fmt::format("{:.6g} mm", s.delta * a.radius() * 1e3));
   if (a.scar) {
     print_row("scar width", fmt::format("{:.6g} mm", a.scar->width * a.radius() * 1e3));
-    print_row("centre angle of the scar",
+    print_row("center angle of the scar",
               fmt::format("{:.4g} deg", a.scar->centre_angle * 180 / pi));
   }
   if (const Bearing mean = a.given.mean(); a.question.wanted == Quantity::time)
@@ -91,19 +91,19 @@ void add_bearing_command(CLI::App& app) {
     CLI::App* sub = command->add_subcommand(question.command, question.help);
     const auto options = std::make_shared<Options>();
     add_inputs(*sub, options->asked.inputs, question.unused);
-    sub->add_option("--unit", options->asked.unit, "unit of the answer")->type_name("UNIT");
+    sub->add_option("--unit", options->asked.unit, "Unit of the answer")->type_name("UNIT");
     if (question.wanted == Quantity::depth) {
-      sub->add_option("--limit", options->asked.limit, "allowable depth: reports the margin to it")
+      sub->add_option("--limit", options->asked.limit, "Allowable depth: reports the margin to it")
           ->type_name("'NUMBER m'");
     }
-    sub->add_option("--draws", options->asked.draws, "random draws for the interval")
+    sub->add_option("--draws", options->asked.draws, "Random draws for the interval")
         ->type_name("N")
         ->capture_default_str();
-    sub->add_option("--seed", options->asked.seed, "seed of the draws")
+    sub->add_option("--seed", options->asked.seed, "Seed of the draws")
         ->check(seed_number())
         ->type_name("N")
         ->capture_default_str();
-    sub->add_flag("--json", options->json, "print one JSON object");
+    sub->add_flag("--json", options->json, "Print one JSON object");
     sub->footer(fmt::format(
         "Every value has a unit. An uncertainty gives the answer an interval:\n"
         "  '0.100 +- 0.005 mm' (standard deviation), '1 MPa +- 5 %',\n"

@@ -8,7 +8,7 @@ namespace wearwell::bearing {
 
 void add_inputs(CLI::App& command, BearingInputs& inputs, const std::vector<Input>& hidden) {
   command
-      .add_option("--contact", inputs.contact, "stationary, journal or bushing: which part wears")
+      .add_option("--contact", inputs.contact, "Stationary, journal or bushing: which part wears")
       ->type_name("NAME");
   for (std::size_t i = 0; i < input_options.size(); ++i) {
     const InputOption& o = input_options[i];

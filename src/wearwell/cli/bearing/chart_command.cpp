@@ -165,7 +165,7 @@ void run(const ChartOptions& options) {
 
 void add_chart_command(CLI::App& bearing) {
   CLI::App* sub = bearing.add_subcommand(
-      "chart", "wear number p_a k n against depth for several clearances, as CSV or HTML");
+      "chart", "Wear number p_a k n against depth for several clearances, as CSV or HTML");
   const auto options = std::make_shared<ChartOptions>();
   options->point.contact = contact_name(Contact::stationary);
   add_inputs(*sub, options->point);
@@ -176,7 +176,7 @@ void add_chart_command(CLI::App& bearing) {
       ->type_name("LIST")
       ->capture_default_str();
   sub->add_option("-o,--output", options->file,
-                  "write FILE.html or FILE.csv instead of the terminal")
+                  "Write FILE.html or FILE.csv instead of the terminal")
       ->type_name("FILE");
   sub->footer(
       "By default it prints Figure 4 of Ligterink and de Gee (1996). For their Figure 5 run\n"

@@ -189,31 +189,31 @@ void run(const ProfileOptions& options) {
 
 void add_profile_command(CLI::App& bearing) {
   CLI::App* sub = bearing.add_subcommand(
-      "profile", "the worn area and wear rate from surface profiles before and after");
+      "profile", "The worn area and wear rate from surface profiles before and after");
   const auto options = std::make_shared<ProfileOptions>();
-  sub->add_option("--before", options->before, "file with the profile of the new surface")
+  sub->add_option("--before", options->before, "File with the profile of the new surface")
       ->type_name("FILE");
-  sub->add_option("--after", options->after, "file with the profile of the worn surface")
+  sub->add_option("--after", options->after, "File with the profile of the worn surface")
       ->type_name("FILE");
-  sub->add_option("--position", options->position, "column of positions along the surface")
+  sub->add_option("--position", options->position, "Column of positions along the surface")
       ->type_name("COLUMN")
       ->capture_default_str();
-  sub->add_option("--height", options->height, "column of heights, upward out of the material")
+  sub->add_option("--height", options->height, "Column of heights, upward out of the material")
       ->type_name("COLUMN")
       ->capture_default_str();
   sub->add_option("--position-unit", options->position_unit,
-                  "unit of the positions, if the heading has none")
+                  "Unit of the positions, if the heading has none")
       ->type_name("UNIT");
   sub->add_option("--height-unit", options->height_unit,
-                  "unit of the heights, if the heading has none")
+                  "Unit of the heights, if the heading has none")
       ->type_name("UNIT");
   sub->add_option("--flank", options->flank,
-                  "unworn length at either end (default: a fifth of the profile)")
+                  "Unworn length at either end (default: a fifth of the profile)")
       ->type_name("'NUMBER m'");
   options->bearing.contact = contact_name(Contact::stationary);
   add_inputs(*sub, options->bearing, {&Bearing::depth, &Bearing::scar_width, &Bearing::rate});
   sub->get_option("--contact")->group("");
-  sub->add_flag("--json", options->json, "print one JSON object");
+  sub->add_flag("--json", options->json, "Print one JSON object");
   sub->footer(
       "The profiles run around the bearing, across the worn region, and begin and end outside it.\n"
       "Their unworn ends align the two profiles; load and revolutions turn the area into a "

@@ -41,7 +41,7 @@ void add_compare_command(CLI::App& clutch) {
   CLI::App* command =
       clutch.add_subcommand("compare", "Compare several materials by their results");
   const auto folders = std::make_shared<std::vector<std::filesystem::path>>();
-  command->add_option("DIR", *folders, "folders that wearwell fit wrote")->required();
+  command->add_option("DIR", *folders, "Folders that wearwell fit wrote")->required();
   command->footer("Example:\n  wearwell clutch compare a-results b-results");
   command->callback([folders] {
     std::vector<std::vector<std::string>> rows = {

@@ -115,26 +115,26 @@ void add_design_command(CLI::App& clutch) {
                                             "it, and points inside it for validation");
   const auto options = std::make_shared<DesignOptions>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    command->add_option(flags[i], options->levels[i], "levels, followed by one unit")
+    command->add_option(flags[i], options->levels[i], "Levels, followed by one unit")
         ->type_name("LEVELS")
         ->capture_default_str();
     command
         ->add_option(fmt::format("--feasible-{}", flags[i] + 2), options->feasible[i],
-                     "range of the points outside (default: a tenth beyond the levels' range)")
+                     "Range of the points outside (default: a tenth beyond the levels' range)")
         ->type_name("'LOW .. HIGH UNIT'");
   }
-  command->add_option("--most-energy", options->most_energy, "feasible energy of one closing")
+  command->add_option("--most-energy", options->most_energy, "Feasible energy of one closing")
       ->type_name("'NUMBER kJ'");
-  command->add_option("--inside", options->inside, "number of validation points")
+  command->add_option("--inside", options->inside, "Number of validation points")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--outside", options->outside, "number of points beyond the levels")
+  command->add_option("--outside", options->outside, "Number of points beyond the levels")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the candidates")
+  command->add_option("--seed", options->seed, "Seed of the candidates")
       ->check(seed_number())
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "file (default: standard output)");
+  command->add_option("-o,--output", options->output, "File (default: standard output)");
   command->footer(
       "Example:\n  wearwell clutch design --torque '25, 50, 75 N m' --feasible-torque '20 .. 85 N "
       "m' "

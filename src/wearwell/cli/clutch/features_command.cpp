@@ -58,12 +58,12 @@ void add_features_command(CLI::App& clutch, int& exit_code) {
   const auto options = std::make_shared<FeatureOptions>();
   command->add_option("TRACES", options->traces, "plate, time, slip_speed, torque, temperature")
       ->required();
-  command->add_option("--torque-on", options->torque_on, "torque above which the clutch closes")
+  command->add_option("--torque-on", options->torque_on, "Torque above which the clutch closes")
       ->capture_default_str();
   command
-      ->add_option("--slip-off", options->slip_off, "slip speed below which the clutch is closed")
+      ->add_option("--slip-off", options->slip_off, "Slip speed below which the clutch is closed")
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "file (default: standard output)");
+  command->add_option("-o,--output", options->output, "File (default: standard output)");
   command->footer(
       "A closing with a gap, one that never closes, or a torque of the wrong sign is written with "
       "a flag and\n"

@@ -110,64 +110,64 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
       "fleet", "Wear of every clutch of a fleet, computed in the database that holds its cycles");
   const auto options = std::make_shared<FleetOptions>();
   command
-      ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
+      ->add_option("RESULT", options->result, "Folder that wearwell fit wrote, or its model.json")
       ->required();
   command->add_option(
       "FILES", options->files,
-      "cycles, as for wearwell clutch predict: Parquet or CSV files, or a quoted pattern");
+      "Cycles, as for wearwell clutch predict: Parquet or CSV files, or a quoted pattern");
   command
       ->add_option(
           "--engine", options->engines,
-          "the engine: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
+          "The engine: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
           "clickhouse://USER@HOST:8123/DATABASE (clickhouses:// with TLS; HOST,HOST are replicas); "
           "several databases one after the other where units are distributed over them")
       ->allow_extra_args(false)
       ->capture_default_str();
-  command->add_option("--table", options->table, "the table of cycles in a database: SCHEMA.TABLE");
+  command->add_option("--table", options->table, "The table of cycles in a database: SCHEMA.TABLE");
   command
       ->add_option("--prefix", options->prefix,
-                   "prefix of the two tables that are created in a database: SCHEMA.PREFIX")
+                   "Prefix of the two tables that are created in a database: SCHEMA.PREFIX")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for the results")
       ->capture_default_str();
   command
       ->add_option("--columns", options->columns,
-                   "names of unit, cycle, slip_speed, torque, temperature, closing_time, energy in "
+                   "Names of unit, cycle, slip_speed, torque, temperature, closing_time, energy in "
                    "the files: NAME=COLUMN or NAME=COLUMN:UNIT; and time (dates or times) or "
                    "cycles_per_day for results in days")
       ->type_name("NAME=COLUMN:UNIT");
   command->add_option("--state", options->state,
                       "DuckDB database: continue from its sums and store the new sums in it");
-  command->add_option("--level", options->levels, "wear levels in % of the worn-out volume")
+  command->add_option("--level", options->levels, "Wear levels in % of the worn-out volume")
       ->delimiter(',')
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();
   command
       ->add_option("--horizon", options->horizons,
-                   "horizons in cycles at which failures are counted (default: fractions of the "
+                   "Horizons in cycles at which failures are counted (default: fractions of the "
                    "mean so far)")
       ->delimiter(',')
       ->check(number_between(0, 1e15));
   command
       ->add_option("--days", options->days,
-                   "horizons in days at which failures are counted, with each unit's cycles per "
+                   "Horizons in days at which failures are counted, with each unit's cycles per "
                    "day, where --columns has time or cycles_per_day (default there: 30, 90, 365)")
       ->delimiter(',')
       ->check(number_between(0, 1e6));
   command->add_flag("--scatter-only", options->scatter_only,
-                    "leave out the uncertainty of map and run-in; much faster");
+                    "Leave out the uncertainty of map and run-in; much faster");
   command->add_flag("--statements", options->statements,
-                    "run the statements of wearwell clutch sql in DuckDB, as in other engines, "
+                    "Run the statements of wearwell clutch sql in DuckDB, as in other engines, "
                     "instead of the built-in loop: the same numbers, much slower");
-  command->add_option("--memory", options->memory, "memory limit of DuckDB in MB (default: half)")
+  command->add_option("--memory", options->memory, "Memory limit of DuckDB in MB (default: half)")
       ->check(CLI::Range(100L, 100'000'000L));
   command
       ->add_option("--threads", options->threads,
-                   "threads (default: all); results do not depend on the number")
+                   "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
   CLI::Option* json =
-      command->add_flag("--json", options->json, "print summary.json and nothing else");
-  command->add_flag("--quiet", options->quiet, "print nothing but errors")->excludes(json);
+      command->add_flag("--json", options->json, "Print summary.json and nothing else");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   command->footer(
       "Example:\n  wearwell fleet study-results 'cycles/*.parquet' --state sums.duckdb -o "
       "fleet-results");

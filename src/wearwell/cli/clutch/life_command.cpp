@@ -112,12 +112,12 @@ void add_life_command(CLI::App& clutch) {
   command->add_option("--torque", options->torque)->type_name("'NUMBER N m'");
   command->add_option("--temperature", options->temperature)->type_name("'NUMBER degC'");
   command->add_option("--closing-time", options->closing_time)->type_name("'NUMBER s'");
-  command->add_option("--duty", options->duty, "cycles of one repetition (format as for predict)");
-  command->add_option("--level", options->levels, "wear levels in % of the worn-out volume")
+  command->add_option("--duty", options->duty, "Cycles of one repetition (format as for predict)");
+  command->add_option("--level", options->levels, "Wear levels in % of the worn-out volume")
       ->delimiter(',')
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "Example:\n  wearwell clutch life study-results/model.json --slip-speed '1700 rpm' --torque "
       "'50 N m' \\\n    --temperature '170 degC' --closing-time '2.15 s'");

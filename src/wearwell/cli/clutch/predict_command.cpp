@@ -124,22 +124,22 @@ void add_predict_command(CLI::App& clutch, int& exit_code) {
                    "Parquet)")
       ->required();
   command->add_option("--state", options->state,
-                      "continue from this state file if it exists, and write the new state to it");
+                      "Continue from this state file if it exists, and write the new state to it");
   command->add_option("--trace", options->trace,
-                      "write volume and interval after each cycle (CSV)");
-  command->add_option("--every", options->every, "write the trace only every N cycles")
+                      "Write volume and interval after each cycle (CSV)");
+  command->add_option("--every", options->every, "Write the trace only every N cycles")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
   command->add_flag(
       "--skip-not-finite", options->skip,
-      "skip and count cycles at which the model has no finite value, instead of refusing the file");
+      "Skip and count cycles at which the model has no finite value, instead of refusing the file");
   command->add_flag("--scatter-only", options->scatter_only,
-                    "only the paper's interval, from the scatter of cycles; much faster");
+                    "Only the paper's interval, from the scatter of cycles; much faster");
   command
       ->add_option("--threads", options->threads,
-                   "threads (default: all); results do not depend on the number")
+                   "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "Example:\n  wearwell clutch predict study-results/model.json fleet.parquet --state "
       "fleet.json");

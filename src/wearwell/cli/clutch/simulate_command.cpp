@@ -50,16 +50,16 @@ void add_simulate_command(CLI::App& clutch) {
   const auto options = std::make_shared<SimulateOptions>();
   command
       ->add_option("--design", options->design,
-                   "operating points (CSV), as wearwell clutch design writes them")
+                   "Operating points (CSV), as wearwell clutch design writes them")
       ->required();
-  command->add_option("--truth", options->truth, "the true parameters (TOML)")->required();
-  command->add_option("--seed", options->seed, "seed of the campaign")
+  command->add_option("--truth", options->truth, "The true parameters (TOML)")->required();
+  command->add_option("--seed", options->seed, "Seed of the campaign")
       ->check(seed_number())
       ->capture_default_str();
-  command->add_option("--traces", options->traces, "closings whose raw traces are written")
+  command->add_option("--traces", options->traces, "Closings whose raw traces are written")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "folder for the files")->required();
+  command->add_option("-o,--output", options->output, "Folder for the files")->required();
   command->footer(
       "Writes cycles.csv, weighings.csv, traces.csv, and realized.csv with the true volumes, which "
       "a real rig cannot know.\n\n"

@@ -58,7 +58,7 @@ CLI::App* add_sql_command(CLI::App& parent) {
       "sql", "Print a fitted clutch as SQL for the database that holds a fleet's cycles");
   const auto options = std::make_shared<SqlOptions>();
   command
-      ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
+      ->add_option("RESULT", options->result, "Folder that wearwell fit wrote, or its model.json")
       ->required();
   command->add_option("--dialect", options->dialect, "SQL dialect of the database")
       ->required()
@@ -66,7 +66,7 @@ CLI::App* add_sql_command(CLI::App& parent) {
   command
       ->add_option(
           "--table", options->table,
-          "table that holds the cycles: SCHEMA.TABLE; a part in double quotes may hold dots")
+          "Table that holds the cycles: SCHEMA.TABLE; a part in double quotes may hold dots")
       ->required();
   command
       ->add_option("--columns", options->columns,
@@ -75,13 +75,13 @@ CLI::App* add_sql_command(CLI::App& parent) {
       ->type_name("NAME=COLUMN:UNIT");
   command
       ->add_option("--prefix", options->prefix,
-                   "prefix of the two tables that the statements create: SCHEMA.PREFIX")
+                   "Prefix of the two tables that the statements create: SCHEMA.PREFIX")
       ->capture_default_str();
-  command->add_option("--part", options->part, "print only one of the three statements")
+  command->add_option("--part", options->part, "Print only one of the three statements")
       ->check(one_of({"all", "setup", "query", "combine"}))
       ->capture_default_str();
   command->add_flag("--scatter-only", options->scatter_only,
-                    "only the paper's interval, from the scatter of cycles; much faster");
+                    "Only the paper's interval, from the scatter of cycles; much faster");
   command->footer(
       "Example:\n  wearwell clutch sql study-results --dialect postgresql --table fleet.cycles "
       "--columns "

@@ -13,14 +13,14 @@ CountingRule CountingOptions::rule(double class_width) const {
 void add_counting_options(CLI::App& command, CountingOptions& options,
                           const std::string& of_signal) {
   command.add_option("--column", options.signal.column,
-                     of_signal + "heading of the load (default: the only numeric column)");
-  command.add_option("--unit", options.signal.unit, "unit of the load, if its heading has none");
-  command.add_option("--method", options.method, of_signal + "how cycles are found")
+                     of_signal + "Heading of the load (default: the only numeric column)");
+  command.add_option("--unit", options.signal.unit, "Unit of the load, if its heading has none");
+  command.add_option("--method", options.method, of_signal + "How cycles are found")
       ->check(one_of({"three-point", "four-point"}))
       ->capture_default_str();
   command
       .add_option("--residual", options.residual,
-                  "unclosed ranges count as half cycles, or the history is repeated")
+                  "Unclosed ranges count as half cycles, or the history is repeated")
       ->check(one_of({"half", "repeat"}))
       ->capture_default_str();
 }

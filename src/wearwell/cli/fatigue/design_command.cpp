@@ -100,30 +100,31 @@ void add_design_command(CLI::App& fatigue, int& exit_code) {
   const auto options = std::make_shared<DesignOptions>();
   command
       ->add_option("RESULT", options->folders,
-                   "folders that wearwell fit wrote for models \"sn\" of the same tests")
+                   "Folders that wearwell fit wrote for models \"sn\" of the same tests")
       ->required()
       ->expected(2, 100);
   command
-      ->add_option("--stress", options->stresses,
-                   "alternating stress at which lives are reported, like '300 MPa'; may be repeated "
-                   "(default: levels across the tested range)")
+      ->add_option(
+          "--stress", options->stresses,
+          "Alternating stress at which lives are reported, like '300 MPa'; may be repeated "
+          "(default: levels across the tested range)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI::Option* mean =
       command->add_option("--mean-stress", options->mean_stress,
-                          "mean stress of all of them, like '100 MPa' (default: as tested)");
+                          "Mean stress of all of them, like '100 MPa' (default: as tested)");
   command
       ->add_option("--stress-ratio", options->stress_ratio,
-                   "stress ratio R, smallest over largest stress, instead of a mean stress")
+                   "Stress ratio R, smallest over largest stress, instead of a mean stress")
       ->excludes(mean);
   command
       ->add_option("--reliability", options->reliability,
-                   "reliability: share of parts that outlast the life, %")
+                   "Reliability: share of parts that outlast the life, %")
       ->check(number_between(1, 99.9999));
-  command->add_option("--confidence", options->confidence, "confidence of that reliability, %")
+  command->add_option("--confidence", options->confidence, "Confidence of that reliability, %")
       ->check(number_between(1, 99.99));
-  command->add_option("-o,--output", options->output, "folder for the page and the tables");
-  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_option("-o,--output", options->output, "Folder for the page and the tables");
+  command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "Without --reliability and --confidence: 90/90, B-basis, A-basis and 97.7/90. Weights are "
       "those of wearwell compare.\n\n"

@@ -171,40 +171,40 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
       "life", "Damage and life under a load history, as distributions, from a fitted S-N study");
   const auto options = std::make_shared<LoadLifeOptions>();
   command
-      ->add_option("RESULT", options->result, "folder that wearwell fit wrote for a model \"sn\"")
+      ->add_option("RESULT", options->result, "Folder that wearwell fit wrote for a model \"sn\"")
       ->required();
   command
       ->add_option("HISTORY", options->counting.signal.file,
-                   "one block: a signal, or counted cycles (range or amplitude, mean, cycles)")
+                   "One block: a signal, or counted cycles (range or amplitude, mean, cycles)")
       ->required();
   add_counting_options(*command, options->counting, "for a signal: ");
   command->add_option("--time", options->counting.signal.time,
-                      "for a signal: a column of times; refuses a file with missing samples and, "
+                      "For a signal: a column of times; refuses a file with missing samples and, "
                       "without --block, reports lives in h");
   command->add_option("--scale", options->scale,
-                      "factor from the load to stress, like '0.35 MPa/N'; for a strain '206 GPa'");
+                      "Factor from the load to stress, like '0.35 MPa/N'; for a strain '206 GPa'");
   command
       ->add_option(
           "--rule", options->rule,
-          "damage accumulation rule (default: elementary; original with a random fatigue limit)")
+          "Damage accumulation rule (default: elementary; original with a random fatigue limit)")
       ->check(one_of(miner_rule_names()));
   command->add_option("--knee", options->knee,
-                      "knee of the curve: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
+                      "Knee of the curve: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
   command
       ->add_option(
           "--damage-sum", options->damage_sum,
-          "damage sum at failure: a number, or a median and the factor that covers two thirds")
+          "Damage sum at failure: a number, or a median and the factor that covers two thirds")
       ->capture_default_str();
   command->add_option("--block", options->block,
-                      "use of one block: '350 km', '8 h'; lives are reported in this unit");
-  command->add_option("--b-lives", options->b_lives, "percentages failed")
+                      "Use of one block: '350 km', '8 h'; lives are reported in this unit");
+  command->add_option("--b-lives", options->b_lives, "Percentages failed")
       ->check(number_between(1e-4, 99.9999))
       ->capture_default_str();
-  command->add_option("--confidence", options->confidence, "confidence of the lower bounds, %")
+  command->add_option("--confidence", options->confidence, "Confidence of the lower bounds, %")
       ->check(number_between(1, 99.99))
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "folder for the page and the tables");
-  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_option("-o,--output", options->output, "Folder for the page and the tables");
+  command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "Rules below the knee: original no damage; haibach slope 2k - 1; liu-zenner slope (k + "
       "3.6)/2 "

@@ -123,25 +123,25 @@ void add_rainflow_command(CLI::App& fatigue) {
   const auto options = std::make_shared<RainflowOptions>();
   command
       ->add_option("FILE", options->counting.signal.file,
-                   "samples, or peaks and valleys, in a column (CSV, Parquet, ...)")
+                   "Samples, or peaks and valleys, in a column (CSV, Parquet, ...)")
       ->required();
   add_counting_options(*command, options->counting, "");
   command->add_option("--time", options->counting.signal.time,
-                      "a column of times; refuses a file with missing samples");
+                      "A column of times; refuses a file with missing samples");
   CLI::Option* bins =
-      command->add_option("--bins", options->bins, "largest number of range classes shown")
+      command->add_option("--bins", options->bins, "Largest number of range classes shown")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
   command
       ->add_option("--bin-width", options->bin_width,
-                   "width of these classes, in the unit of the load (default: a power of two)")
+                   "Width of these classes, in the unit of the load (default: a power of two)")
       ->check(number_between(1e-300, 1e150))
       ->excludes(bins);
   command->add_option("--state", options->state,
-                      "continue from this state file if it exists, and write the new state to it");
+                      "Continue from this state file if it exists, and write the new state to it");
   command->add_option("-o,--output", options->output,
-                      "folder for the page and the tables (CSV and Parquet)");
-  command->add_flag("--json", options->json, "print one JSON object");
+                      "Folder for the page and the tables (CSV and Parquet)");
+  command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "Ranges are from valley to peak: twice the amplitude.\n\n"
       "Examples:\n"

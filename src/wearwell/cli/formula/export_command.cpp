@@ -85,7 +85,7 @@ void add_sql(CLI::App& command, int& exit_code) {
       "Print SQL that computes a value of the formula with its interval for every row of a table");
   const auto options = std::make_shared<SqlOptions>();
   sql->add_option("RESULT", options->result,
-                  "folder that wearwell fit wrote for a model \"formula\"")
+                  "Folder that wearwell fit wrote for a model \"formula\"")
       ->required();
   sql->add_option("--dialect", options->dialect, "SQL dialect of the database")
       ->required()
@@ -94,23 +94,23 @@ void add_sql(CLI::App& command, int& exit_code) {
                   "SCHEMA.TABLE; a part in double quotes may hold dots")
       ->required();
   sql->add_option("--value", options->choice.value,
-                  "an expression of the formula (default: the expression that the first measured "
+                  "An expression of the formula (default: the expression that the first measured "
                   "column observes)");
-  sql->add_option("--unit", options->choice.unit, "unit of the answer");
+  sql->add_option("--unit", options->choice.unit, "Unit of the answer");
   sql->add_option("--columns", options->choice.columns,
-                  "columns of the table that have other names or units than in the study's file: "
+                  "Columns of the table that have other names or units than in the study's file: "
                   "NAME=COLUMN:UNIT")
       ->type_name("NAME=COLUMN:UNIT");
   sql->add_option("--keep", options->choice.keep,
-                  "further columns of the table to include in the answer")
+                  "Further columns of the table to include in the answer")
       ->delimiter(',');
   sql->add_option("--prefix", options->choice.prefix,
-                  "name of the table of draws that the statements create")
+                  "Name of the table of draws that the statements create")
       ->capture_default_str();
   sql->add_option("--draws", options->choice.draws,
-                  "number of draws, a multiple of 20; more draws give more precise intervals")
+                  "Number of draws, a multiple of 20; more draws give more precise intervals")
       ->capture_default_str();
-  sql->add_option("--part", options->part, "print only one of the two statements")
+  sql->add_option("--part", options->part, "Print only one of the two statements")
       ->check(one_of({"all", "setup", "query"}))
       ->capture_default_str();
   sql->footer(
@@ -133,15 +133,15 @@ void add_export_command(CLI::App& app, int& exit_code) {
                                         "remaining useful life with quantiles");
   const auto options = std::make_shared<ExportOptions>();
   c->add_option("RESULT", options->result,
-                "folder that wearwell fit wrote for a model \"formula\" with a failure threshold")
+                "Folder that wearwell fit wrote for a model \"formula\" with a failure threshold")
       ->required();
-  c->add_option("-o,--output", options->output, "folder for header, source and test")->required();
-  c->add_option("--name", options->choice.name, "prefix of the names of files and functions")
+  c->add_option("-o,--output", options->output, "Folder for header, source and test")->required();
+  c->add_option("--name", options->choice.name, "Prefix of the names of files and functions")
       ->capture_default_str();
   c->add_option("--unit", options->choice.unit,
-                "a unit of the study, conditioned on its readings (default: a new unit)");
+                "A unit of the study, conditioned on its readings (default: a new unit)");
   c->add_option("--lines", options->choice.lines,
-                "points of the posterior: more points are more precise and need more memory "
+                "Points of the posterior: more points are more precise and need more memory "
                 "(default: as in the monitor)")
       ->check(CLI::Range(16, 20000));
   c->footer(

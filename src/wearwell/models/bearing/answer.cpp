@@ -135,7 +135,7 @@ const std::vector<Question>& questions() {
        Quantity::rate,
        "m^3/(N m)",
        "m^3/(N m)",
-       "the wear rate k from a measured depth",
+       "The wear rate k from a measured depth",
        {&B::rate},
        "wearwell bearing rate --contact stationary --radius '20 mm' --clearance '20 um' \\\n"
        "    --depth '0.100 +- 0.005 mm' --pressure '1 MPa' --revolutions 1e5"},
@@ -144,7 +144,7 @@ const std::vector<Question>& questions() {
        Quantity::depth,
        "m",
        "mm",
-       "the wear depth after a number of revolutions",
+       "The wear depth after a number of revolutions",
        {&B::depth, &B::scar_width},
        "wearwell bearing depth --contact stationary --radius '10 mm' --clearance '20 um' \\\n"
        "    --rate '1e-16 m^3/(N m)' --pressure '2 MPa' --revolutions 1e6 --limit '20 um'"},
@@ -153,7 +153,7 @@ const std::vector<Question>& questions() {
        Quantity::pressure,
        "Pa",
        "MPa",
-       "the apparent pressure at which wear stays within the depth",
+       "The apparent pressure at which wear stays within the depth",
        {&B::pressure, &B::force, &B::length},
        "wearwell bearing pressure --contact bushing --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '50 um' --rate '~ lognormal(1e-16 m^3/(N m), 2e-17 m^3/(N m))' \\\n"
@@ -163,7 +163,7 @@ const std::vector<Question>& questions() {
        Quantity::length,
        "m",
        "mm",
-       "the bearing length at which wear under a force stays within the depth",
+       "The bearing length at which wear under a force stays within the depth",
        {&B::pressure, &B::length},
        "wearwell bearing length --contact stationary --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '20 um' --rate '1e-16 m^3/(N m)' --force '800 N' --revolutions 1e6"},
@@ -172,7 +172,7 @@ const std::vector<Question>& questions() {
        Quantity::revolutions,
        "rev",
        "revolutions",
-       "the life until the depth is reached: in revolutions, or in time with --speed",
+       "The life until the depth is reached: in revolutions, or in time with --speed",
        {&B::revolutions, &B::time},
        "wearwell bearing life --contact journal --radius '10 mm' --clearance '20 um' \\\n"
        "    --depth '50 +- 5 um' --rate '1e-16 m^3/(N m) +- 10 %' --pressure '2 MPa' --speed '60 "

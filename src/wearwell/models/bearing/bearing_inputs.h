@@ -21,20 +21,20 @@ struct InputOption {
   double factor = 1;  ///< from the value of the input to the solved quantity
 };
 inline constexpr std::array<InputOption, 12> input_options = {{
-    {"--radius", &Bearing::radius, "m", "radius r of the journal"},
+    {"--radius", &Bearing::radius, "m", "Radius r of the journal"},
     {"--clearance", &Bearing::clearance, "m",
-     "radial clearance: bushing radius less journal radius"},
-    {"--depth", &Bearing::depth, "m", "wear depth d"},
-    {"--scar-width", &Bearing::scar_width, "m", "width b of the scar, instead of --depth"},
-    {"--rate", &Bearing::rate, "m^3/(N m)", "wear rate k: volume per load and sliding distance"},
-    {"--pressure", &Bearing::pressure, "Pa", "apparent pressure p_a = F/(2 r L)"},
-    {"--force", &Bearing::force, "N", "radial force F, with --length instead of --pressure"},
-    {"--length", &Bearing::length, "m", "length L of the bearing"},
-    {"--revolutions", &Bearing::revolutions, "rev", "number of revolutions n"},
+     "Radial clearance: bushing radius less journal radius"},
+    {"--depth", &Bearing::depth, "m", "Wear depth d"},
+    {"--scar-width", &Bearing::scar_width, "m", "Width b of the scar, instead of --depth"},
+    {"--rate", &Bearing::rate, "m^3/(N m)", "Wear rate k: volume per load and sliding distance"},
+    {"--pressure", &Bearing::pressure, "Pa", "Apparent pressure p_a = F/(2 r L)"},
+    {"--force", &Bearing::force, "N", "Radial force F, with --length instead of --pressure"},
+    {"--length", &Bearing::length, "m", "Length L of the bearing"},
+    {"--revolutions", &Bearing::revolutions, "rev", "Number of revolutions n"},
     {"--speed", &Bearing::speed, "rev/s",
-     "speed (rpm, Hz, rad/s), with --time instead of --revolutions"},
-    {"--time", &Bearing::time, "s", "running time"},
-    {"--diameter", &Bearing::radius, "m", "diameter of the journal, instead of --radius", 0.5},
+     "Speed (rpm, Hz, rad/s), with --time instead of --revolutions"},
+    {"--time", &Bearing::time, "s", "Running time"},
+    {"--diameter", &Bearing::radius, "m", "Diameter of the journal, instead of --radius", 0.5},
 }};
 
 /// A bearing with inputs that may be uncertain.

@@ -79,15 +79,13 @@ std::string SqlWriter::setup() const {
       "bootstrap replicates.\n"
       "create table if not exists {0} (\n"
       "  model {1} not null, replicate integer not null, name {1} not null, value {2} not null,\n"
-      "  primary key (model, replicate, name));\n"
-      "-- One row per unit.\n"
+      "  primary key (model, replicate, name));\n-- One row per unit.\n"
       "create table if not exists {3} (\n"
       "  model {1} not null, unit {1} not null, after_cycle {4} not null, last_cycle {4} not "
       "null{5},\n"
       "  primary key (model, unit));\n"
       "delete from {0} where model = {6};\n"
-      "insert into {0} (model, replicate, name, value) values\n"
-      "{7};\n",
+      "insert into {0} (model, replicate, name, value) values\n{7};\n",
       model_table_, types_.text, types_.real, sums_table_, types_.whole, sums, id_,
       fmt::join(rows, ",\n"));
 }
@@ -209,13 +207,10 @@ std::string SqlWriter::powers() const {
         fmt::format("ds{}", p));
   }
   return fmt::format(
-      "select ordered.*, k.*,\n"
-      "  {}\n"
-      "from (\n"
+      "select ordered.*, k.*,\n  {}\nfrom (\n"
       "-- energy of the cycles before each, in whole units; a row with invalid values counts only "
       "as refused\n"
-      "{}\n"
-      ") as ordered cross join\n"
+      "{}\n) as ordered cross join\n"
       "{}{}",
       columns.text(), ordered(), parameters(), fence());
 }
@@ -316,12 +311,7 @@ std::string SqlWriter::query() const {
       "and settled 2^{} m^3, variance 2^{} m^6,\n"
       "-- replicates v1 .. (with run-in) and s1 .. (without) 2^{} m^3.\n"
       "insert into {}{} ({})\n"
-      "select\n"
-      "  {}\n"
-      "from (\n"
-      "-- volumes of a run-in plate, and scatter\n"
-      "{}\n"
-      ") as worn\n"
+      "select\n  {}\nfrom (\n-- volumes of a run-in plate, and scatter\n{}\n) as worn\n"
       "group by unit{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
       std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(),

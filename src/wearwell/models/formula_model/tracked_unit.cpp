@@ -75,8 +75,7 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
   laid_effective_ = effective_;
 }
 
-// Adds the log-likelihood of all rows, along the axis, to the weights of nodes; returns the state
-// of their paths.
+// Adds the log-likelihood of all rows, along the axis, to the nodes' weights; returns their paths.
 std::vector<NodePath> TrackedUnit::look_at_all(const UnitNodes& nodes,
                                                const std::vector<UnitReading>& all,
                                                std::vector<double>& log_weight) const {
@@ -132,8 +131,7 @@ std::vector<UnitReading> TrackedUnit::all_of(const prognosis::History& history) 
   return all;
 }
 
-// Rebuilds nodes for all readings including this one; false, with nothing changed, if no node
-// passes through them.
+// Rebuilds nodes for all readings with this one; false and unchanged if no node allows them.
 bool TrackedUnit::lay_with(const UnitReading& reading, const prognosis::History& history) {
   TrackedUnit before = *this;
   std::vector<UnitReading> all = all_of(history);
