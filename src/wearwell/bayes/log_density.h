@@ -8,12 +8,12 @@
 
 namespace wearwell {
 
-/// The most variables a density may have; fixes the size of scratch on the stack, so that no
-/// evaluation allocates.
+/// The maximum number of variables. Workspace on the stack has this size, so that evaluations do
+/// not allocate.
 inline constexpr int max_dimension = 64;
 
-/// The logarithm of a density, up to a constant. -infinity outside the support and nowhere else;
-/// any other failure throws. Evaluations are thread-safe.
+/// The logarithm of a density, up to a constant. -infinity only outside the support; other failures
+/// throw. Evaluations are thread-safe.
 class LogDensity {
  public:
   virtual ~LogDensity() = default;
@@ -23,17 +23,17 @@ class LogDensity {
 
   virtual double value(std::span<const double> x) const = 0;
 
-  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the
-  /// value is -infinity.
+  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified if the value
+  /// is -infinity.
   virtual double value_and_gradient(std::span<const double> x,
                                     std::span<double> gradient) const = 0;
 
-  /// The value where it is more than `least`; else anything that is not, so that what takes long may end as soon as that is
-  /// known.
+  /// The value if it exceeds `least`; else any number up to `least`, so that an expensive
+  /// evaluation can stop early.
   virtual double value_above(std::span<const double> x, double /*least*/) const { return value(x); }
 
-  /// The value along one variable, the others being those of `x`: what does not change is worked out once. Empty where that
-  /// would save nothing; valid while the density lives.
+  /// The value as a function of one variable, with the others from `x` and constant parts
+  /// precomputed. Empty if that saves nothing; valid during the lifetime of the density.
   virtual std::function<double(double)> along(std::span<const double>, std::size_t) const {
     return {};
   }
@@ -42,20 +42,19 @@ class LogDensity {
   /// empty for any other density.
   virtual std::vector<double> pointwise(std::span<const double>) const { return {}; }
 
-  /// How many observations each of these stands for, where some were seen alike; empty when each is
-  /// one.
+  /// The number of equal observations that each factor represents; empty if all are 1.
   virtual std::vector<int> pointwise_counts() const { return {}; }
 
-  /// The likelihood without one observation of factor `term`; null where that is no simpler than to take the factor away.
+  /// The likelihood without one observation of factor `term`; null if subtracting the factor is
+  /// equally simple.
   virtual std::shared_ptr<const LogDensity> without(std::size_t) const { return nullptr; }
 
-  /// What is left open of the value at `x`, where integrals within it did not come to the tolerance that
-  /// they promise; 0 elsewhere.
+  /// The remaining error of the value at `x`, if integrals within it miss their tolerance; else 0.
   virtual double unsettled(std::span<const double>) const { return 0; }
 
-  /// Whether one evaluation takes as long as tens or thousands of others (integrals within it, a limit's or a path's):
-  /// quadrature in more than two dimensions is then not for it, polynomials in its place are worth trying, and a
-  /// sampler leaps as early as it can.
+  /// Whether an evaluation is expensive (it contains integrals over a limit or a path). Then
+  /// quadrature in more than two dimensions is avoided, a polynomial surrogate is tried, and a
+  /// sampler uses independence proposals as early as possible.
   virtual bool is_slow() const { return false; }
 };
 

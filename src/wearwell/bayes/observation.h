@@ -10,11 +10,11 @@
 
 namespace wearwell {
 
-/// How a measurement scatters about its mean: normal, or lognormal with mean and standard deviation
-/// of the quantity itself (An et al. 2011, eqs. 7 and 8).
+/// The distribution of a measurement about its mean: normal, or lognormal with mean and standard
+/// deviation of the quantity itself (An et al. 2011, eqs. 7 and 8).
 enum class ObservationFamily { normal, lognormal };
 
-/// The law of one measurement whose mean and standard deviation are known, ready for many
+/// The distribution of one measurement with known mean and standard deviation, prepared for many
 /// evaluations: normal in y, or in log y for the lognormal family.
 struct ObservationDistribution {
   double location;
@@ -28,26 +28,27 @@ struct ObservationDistribution {
         location = -infinity;
         return;
       }
-      if (!std::isfinite(mean)) return;  // beyond all that can be read
+      if (!std::isfinite(mean)) return;  // larger than any reading
       const LognormalByMoments<double> distribution(mean, sd);
       location = distribution.eta;
       scale = distribution.zeta;
     }
   }
 
-  /// (t - location)/scale: the measurement's place in the standard normal law.
+  /// (t - location)/scale: the standardized measurement.
   double score(double t) const { return (t - location) / scale; }
 
   /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
   double cdf(double t) const {
     const double z = (location - t) / (scale * std::sqrt(2.0));
-    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures ask for many that are 0 or 1
+    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures need many values that are 0 or 1
     if (z < -6) return 1;
     return 0.5 * std::erfc(z);
   }
 };
 
-/// Log density of one measurement; `t` is it, or its logarithm for the lognormal family. -infinity where that has no mean.
+/// Log density of one measurement; `t` is the measurement, or its logarithm for the lognormal
+/// family. -infinity if that has no mean.
 inline double log_density(ObservationFamily family, double t, double mean, double sd) {
   if (family == ObservationFamily::normal) return normal_log_density(t, mean, 1 / sd, std::log(sd));
   return mean > 0 ? lognormal_log_density(t, mean, sd) : -infinity;
@@ -64,7 +65,7 @@ class Observations {
     }
   }
 
-  /// Sum of log densities where `mean(i)` is the mean of measurement i; -infinity where a lognormal
+  /// Sum of log densities where `mean(i)` is the mean of measurement i; -infinity if a lognormal
   /// mean is not positive.
   template <class T, class Mean>
   T log_likelihood(const Mean& mean, const T& sd) const {
@@ -86,7 +87,7 @@ class Observations {
     return sum;
   }
 
-  /// The same, measurement by measurement.
+  /// The same for each measurement.
   template <class Mean>
   std::vector<double> pointwise(const Mean& mean, double sd) const {
     std::vector<double> terms;
@@ -96,7 +97,7 @@ class Observations {
     return terms;
   }
 
-  /// Where each measurement lies in its law.
+  /// The normal score of each measurement.
   template <class Mean>
   std::vector<NormalScore> scores(const Mean& mean, double sd) const {
     std::vector<NormalScore> scores;

@@ -10,12 +10,12 @@
 
 namespace wearwell {
 
-/// Bayes' rule: log prior + log likelihood. As a LogDensity it lives on the whole real line of
-/// every parameter (z, with the Jacobian of the transform); the natural parameters are x.
+/// Bayes' rule: log prior + log likelihood. As a LogDensity it is defined on the unconstrained
+/// scale z, with the Jacobian of the transform; x are the natural parameters.
 class Posterior final : public LogDensity {
  public:
-  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError when
-  /// a start value is outside its support or when the posterior is not finite there.
+  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError if a
+  /// start value is outside its support or if the posterior is not finite there.
   Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood);
 
   int dimension() const override { return static_cast<int>(parameters_.size()); }
@@ -25,7 +25,7 @@ class Posterior final : public LogDensity {
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::shared_ptr<const LogDensity>& likelihood() const { return likelihood_; }
-  /// Of each parameter, z to x.
+  /// The transform of each parameter, z to x.
   const std::vector<Transform>& transforms() const { return transforms_; }
 
   double log_prior(std::span<const double> x) const;
@@ -33,7 +33,7 @@ class Posterior final : public LogDensity {
   /// log prior + log likelihood of natural parameters, -infinity outside the support.
   double natural_value(std::span<const double> x) const;
 
-  /// The same with its derivatives by natural parameters; x lies inside the support.
+  /// The same with its derivatives by natural parameters; x must be inside the support.
   double natural_value_and_gradient(std::span<const double> x, std::span<double> gradient) const;
 
   /// Natural parameters of z.

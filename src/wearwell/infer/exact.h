@@ -16,55 +16,57 @@ namespace wearwell {
 struct ExactSettings {
   double tolerance = 1e-5;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
-  bool cells = true;           ///< false: nodes for sums alone, not for distributions (lattice.h)
+  bool cells = true;           ///< false: nodes only for sums, not for distributions (lattice.h)
   long max_evaluations = 20'000'000;
-  /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
+  /// The better chart of a lattice, if known from a nearly equal posterior.
   std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
-  /// Local maxima beside the one that the whitening is about (maxima.h), on the real line: the region has to cover them.
+  /// Other local maxima than that of the whitening (maxima.h), on the real line; the region must
+  /// cover them.
   std::vector<Mode> maxima = {};
 };
 
-/// The most parameters that quadrature is meant for.
+/// The maximum number of parameters for quadrature.
 inline constexpr int max_exact_dimension = 4;
 
 /// A posterior normalized by adaptive quadrature: no sampling, so no Monte Carlo error.
 struct ExactPosterior {
   WeightedDraws nodes;
-  Eigen::VectorXd mean;  ///< natural, SI; NaN where the moment does not exist
+  Eigen::VectorXd mean;  ///< natural, SI; NaN if the moment does not exist
   Eigen::VectorXd sd;
   Eigen::MatrixXd covariance;
   std::optional<double>
-      log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
+      log_evidence;  ///< log of the integral of likelihood x prior; only if every prior is proper
   double log_mass = 0;  ///< log of the integral of likelihood x prior kernels
-  double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
-  double highest = 0;  ///< log density (on the real line) of the highest node
+  double error = 0;     ///< estimated relative error of mass and second moments
+  double highest = 0;   ///< log density (on the real line) of the highest node
   long evaluations = 0;
-  bool along_ridge = false;  ///< its lattice follows the ridge of a funnel (lattice_chart.h)
-  std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
-                        ///< not to be trusted
-  bool contradicted = false;  ///< it failed because of what the walk along the ridge met
+  bool along_ridge = false;   ///< its lattice follows the ridge of a funnel (lattice_chart.h)
+  std::string failure;        ///< empty if the mass converged; else the reason, and the nodes are
+                              ///< unreliable
+  bool contradicted = false;  ///< it failed the comparison with the walk along the ridge
 };
 
-/// Integrates a posterior with up to `max_exact_dimension` parameters: four on a lattice
-/// (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works on the whitened real
-/// line, along the ridge where the posterior opens like a funnel or bends (ridge_map.h): boxes are
-/// halved along the axis that resolves worst until the estimated error of mass and second moments is
-/// below the tolerance, and the region grows where mass or second moments still lie at its edge. Boxes
-/// that share a face have to agree on the density there, and each that counts is inspected between its
-/// nodes: what is found raises the error. Where there are several maxima, boxes cover all of them from the beginning, no longer than a
-/// few of their widths about each; four parameters are integrated maximum by maximum (parted_posterior.h). The
-/// outcome is held against what the walk along the ridge met: a higher density than that of any node,
-/// or another integral by Laplace's approximation by far, is a failure.
+/// Integrates a posterior with up to `max_exact_dimension` parameters: four parameters on a lattice
+/// (lattice.h); fewer, or without convergence, by adaptive boxes. Works on the whitened real line,
+/// along the ridge for a funnel or a curved posterior (ridge_map.h). Boxes are halved along the
+/// worst-resolved axis until the estimated error of mass and second moments is below the tolerance,
+/// and the region grows where its edge still has mass or second moments. Boxes must agree on the
+/// density at shared faces, and each relevant box is inspected between its nodes; differences raise
+/// the error. Several maxima are covered from the beginning by boxes of at most a few widths; with
+/// four parameters each maximum is integrated separately (parted_posterior.h). The result is
+/// compared with the walk along the ridge: a higher density than that of any node, or a very
+/// different Laplace approximation of the integral, is a failure.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
 
-/// The same along the ridge of `shape`, a posterior much like it (of all observations, where this one
-/// lacks one and has no gradient).
+/// The same along the ridge of `shape`, a similar posterior (of all observations, if this one omits
+/// one and has no gradient).
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings, const Posterior& shape);
 
-/// Independent draws from the exact posterior: `chains` x `draws`, a stream of random numbers each.
+/// Independent draws from the exact posterior: `chains` x `draws`, with one random stream per
+/// chain.
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,
                         int draws, std::uint64_t seed, std::uint64_t first_stream);
 

@@ -8,15 +8,15 @@
 
 namespace wearwell {
 
-/// The stages of a fit that can fall short of what they promise. A new stage gets an entry here; a
-/// test walks over the list and asks of each that its failure ends trust.
+/// The stages of a fit that can miss their accuracy. A new stage needs an entry here; a test checks
+/// for each that its failure makes the fit untrusted.
 enum class Stage { mode, maxima, tails, quadrature, digits, constrained_mode, effects };
 
 inline constexpr std::array all_stages = {Stage::mode,       Stage::maxima, Stage::tails,
                                           Stage::quadrature, Stage::digits, Stage::constrained_mode,
                                           Stage::effects};
 
-/// What a stage did not reach. Verdict::warn where something else vouches for the numbers.
+/// A shortfall of a stage. Verdict::warn if the numbers are confirmed otherwise.
 struct StageDiagnostic {
   Stage stage;
   Verdict verdict;
@@ -27,7 +27,7 @@ struct StageDiagnostic {
 /// "search for the mode".
 const char* stage_name(Stage stage);
 
-/// The check "computation": one finding a shortfall. `precision` is what is said when there is none.
+/// The check "computation": one finding per shortfall. `precision` is the message without any.
 Check computation(const std::vector<StageDiagnostic>& stage_diagnostics,
                   const std::string& precision);
 

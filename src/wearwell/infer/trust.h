@@ -10,19 +10,20 @@
 
 namespace wearwell {
 
-/// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in the order in which a reader should care:
-/// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
-/// computation. The last tells what any stage of the computation fell short of (stage.h).
+/// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in order of importance:
+/// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy,
+/// exact-agreement, computation. The last reports shortfalls of any stage of the computation
+/// (stage.h).
 ///
-/// A `flat` law is the absence of knowledge: an answer that hangs on where it was cut fails. A `uniform` law, or a bound on
-/// another law, is knowledge: the same dependence is a warning.
+/// A `flat` prior represents no knowledge, so a result that depends on its bounds fails. A
+/// `uniform` prior, or a bound of another prior, is knowledge, so the same dependence is a warning.
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit);
 
-/// What the stages after the fit fell short of, to be added to its own.
+/// Shortfalls of the stages after the fit, to be added to those of the fit.
 std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior, const Fit& fit,
                                                      const NaturalMode& mode);
 
-/// No check fails.
+/// Whether no check fails.
 bool trusted(const std::vector<Check>& checks);
 
 }  // namespace wearwell

@@ -25,10 +25,11 @@ struct AndersonDarlingTest {
   double p = 1;
 };
 
-/// Anderson-Darling test of normality with estimated mean and standard deviation (Stephens 1974, JASA 69, 730-737);
-/// the p value is that of D'Agostino and Stephens (1986), Goodness-of-Fit Techniques, table 4.9.
-/// Equal values are spread evenly over half the distance to their neighbors, so that rounding does
-/// not look like non-normality. p is 1 for fewer than five values and for constant values.
+/// Anderson-Darling test of normality with estimated mean and standard deviation (Stephens 1974,
+/// JASA 69, 730-737); the p value is that of D'Agostino and Stephens (1986), Goodness-of-Fit
+/// Techniques, table 4.9. Equal values are spread evenly over half the distance to their neighbors,
+/// so that rounding does not look like non-normality. p is 1 for fewer than five values and for
+/// constant values.
 AndersonDarlingTest anderson_darling_test(std::vector<double> values);
 
 /// Points of a normal probability plot: values in ascending order against the normal quantiles of

@@ -7,16 +7,16 @@
 
 namespace wearwell {
 
-/// The distribution of a positive number that differs from item to item, for an item not yet seen:
+/// The predictive distribution of a positive quantity with item-to-item variation, for a new item:
 /// its logarithm is normal about ln center(x) with standard deviation log_sd(x), mixed over the
-/// posterior of x. No draws of the item: quantiles of the mixture are solved for.
+/// posterior of x. Quantiles are roots of the exact mixture, without sampling.
 class ItemMixture {
  public:
   ItemMixture(const WeightedDraws& draws, const Function& center, const Function& log_sd);
 
-  /// 0 < p < 1. Infinite or 0 where so many centers are; NaN where one with weight is no number.
+  /// 0 < p < 1. Infinite or 0 if enough centers are; NaN if one with weight is NaN.
   double quantile(double p) const;
-  /// The probability of a number not above `value`, which is positive.
+  /// The probability of a value up to `value` > 0.
   double cdf(double value) const;
 
  private:
@@ -26,9 +26,8 @@ class ItemMixture {
   bool defined_ = true;
 };
 
-/// `count` points of the standard normal law for the draw of this index, one in each of as many
-/// strata of equal probability. Where in their strata they lie moves evenly from draw to draw, so
-/// that over many draws the points fill the law.
+/// `count` standard normal points for the draw with this index, one in each of `count` strata of
+/// equal probability. The positions in the strata form a low-discrepancy sequence over the draws.
 void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z);
 
 }  // namespace wearwell
