@@ -133,8 +133,8 @@ TEST(WrongSymbols, HaveOneMessage) {
   EXPECT_THAT(symbols_refusal({{}, {}, {{"k", {}}}, {{"k", {}}}}),
               HasSubstr("a parameter and of a constant"));
   EXPECT_THAT(symbols_refusal({{{"exp", {}}}, {}, {}, {}}), HasSubstr("name of a keyword"));
-  EXPECT_THAT(symbols_refusal({{{"2x", {}}}, {}, {}, {}}), HasSubstr("no expression can hold"));
-  EXPECT_THAT(symbols_refusal({{{"", {}}}, {}, {}, {}}), HasSubstr("no expression can hold"));
+  EXPECT_THAT(symbols_refusal({{{"2x", {}}}, {}, {}, {}}), HasSubstr("does not have a valid name"));
+  EXPECT_THAT(symbols_refusal({{{"", {}}}, {}, {}, {}}), HasSubstr("does not have a valid name"));
   EXPECT_THAT(symbols_refusal({{}, {}, {{"q", {}, Scope::per_level, "lab"}}, {}}),
               HasSubstr("varies by 'lab', which is not a label"));
 }

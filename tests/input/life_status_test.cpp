@@ -88,11 +88,12 @@ TEST_F(LifeStatusTest, AWordThatIsNoneIsRefusedWithTheKey) {
 
 TEST_F(LifeStatusTest, CodesNeedAHeadingOrTheStudyToTell) {
   for (const char* heading : {"status", "c", "delta", "failed_or_censored"}) {
-    EXPECT_THAT(message_of<InputError>([&] {
-                  seen(heading, {"0", "1"});
-                }),
-                AllOf(HasSubstr("s.toml:2:10: data.columns.status: "), HasSubstr("row 1"),
-                      HasSubstr("two ways"), HasSubstr("failure = 0 }"), HasSubstr("failure = 1")))
+    EXPECT_THAT(
+        message_of<InputError>([&] {
+          seen(heading, {"0", "1"});
+        }),
+        AllOf(HasSubstr("s.toml:2:10: data.columns.status: "), HasSubstr("row 1"),
+              HasSubstr("is ambiguous"), HasSubstr("failure = 0 }"), HasSubstr("failure = 1")))
         << heading;
   }
   for (const char* heading : {"censored", "Cens.", "Run-out", "suspended?"})

@@ -83,7 +83,7 @@ TEST_F(TextFileTest, OtherEncodings) {
   EXPECT_THAT(refused("x,note\n1,Gr\x81\n"), HasSubstr("neither UTF-8 nor cp1252"));
   EXPECT_THAT(refused("\xFF\xFEx\0,\0y\0\n\0001\0,\0\x00\xDC"s), HasSubstr("UTF-16"));
   EXPECT_THAT(refused("x,\0y\n1,2\n"s), HasSubstr("is not a text file: line 1 has zero bytes"));
-  EXPECT_THAT(refused("x,y\r1,2\r"), HasSubstr("carriage returns"));
+  EXPECT_THAT(refused("x,y\r1,2\r"), HasSubstr("only a carriage return"));
   EXPECT_THAT(refused("x,y\r\n1,2\r\n3,4\n"), HasSubstr("line 3: its line ending"));
   const Table table = read_table(write("b.csv", "\xEF\xBB\xBFx,y\r\n1,2\r\n"));
   EXPECT_THAT(table.column("x").numbers, ElementsAre(1));
@@ -119,7 +119,7 @@ TEST_F(TextFileTest, CutOrDamagedGzip) {
   EXPECT_THAT(refusal(write("a.csv.gz", damaged)), HasSubstr("damaged"));
   EXPECT_THAT(refusal(write("a.csv.gz", packed + gzipped("6,7\n"))),
               HasSubstr("more than one gzip stream"));
-  EXPECT_THAT(refusal(write("a.csv.gz", content)), HasSubstr("no gzip"));
+  EXPECT_THAT(refusal(write("a.csv.gz", content)), HasSubstr("not a gzip file"));
   EXPECT_THAT(refusal(write("a.csv", packed)), HasSubstr(".gz"));
   EXPECT_THAT(read_table(write("a.json.gz", gzipped(R"([{"x": 1}, {"x": 2}])"))).columns[0].numbers,
               ElementsAre(1, 2));

@@ -75,9 +75,9 @@ void fail_to_write(const fs::path& target, int error) {
 }
 
 fs::path behind_links(const fs::path& path) {
-  constexpr int most_links = 40;  // as the kernel
+  constexpr int most_links = 40;  // the kernel's limit
   std::error_code error;
-  // `..` is left to the system: after a link to a folder it is the parent of what that points to.
+  // The system resolves `..`: after a link to a folder it is the parent of the link's target.
   const auto ending_in_a_name = [&](fs::path at) {
     if (!at.has_filename()) at = at.parent_path();
     return at.filename() == "." || at.filename() == ".." ? fs::weakly_canonical(at, error) : at;
@@ -107,14 +107,14 @@ void flush_to_disk(const Descriptor& file, const fs::path& target) {
   int done = 0;
   while ((done = fsync(file.get())) != 0 && errno == EINTR) {
   }
-  // Some file systems and devices have nothing to flush and say so.
+  // Some file systems and devices do not support flushing.
   if (done != 0 && errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP && errno != EROFS)
     fail_to_write(target, errno);
 }
 
 void flush_folder(const fs::path& folder) {
   const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened) flush_to_disk(opened, folder);  // a folder may be writable and not readable
+  if (opened) flush_to_disk(opened, folder);  // a folder may be writable but not readable
 }
 
 Descriptor create_file(const fs::path& file) {
@@ -157,8 +157,7 @@ bool lock_staging(const Descriptor& opened, const fs::path& path, const fs::path
   if (flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
     if (error == EWOULDBLOCK) return false;
-    // A file system without locks has no healing: there no abandoned name can be told from a live
-    // one.
+    // Without file locks there is no recovery, because abandoned names look like live ones.
     if (!means_no_locks(error)) {
       std::remove(path.c_str());
       fail_to_write(target, error);
@@ -180,11 +179,11 @@ StagingFolder make_staging_folder(const fs::path& place, const fs::path& target)
     Descriptor opened(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (!opened) {
       const int error = errno;
-      if (error == ENOENT) continue;  // somebody took it for abandoned and removed it
+      if (error == ENOENT) continue;  // another process considered it abandoned and removed it
       rmdir(path.c_str());
       fail_to_write(target, error);
     }
-    if (!lock_staging(opened, path, target)) continue;  // likewise
+    if (!lock_staging(opened, path, target)) continue;  // the same here
     now.note(path, true);
     return {path, std::move(opened)};
   }

@@ -22,54 +22,55 @@ class Descriptor {
   int fd_;
 };
 
-/// "cannot write to TARGET: reason": InputError when another request would do (permission, a name
-/// that cannot be), MachineError when the machine is at fault (disk full, read-only or broken).
+/// "cannot write to TARGET: reason": InputError if another request would succeed (permission,
+/// invalid name), MachineError if the machine failed (disk full, read-only or broken).
 [[noreturn]] void fail_to_write(const std::filesystem::path& target, int error);
 
-/// Where a write to `path` ends: absolute, symbolic links followed, also to what does not exist
-/// yet. Throws InputError when links go round.
+/// The absolute target of a write to `path`, after symbolic links, also for a target that does not
+/// exist yet. Throws InputError for circular links.
 std::filesystem::path behind_links(const std::filesystem::path& path);
 
-/// Writes all of it. Throws as fail_to_write(target).
+/// Writes all bytes. Throws like fail_to_write(target).
 void write_all(const Descriptor& file, std::string_view content,
                const std::filesystem::path& target);
 
-/// Returns when the disk has it; the same for the entries of a folder. Throws likewise.
+/// Returns when the data, or the entries of a folder, are on disk. Throws like
+/// fail_to_write(target).
 void flush_to_disk(const Descriptor& file, const std::filesystem::path& target);
 void flush_folder(const std::filesystem::path& folder);
 
-/// Opens a new file, which must not exist, with the rights that the umask leaves.
+/// Creates a new file, which must not exist, with permissions from the umask.
 Descriptor create_file(const std::filesystem::path& file);
 
-/// rename(2) that leaves alone what is at `to`: false when there is something.
-/// Both set errno, 0 on success.
+/// rename(2) without replacement: false if `to` exists. Both set errno, 0 on success.
 bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
-/// Two entries change places in one step; false with EINVAL or ENOSYS where the file system cannot.
+/// Exchanges two entries atomically; false with EINVAL or ENOSYS if the file system does not
+/// support it.
 bool exchange(const std::filesystem::path& one, const std::filesystem::path& other);
 
-/// What is staged in a folder before it takes its place has a name that nobody can foresee:
-/// `.wearwell.unfinished.` and twelve letters. It is locked as long as its owner lives.
+/// Staged entries of a folder have a random name: `.wearwell.unfinished.` and twelve letters. They
+/// are locked during the lifetime of their owner.
 std::filesystem::path staging_name(const std::filesystem::path& folder);
 bool is_staging_name(const std::string& name);
-/// False when another took it in the meantime. When the lock fails where locks are, the name is
-/// removed again, and it throws as fail_to_write(target): the next to look there, this program
-/// among them, would take it for abandoned.
+/// False if another process took it in the meantime. If locks are supported but locking fails,
+/// removes the name and throws like fail_to_write(target), because an unlocked name looks
+/// abandoned.
 bool lock_staging(const Descriptor& opened, const std::filesystem::path& path,
                   const std::filesystem::path& target);
 
-/// A hidden folder of such a name, and its lock.
+/// A hidden folder with such a name, and its lock.
 struct StagingFolder {
   std::filesystem::path path;
   Descriptor lock;
 };
 
-/// Makes one in `place`; a signal that ends the program removes it when it is empty. Throws as
+/// Creates one in `place`; a terminating signal removes it if it is empty. Throws like
 /// fail_to_write(target).
 StagingFolder make_staging_folder(const std::filesystem::path& place,
                                   const std::filesystem::path& target);
 
-/// Calls `heal` with each entry of a folder that has such a name, is of this user and whose owner
-/// has ended without removing it.
+/// Calls `heal` with each abandoned entry of a folder: it has such a name, belongs to this user,
+/// and its owner has ended.
 void for_each_abandoned(
     const std::filesystem::path& folder,
     const std::function<void(const std::filesystem::path& path, bool is_folder)>& heal);

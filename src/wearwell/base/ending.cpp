@@ -23,8 +23,8 @@ struct HalfWritten {
   Kind kind;
 };
 
-// Whoever holds the lock has the signals blocked, so that the handler never waits for the thread
-// that it interrupted, and finds the list whole.
+// The holder of the lock blocks the signals, so that the handler never waits for the interrupted
+// thread and finds a consistent list.
 std::atomic_flag lock = ATOMIC_FLAG_INIT;
 std::vector<HalfWritten>& half_written() {
   static auto* list = new std::vector<HalfWritten>;  // outlives all static objects
@@ -38,7 +38,7 @@ void take_lock() {
   while (lock.test_and_set()) nanosleep(&moment, nullptr);
 }
 
-// Of <dirent.h> nothing may be called in a handler of signals: it allocates.
+// A signal handler must not call functions of <dirent.h>, because they allocate.
 void remove_tree(int above, const char* name) {
   const int folder = openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder >= 0) {
@@ -54,7 +54,7 @@ void remove_tree(int above, const char* name) {
         if (unlinkat(folder, entry->d_name, entry->d_type == DT_DIR ? AT_REMOVEDIR : 0) == 0)
           removed = true;
       }
-      if (removed) lseek(folder, 0, SEEK_SET);  // what was behind them may have moved
+      if (removed) lseek(folder, 0, SEEK_SET);  // removal may have moved later entries
     }
     close(folder);
   }
@@ -62,7 +62,7 @@ void remove_tree(int above, const char* name) {
 }
 
 extern "C" void end_by(int signal) {
-  take_lock();  // for good
+  take_lock();  // never released
   ending = true;
   std::vector<HalfWritten>& list = half_written();
   for (std::size_t i = list.size(); i-- > 0;) {

@@ -5,15 +5,15 @@
 
 namespace wearwell {
 
-/// From here on SIGINT, SIGTERM and SIGHUP end the program at once, as they do anyway, but not
-/// before what is half written is removed. A signal that is ignored stays ignored.
+/// From now on SIGINT, SIGTERM and SIGHUP end the program after removing half-written files.
+/// Ignored signals stay ignored.
 void remove_half_written_on_signals();
 
-/// Waits for the end when it has begun: what fails now fails because its files are gone.
+/// If the end has begun, waits for it, because errors are then caused by removed files.
 void wait_if_ending();
 
-/// While one lives, a signal ends the program before or after, never between a change of the disk
-/// and the note of it; so it lives for a few system calls only. Not to be nested.
+/// While it exists, a signal cannot end the program between a change on disk and its registration.
+/// It should live for only a few system calls and must not be nested.
 class SignalBlocker {
  public:
   SignalBlocker();
@@ -21,12 +21,12 @@ class SignalBlocker {
   SignalBlocker(const SignalBlocker&) = delete;
   SignalBlocker& operator=(const SignalBlocker&) = delete;
 
-  /// `path` (absolute) goes when the program is ended by a signal; the last one noted goes first.
-  /// A folder goes only when it is empty by then.
+  /// Registers `path` (absolute) for removal by a terminating signal, in reverse order of
+  /// registration. A folder is removed only if it is empty.
   void note(const std::filesystem::path& path, bool is_folder);
-  /// Likewise a folder with all that is in it, whoever put it there.
+  /// The same for a folder with all its content.
   void note_tree(const std::filesystem::path& path);
-  /// It is whole, or gone; and all that was noted within it.
+  /// Unregisters `path` and everything inside it, because it is complete or removed.
   void unregister(const std::filesystem::path& path);
 
  private:

@@ -4,8 +4,8 @@
 
 namespace wearwell {
 
-/// The request or the data is wrong: exit code 2. The message names the offender (file, row,
-/// column, value) and what is allowed.
+/// The request or the data is wrong: exit code 2. The message names the offending file, row, column
+/// or value, and what is allowed.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

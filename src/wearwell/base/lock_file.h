@@ -7,13 +7,12 @@
 
 namespace wearwell {
 
-/// While it lives, no other process of wearwell holds one for the same file, by whatever link:
-/// for reading a file, changing it and putting it back. A hidden empty file `.NAME.lock` beside it,
-/// which goes again.
+/// An exclusive lock between processes of wearwell for reading, changing and replacing a file,
+/// independent of links. It is a hidden empty file `.NAME.lock` beside it, removed at the end.
 class LockFile {
  public:
-  /// Waits for another; `waiting` is called once before. Throws InputError or MachineError where
-  /// nothing can be locked.
+  /// Waits for another holder and calls `waiting` once before. Throws InputError or MachineError if
+  /// locking is impossible.
   LockFile(const std::filesystem::path& file, const std::function<void()>& waiting);
   ~LockFile();
   LockFile(const LockFile&) = delete;

@@ -7,13 +7,12 @@
 
 namespace wearwell {
 
-/// The candidate that was probably meant by `name`: the fewest edits (a letter more, less, another,
-/// or two swapped), capitals aside; a candidate one of whose words is `name` comes before one with
-/// two slips. `candidates` is not empty.
+/// The candidate nearest to `name`: the fewest edits (insertion, deletion, substitution,
+/// transposition), ignoring case. A candidate that contains `name` as a word precedes one with two
+/// edits. `candidates` is not empty.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
-/// The same where it is near enough to be offered: no more than two slips, nor than half of the
-/// name.
+/// The same if it is near enough to suggest: at most two edits and at most half of the name.
 std::optional<std::string> near_name(std::string_view name,
                                      const std::vector<std::string>& candidates);
 

@@ -9,7 +9,7 @@
 namespace wearwell {
 namespace {
 
-// One character of UTF-8, or a byte that is none (size 0).
+// One UTF-8 character, or an invalid byte (size 0).
 struct Character {
   std::uint32_t code = 0;
   std::size_t size = 0;
@@ -26,7 +26,7 @@ Character character_at(std::string_view text, std::size_t at) {
     if ((byte(at + i) & 0xc0) != 0x80) return {};
     code = code << 6 | (byte(at + i) & 0x3f);
   }
-  // The shortest form only, and no halves of pairs.
+  // Accepts only the shortest form and no surrogates.
   static constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
   if (code < least[size] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
   return {code, size};
@@ -68,14 +68,14 @@ std::string printable_lines(std::string_view text) {
 }
 
 std::string printable_json(std::string_view json) {
-  // Bytes that such characters begin with: DEL, and the first of two or three in UTF-8.
+  // First bytes of such characters: DEL, and lead bytes of two- or three-byte sequences.
   if (json.find_first_of("\x7f\xc2\xd8\xe2") == json.npos) return std::string(json);
   std::string out;
   out.reserve(json.size());
   for (std::size_t at = 0; at < json.size();) {
     const Character next = character_at(json, at);
     const std::size_t size = std::max<std::size_t>(next.size, 1);
-    // Line feeds stand between values; within texts the writer escapes them.
+    // Line feeds only separate values; the writer escapes them inside texts.
     if (next.size == 0 || json[at] == '\n' || !commands_a_terminal(next.code)) {
       out += json.substr(at, size);
     } else {

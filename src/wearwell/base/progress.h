@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// Counts the steps of long work for a monitor: tells it ten times a second how far the work is, and
-/// throws `Cancelled` once it asks to stop. Thread-safe.
+/// Counts the steps of a long computation: reports to a monitor ten times a second, and throws
+/// `Cancelled` once it requests a stop. Thread-safe.
 class Progress {
  public:
   /// `what`: the steps, "iterations".
@@ -17,12 +17,12 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// There will be so many steps in all.
+  /// Sets the total number of steps.
   void expect(long long total);
 
   void advance(long long steps);
 
-  /// Throws `Cancelled` when the monitor asked for it.
+  /// Throws `Cancelled` if the monitor requests it.
   void look() const;
 
  private:
@@ -35,7 +35,7 @@ class Progress {
   long long total_ = 0, done_ = 0;
 };
 
-/// Steps of one thread, handed on a hundred at a time so that threads do not wait for each other.
+/// Steps of one thread, forwarded in hundreds so that threads do not wait for each other.
 class ProgressSteps {
  public:
   /// `progress` may be nullptr.

@@ -8,9 +8,9 @@
 namespace wearwell {
 
 /// A stream of random numbers from Philox4x32-10 (Salmon et al. 2011), a counter-based generator:
-/// (seed, stream) names the stream, so every chain, stage or specimen owns one and results do not
-/// depend on threads. The normal transform is ours, so that results do not depend on the standard
-/// library either.
+/// (seed, stream) names the stream, so every chain, stage or specimen has its own stream and
+/// results do not depend on threads. The normal transform is implemented here, so that results do
+/// not depend on the standard library.
 class Rng {
  public:
   Rng(std::uint64_t seed, std::uint64_t stream)
@@ -23,7 +23,7 @@ class Rng {
     return block_[--left_];
   }
 
-  /// Uniform on the open interval (0, 1): 52 bits and a half, so neither 0 nor 1.
+  /// Uniform on the open interval (0, 1): 52 bits plus a half, so never 0 or 1.
   double uniform() { return (static_cast<double>(bits() >> 12) + 0.5) * 0x1p-52; }
 
   double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }

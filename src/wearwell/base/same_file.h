@@ -6,15 +6,15 @@
 
 namespace wearwell {
 
-/// A file of a command, and how the user named it: "--trace", "the model".
+/// A file of a command with its name for the user: "--trace", "the model".
 struct NamedFile {
   std::string role;
   std::filesystem::path path;  ///< empty: not given
 };
 
-/// Throws InputError when a file that would be written is one that is read, or two that would be
-/// written are one: by whatever names and links, and also when it does not exist yet. An output
-/// that is a folder must not hold an input either.
+/// Throws InputError if an output is the same file as an input or another output, after resolving
+/// names and links, also for files that do not exist yet. An output folder must not contain an
+/// input.
 void refuse_overwriting(const std::vector<NamedFile>& inputs,
                         const std::vector<NamedFile>& outputs);
 

@@ -11,8 +11,7 @@
 
 namespace wearwell {
 
-// Whatever lies in the folder `new` of a hidden one, with nothing beside it that says what is to become of it,
-// goes when the hidden one is healed.
+// Recovery of a hidden folder without a journal removes its folder `new` with all content.
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
   const std::filesystem::path place = std::filesystem::absolute(parent);
   recover_folder(place);

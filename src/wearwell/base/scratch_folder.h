@@ -6,11 +6,11 @@
 
 namespace wearwell {
 
-/// A folder for what is needed during a run only. It goes with its object, with all that is in it, also when a
-/// signal ends the program; what a kill leaves is removed by the next start that writes in that place.
+/// A temporary folder for a run. It is removed with its content at the end of the object's lifetime
+/// and by terminating signals. After a kill, the next run that writes in that place removes it.
 class ScratchFolder {
  public:
-  /// In `parent`, hidden. Throws as fail_to_write(parent).
+  /// Creates a hidden folder in `parent`. Throws like fail_to_write(parent).
   explicit ScratchFolder(const std::filesystem::path& parent);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

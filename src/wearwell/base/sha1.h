@@ -6,9 +6,9 @@
 
 namespace wearwell {
 
-/// SHA-1, 40 hexadecimal digits as `sha1sum` prints them.
+/// SHA-1, 40 hexadecimal digits as printed by `sha1sum`.
 std::string sha1_of(std::string_view bytes);
-/// Of all that is left in a stream; look at bad() afterwards.
+/// The SHA-1 of the rest of a stream; check bad() afterwards.
 std::string sha1_of(std::istream& stream);
 
 }  // namespace wearwell

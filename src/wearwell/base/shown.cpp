@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t longest_value = 120, longest_word = 400, longest_message = 2400,
                       longest_excerpt = 1500;
-constexpr std::size_t kept = 60;  // of what is cut, at its start
+constexpr std::size_t kept = 60;  // characters kept at the start of a cut text
 
 /// The start of `text`, whole characters.
 std::string_view start_of(std::string_view text, std::size_t bytes) {
@@ -25,7 +25,7 @@ std::string cut(std::string_view text, std::size_t longest) {
   return fmt::format("{}... ({} characters)", start_of(text, kept), text.size());
 }
 
-/// Values stand in single quotes; cuts the long ones, and long words outside of quotes.
+/// Cuts long values in single quotes, and long words outside quotes.
 std::string shorten(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -56,8 +56,8 @@ std::string on_one_line(std::string text) {
   return fmt::format("{}... ({} characters)", start_of(clean, longest_message), clean.size());
 }
 
-/// Where a message ends with lines of what it speaks of, the second of them a caret below the place; all
-/// are indented by four spaces, so that none can pass for a message. npos where it does not.
+/// The position of the excerpt at the end of a message: lines indented by four spaces, the second
+/// with a caret. The indent distinguishes them from messages. npos without an excerpt.
 std::size_t excerpt_in(std::string_view text) {
   constexpr std::string_view indent = "\n    ";
   std::size_t begin = text.npos, caret = text.npos;

@@ -47,7 +47,7 @@ StagedFile::StagedFile(const fs::path& target, Links links) {
 }
 
 void StagedFile::make_folders() {
-  std::vector<fs::path> missing;  // the innermost first
+  std::vector<fs::path> missing;  // innermost first
   struct stat ignored;
   for (fs::path up = target_.parent_path(); lstat(up.c_str(), &ignored) != 0 && errno == ENOENT;
        up = up.parent_path())
@@ -62,7 +62,7 @@ void StagedFile::make_folders() {
   }
 }
 
-/// Those that others have filled stay.
+/// Keeps folders with other content.
 void StagedFile::remove_folders() {
   for (auto each = made_.rbegin(); each != made_.rend(); ++each) rmdir(each->c_str());
   made_.clear();

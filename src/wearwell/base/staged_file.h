@@ -8,19 +8,18 @@
 
 namespace wearwell {
 
-/// A symbolic link where a file is to be written: write what it points to, as for a name that a
-/// user gives, or put the file in its place, as for a name within a folder that may come from
-/// anybody.
+/// The treatment of a symbolic link at the target: follow it (for names given by the user), or
+/// replace it (for names inside an untrusted folder).
 enum class Links { follow, replace };
 
-/// A file that appears whole or not at all: written under a name that nobody can foresee in the
-/// same folder, and put in the target's place by `commit`. Without that it goes, also when a signal
-/// ends the program; what a kill leaves is removed by the next StagedFile in that folder. A target
-/// that exists keeps its permissions; a device or a pipe is written as it stands. Folders of the target that are
-/// missing are made, and go again without `commit`.
+/// A file that is written completely or not at all. It is written under a random temporary name in
+/// the same folder and moved to the target by `commit`. Without `commit` it is removed, also by a
+/// terminating signal; after a kill the next StagedFile in that folder removes it. An existing
+/// target keeps its permissions; a device or a pipe is written directly. Missing folders are
+/// created, and removed without `commit`.
 ///
-/// All throw InputError when the target cannot be written as asked (a folder, no permission) and
-/// MachineError when the machine is at fault (disk full, read-only).
+/// All throw InputError if the target cannot be written as requested (a folder, no permission) and
+/// MachineError if the machine failed (disk full, read-only).
 class StagedFile {
  public:
   explicit StagedFile(const std::filesystem::path& target, Links links = Links::follow);
@@ -29,15 +28,15 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
 
   void write(std::string_view content) { write_all(file_, content, target_); }
-  /// Returns when the disk has it.
+  /// Returns when the file is on disk.
   void commit();
 
  private:
   void make_folders();
   void remove_folders();
 
-  std::filesystem::path target_, staging_;   ///< no staging: written as it stands
-  std::vector<std::filesystem::path> made_;  ///< folders, the outermost first
+  std::filesystem::path target_, staging_;   ///< no staging: written directly
+  std::vector<std::filesystem::path> made_;  ///< created folders, outermost first
   Descriptor file_;
 };
 

@@ -21,9 +21,9 @@
 //   old/NAME/    what was in the target, where the file system has no exchange
 //   fill/        the files, once they are to be moved into the target one by one
 //
-// `heal` brings it to its end from wherever it stands: a kill, a failure and success differ only in
-// how far things had come.
-// Longer than others: what `commit` leaves half done is what `heal` must know.
+// `heal` completes or undoes the commit from any state; a kill, a failure and a success differ only
+// in progress.
+// Longer than others: `commit` and `heal` share the intermediate states.
 namespace wearwell {
 namespace fs = std::filesystem;
 
@@ -31,7 +31,7 @@ namespace {
 
 constexpr mode_t for_all = 0777, for_owner = 0700;
 
-/// Of the target's files: new ones, those that are replaced by a new one, those that go.
+/// The target's files: added, replaced, and removed ones.
 enum Kind : char { added = '+', replaced_by_new = '=', removed = '-' };
 
 struct Journal {
@@ -48,7 +48,7 @@ struct Journal {
   }
 };
 
-// Parts end in zeros, since names may hold anything else; the last one says that it is whole.
+// Parts end with zero bytes, which names cannot contain; the last part marks completeness.
 constexpr char end_of_journal[] = "whole";
 
 std::string text_of(const Journal& journal) {
@@ -57,7 +57,7 @@ std::string text_of(const Journal& journal) {
   return text + end_of_journal + '\0';
 }
 
-/// False when there is none, or only part of one: then nothing had been put into place.
+/// False if there is no complete journal; nothing was moved into place then.
 bool read_journal(const fs::path& file, Journal& journal) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::string> parts;
@@ -88,7 +88,8 @@ bool is_folder(const fs::path& path) {
   return lstat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
 }
 
-/// Under its own name, or one that says why it has none. 0, or why it stays where it is.
+/// Moves a file back under its name, or under a name that explains the conflict. Returns 0, or the
+/// error if it stays.
 int move_and_keep(const fs::path& from, const fs::path& folder) {
   const std::string name = from.filename().string();
   for (int copy = 0; copy < 1000; ++copy) {
@@ -99,8 +100,8 @@ int move_and_keep(const fs::path& from, const fs::path& folder) {
   return EEXIST;
 }
 
-/// What was in the target before: listed files go, others return to the target. `within`: "tables/" in
-/// a folder of the target.
+/// Handles the previous content of the target: removes listed files, returns others. `within`:
+/// "tables/" for a subfolder of the target.
 void clear_away(const fs::path& before, const fs::path& target, const Journal& journal,
                 const std::string& within = {}) {
   for (const std::string& name : entries(before)) {
@@ -116,7 +117,8 @@ void clear_away(const fs::path& before, const fs::path& target, const Journal& j
   rmdir(before.c_str());
 }
 
-/// 0, or why a file could not be put into place or taken away: what is left can be done later.
+/// Returns 0, or the error of a file that could not be moved or removed; the rest can be done
+/// later.
 int fill(const fs::path& from, const fs::path& target, const Journal& journal) {
   int trouble = 0;
   for (const auto& [kind, name] : journal.files) {
@@ -130,17 +132,17 @@ int fill(const fs::path& from, const fs::path& target, const Journal& journal) {
     } else if (is_there(from / name)) {
       error = move_and_keep(from / name, target / folder);
     }
-    if (error != 0 && error != ENOENT) trouble = error;  // done before, or kept in the target
+    if (error != 0 && error != ENOENT) trouble = error;  // already done, or kept in the target
     if (folder.empty()) continue;
-    rmdir((from / folder).c_str());  // each once it is empty
+    rmdir((from / folder).c_str());  // removes empty folders
     if (kind == removed) rmdir((target / folder).c_str());
   }
   if (trouble == 0) rmdir(from.c_str());
   return trouble;
 }
 
-/// Brings a hidden folder to its end; leaves it where that cannot be done without loss. 0, or why
-/// the target is not what it was to be.
+/// Completes or undoes a hidden folder; keeps it if that would lose data. Returns 0, or the reason
+/// why the target is incomplete.
 int heal(const fs::path& area) {
   const fs::path place = area.parent_path();
   for (const std::string& name : entries(area)) {
@@ -275,7 +277,7 @@ void StagedFolder::write(const std::string& name, std::string_view content) {
 
 void StagedFolder::keep(const std::string& name) {
   if (within_.empty()) {
-    names_.push_back(name);  // the target stays, and the file in it
+    names_.push_back(name);  // the target and its file are kept
     return;
   }
   {
@@ -353,7 +355,7 @@ void StagedFolder::put_into_place() {
       check(rename_new(files, target_));
     }
   } else {
-    // Folders above may have appeared meanwhile: the first that is missing is put into place.
+    // Parent folders may have appeared in the meantime; moves the first missing one into place.
     fs::path from = area_ / "new", to = place_;
     for (const fs::path& part : within_) {
       from /= part;

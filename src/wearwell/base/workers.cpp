@@ -22,7 +22,7 @@ void run_workers(int threads, const std::function<void(int)>& work) {
     }
   };
   {
-    std::vector<std::jthread> others;  // join where this scope ends
+    std::vector<std::jthread> others;  // join at the end of the scope
     for (int worker = 1; worker < threads; ++worker) others.emplace_back(guarded, worker);
     guarded(0);
   }

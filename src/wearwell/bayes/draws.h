@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// What NUTS reports of one draw, as CmdStan's columns of the same names.
+/// NUTS diagnostics of one draw; names as CmdStan's columns.
 struct NutsStep {
   double accept_stat;  ///< mean acceptance probability over the trajectory
   int treedepth;

@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// The most variables a density may have; fixes the size of scratch on the stack, so that no
-/// evaluation allocates.
+/// The maximum number of variables. Workspace on the stack has this size, so that evaluations do
+/// not allocate.
 inline constexpr int max_dimension = 64;
 
 /// The natural logarithm of a density, up to a constant. -infinity outside the support and nowhere
@@ -25,17 +25,17 @@ class LogDensity {
   /// The log density at `x`.
   virtual double value(std::span<const double> x) const = 0;
 
-  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the
-  /// value is -infinity.
+  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified if the value
+  /// is -infinity.
   virtual double value_and_gradient(std::span<const double> x,
                                     std::span<double> gradient) const = 0;
 
-  /// The value where it is more than `least`; else anything that is not, so that what takes long may end as soon as that is
-  /// known.
+  /// The value if it exceeds `least`; else any number up to `least`, so that an expensive
+  /// evaluation can stop early.
   virtual double value_above(std::span<const double> x, double /*least*/) const { return value(x); }
 
-  /// The value along one variable, the others being those of `x`: what does not change is worked out once. Empty where that
-  /// would save nothing; valid while the density lives.
+  /// The value as a function of one variable, with the others from `x` and constant parts
+  /// precomputed. Empty if that saves nothing; valid during the lifetime of the density.
   virtual std::function<double(double)> along(std::span<const double>, std::size_t) const {
     return {};
   }

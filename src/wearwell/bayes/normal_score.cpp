@@ -12,7 +12,7 @@ namespace {
 
 // The z < 0 with log Phi(z) = log_p.
 double lower_tail(double log_p) {
-  constexpr double smallest = -700;  // of the logarithms of doubles
+  constexpr double smallest = -700;  // smallest logarithm of a double
   if (log_p > smallest) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * std::exp(log_p), QuietInDouble());
   }

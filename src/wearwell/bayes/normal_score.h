@@ -5,9 +5,8 @@
 
 namespace wearwell {
 
-/// Where an observation lies in the law that parameters give it, on the scale of the standard
-/// normal law: the z with Phi(z) = P(it or less). Of an observation that is known only to lie
-/// between two values, a run-out for example, both ends; -infinity and infinity where there is none.
+/// The normal score of an observation under given parameters: the z with Phi(z) = P(Y <= y). A
+/// censored observation, such as a run-out, has both ends; -infinity or infinity for an open end.
 struct NormalScore {
   double low = 0;
   double high = 0;
@@ -15,14 +14,12 @@ struct NormalScore {
   bool exact() const { return low == high; }
 };
 
-/// The scores of all observations under parameters x, in order. Where observations depend on each
-/// other, as those of one bearing do, each is scored in the light of those before it: under the law
-/// and the true parameters scores of exact observations are independent and standard normal
-/// (Rosenblatt 1952).
+/// The scores of all observations under parameters x, in order. Dependent observations, such as
+/// those of one bearing, are scored conditionally on the previous ones: under the true model the
+/// scores of exact observations are independent and standard normal (Rosenblatt 1952).
 using Scores = std::function<std::vector<NormalScore>(const double* x)>;
 
-/// The z with log Phi(z) = `log_cdf` and log Phi(-z) = `log_survival`: no digit is lost in either
-/// tail.
+/// The z with log Phi(z) = `log_cdf` and log Phi(-z) = `log_survival`: accurate in both tails.
 double normal_score(double log_cdf, double log_survival);
 
 /// Phi(z).

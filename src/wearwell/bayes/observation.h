@@ -29,7 +29,7 @@ struct ObservationDistribution {
         location = -infinity;
         return;
       }
-      if (!std::isfinite(mean)) return;  // beyond all that can be read
+      if (!std::isfinite(mean)) return;  // larger than any reading
       const LognormalByMoments<double> distribution(mean, sd);
       location = distribution.eta;
       scale = distribution.zeta;
@@ -42,7 +42,7 @@ struct ObservationDistribution {
   /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
   double cdf(double t) const {
     const double z = (location - t) / (scale * std::sqrt(2.0));
-    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures ask for many that are 0 or 1
+    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures need many values that are 0 or 1
     if (z < -6) return 1;
     return 0.5 * std::erfc(z);
   }

@@ -12,17 +12,17 @@ namespace wearwell {
 struct Parameter {
   std::string name;
   std::string si;            ///< its SI unit
-  Unit unit;                 ///< in which it is reported: the one its prior is written in
-  std::string distribution;  ///< the prior's name as in the study file
+  Unit unit;                 ///< unit of reports: that of its prior
+  std::string distribution;  ///< the prior's name in the study file
   Distribution prior;
   double start = 1;  ///< a plausible value inside the support, SI, where searches start
   double scale = 1;  ///< the size of a plausible change, SI, > 0
   double natural_lower =
-      -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
+      -std::numeric_limits<double>::infinity();  ///< physical bound, not a prior belief
   double natural_upper = std::numeric_limits<double>::infinity();
-  bool is_default = false;  ///< nobody stated the prior: it is the model's own
+  bool is_default = false;  ///< the prior is the model's default
   bool of_model =
-      false;  ///< of one unit, in standard terms: its law is part of the model, no belief
+      false;  ///< standardized random effect of one unit; its distribution is part of the model
 };
 
 }  // namespace wearwell

@@ -10,8 +10,8 @@
 
 namespace wearwell {
 
-/// Bayes' rule: log prior + log likelihood. As a LogDensity it lives on the whole real line of
-/// every parameter (z, with the Jacobian of the transform); the natural parameters are x.
+/// Bayes' rule: log prior + log likelihood. As a LogDensity it is defined on the unconstrained
+/// scale z, with the Jacobian of the transform; x are the natural parameters.
 class Posterior final : public LogDensity {
  public:
   /// `likelihood` takes the natural parameters, SI, in the order of `parameters`, 1 to
@@ -26,7 +26,7 @@ class Posterior final : public LogDensity {
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::shared_ptr<const LogDensity>& likelihood() const { return likelihood_; }
-  /// Of each parameter, z to x.
+  /// The transform of each parameter, z to x.
   const std::vector<Transform>& transforms() const { return transforms_; }
 
   /// Sum of the log densities of the priors at natural parameters; up to a constant where one is
@@ -36,7 +36,7 @@ class Posterior final : public LogDensity {
   /// log prior + log likelihood of natural parameters, -infinity outside the support.
   double natural_value(std::span<const double> x) const;
 
-  /// The same with its derivatives by natural parameters; x lies inside the support.
+  /// The same with its derivatives by natural parameters; x must be inside the support.
   double natural_value_and_gradient(std::span<const double> x, std::span<double> gradient) const;
 
   /// Natural parameters, SI, of z; both have dimension() entries.

@@ -31,7 +31,7 @@ double PosteriorAlong::value(double z) {
   const Distribution& prior = posterior_.parameters()[axis_].prior;
   x_[axis_] = point.x;
   if (!(possible_ && prior.lower < point.x && point.x < prior.upper)) return -infinity;
-  // In the order in which Posterior adds them up.
+  // In the order of the sum in Posterior.
   double sum = before_ + (log_density(prior, point.x).value + point.log_jacobian);
   for (std::size_t i = axis_ + 1; i < dimension_; ++i) sum += behind_[i];
   sum +=

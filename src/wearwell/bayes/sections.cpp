@@ -29,7 +29,7 @@ std::vector<std::size_t> in_sections(std::vector<SpreadPoint>& points) {
   std::vector<std::uint8_t> section_of(n);
   std::vector<std::size_t> ends(sections, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    // The last that begins no later, without branches: where points lie cannot be foreseen.
+    // Branchless binary search, because positions are unpredictable.
     std::size_t at = 0;
     for (std::size_t half = sections / 2; half > 0; half /= 2)
       at += begins[at + half] <= points[i].center ? half : 0;

@@ -15,7 +15,7 @@ namespace wearwell {
 
 namespace {
 
-// Where a cell's node lies along one axis and what its mass is spread like, in cell lengths.
+// The position of a cell's node along one axis and the moments of its mass, in cell lengths.
 struct Along {
   double node = 0, mean = 0, square = 1.0 / 12;
 
@@ -27,8 +27,8 @@ struct Along {
     square = draws.cells.square(i, a);
   }
 
-  // Of the parabola through what a quantity is at the node and at both ends: how much the lower and the
-  // upper end move its value at `at`, whose mean square is `squared`.
+  // The weights of the lower and the upper end in the parabola through the values at the node and
+  // at both ends, evaluated at `at` with mean square `squared`.
   double of_lower(double at, double squared) const {
     return (squared - at * (node + 0.5) + 0.5 * node) / (0.5 + node);
   }
@@ -37,12 +37,12 @@ struct Along {
   }
 };
 
-// Where a cell's mass lies of a number in the mean, and the half width over which it is spread evenly; of that
-// the part along the axis along which it is widest.
+// The mean of a quantity over a cell, and the half-width over which its mass is spread evenly, with
+// the part along the widest axis.
 struct Spread {
   double center = 0, half_width = 0;
-  // Of the half widths along the axes the largest, the squares of the others, and how far the mass lies from the
-  // middle of the largest.
+  // The largest half-width over the axes, the squares of the others, and the offset of the mass
+  // from the middle of the largest.
   double widest = 0, others = 0, off = 0;
 
   Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
@@ -60,8 +60,8 @@ struct Spread {
                                      along.of_upper(along.mean, along.square) * (b - at_node)
                                : middle;
       center += moved;
-      // Evenly spread mass has the variance of a third of the square of half its width. The square of
-      // the width itself may be no number.
+      // Evenly spread mass has a variance of a third of the squared half-width. The squared width
+      // may overflow.
       const double stretch = 12 * (along.square - along.mean * along.mean);
       if (std::abs(half) < 1e150 && std::abs(half) > 1e-150 && half_width < 1e150) {
         half_width = std::sqrt(half_width * half_width + half * half * stretch);
@@ -83,7 +83,7 @@ struct Spread {
 
 namespace {
 
-// Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
+// Nodes with negligible total weight must not influence anything.
 constexpr double negligible = 1e-8;
 
 }  // namespace
@@ -115,7 +115,7 @@ QuantityDistribution::QuantityDistribution(const WeightedDraws& draws,
     total += weight;
     (cells_ && !std::isfinite(center) ? endless : points).push_back({center, half_width, weight});
   }
-  if (undefined > negligible * (total + undefined)) {  // it has no distribution
+  if (undefined > negligible * (total + undefined)) {  // the distribution is undefined
     points.clear();
     endless.clear();
   }
@@ -159,14 +159,14 @@ double QuantityDistribution::sd() const {
   for (std::size_t i = 0; i < center_.size(); ++i) {
     variance += weight_[i] * (std::pow(center_[i] - m, 2) + std::pow(half_width_[i], 2) / 3);
   }
-  // n/(n-1) for draws, so that the sd is R's.
+  // n/(n-1) for draws, as for the sd in R.
   const auto n = static_cast<double>(center_.size());
   return std::sqrt(cells_ || !even(weight_) ? variance : variance * n / (n - 1));
 }
 
 namespace {
 
-// Of what is spread evenly over center +- half_width the weight below x.
+// The weight below x of mass spread evenly over center +- half_width.
 double share_below(double x, double center, double half_width, double weight) {
   return x >= center + half_width   ? weight
          : x <= center - half_width ? 0
@@ -199,13 +199,13 @@ void QuantityDistribution::visit(
 double QuantityDistribution::quantile(double p) const {
   if (center_.empty()) return std::nan("");
   if (!cells_) {
-    // Points of few regions, or nodes whose cells are not kept, weigh each its own: then by the weighted type 7. Between an
-    // end that is never reached (infinity) and a neighbour there is nothing to interpolate.
+    // Points with unequal weights, or nodes without cells, use the weighted type 7. No
+    // interpolation between a finite value and infinity.
     const double q = even(weight_) ? wearwell::quantile(std::span<const double>(center_), p)
                                    : wearwell::quantile(center_, weight_, p);
     return std::isnan(q) ? center_.back() : q;
   }
-  // Points at minus infinity lie below all sections, those at infinity above.
+  // Points at minus infinity come before all sections, those at infinity after.
   const std::size_t finite = sections_.back().end;
   double below = 0;
   for (std::size_t i = finite; i < center_.size(); ++i) {
@@ -225,9 +225,9 @@ double QuantityDistribution::quantile(double p) const {
       below = weight;
   }
   if (finite == 0 || (!around && finite < center_.size())) return center_.back();
-  // The root lies between the outermost ends of finite cells, whatever rounding makes of their
-  // total weight. It is looked for from the cell that reaches p outward: how far the others reach says
-  // nothing of it.
+  // The root lies between the outermost ends of finite cells, even if rounding changes their total
+  // weight. The search starts at the cell that reaches p, because the width of the others is
+  // irrelevant.
   const std::size_t i = around ? cell_at(*around, p - below) : cell_at(sections_.back(), infinity);
   const double step = std::max(
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
@@ -252,7 +252,7 @@ std::size_t QuantityDistribution::cell_at(const Section& section, double weight)
 std::vector<double> cell_shares(const WeightedDraws& draws,
                                 const std::function<double(const double* x)>& quantity,
                                 const std::vector<double>& edges) {
-  // The mass below each edge: of cells that it cuts, and of those that end before it.
+  // The mass below each edge, from cells that it cuts and cells that end before it.
   std::vector<double> cut(edges.size(), 0.0), whole(edges.size() + 1, 0.0);
   double total = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
@@ -265,10 +265,10 @@ std::vector<double> cell_shares(const WeightedDraws& draws,
       spread.center = at_node;
       spread.half_width = spread.widest = spread.others = 0;
     }
-    // Along the widest axis the density is a straight line about its middle, with the mean of the mass.
+    // Along the widest axis the density is linear, with the mean of the mass.
     const double a = spread.widest, b = std::sqrt(spread.others),
                  off = std::clamp(spread.off, -a / 3, a / 3), middle = spread.center - off;
-    // The integral up to x of its distribution.
+    // The integral of its cdf up to x.
     const auto integral = [a, off](double x) {
       if (!(x < a)) return x - off;
       if (!(x > -a)) return 0.0;

@@ -9,32 +9,32 @@
 
 namespace wearwell {
 
-/// A matrix whose rows are contiguous: one row a point.
+/// A matrix with contiguous rows, one row per point.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a
-/// quadrature. A node stands for a cell; `lower` and `upper` hold, for each axis of the
-/// integration, the points where the cell ends. Sums over `weights` are as exact as the quadrature;
-/// distributions are read off the cells. Nodes from `lower[0].rows()` on have little weight and no
-/// cells: others before them stand for theirs.
+/// A posterior as weighted points: draws of a sampler with equal weights, or nodes of a quadrature.
+/// A node represents a cell; `lower` and `upper` contain the ends of the cell along each axis of
+/// the integration. Sums over `weights` have the accuracy of the quadrature; distributions are
+/// computed from the cells. Nodes from `lower[0].rows()` on have little weight and no cells;
+/// earlier cells represent their mass.
 struct WeightedDraws {
   Points values;              ///< points x parameters, natural, SI
   Eigen::VectorXd weights;    ///< sum to 1
-  std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
+  std::vector<Points> lower;  ///< one per axis, shaped like `values`; empty for draws
   std::vector<Points> upper;
 
-  /// What lies in the cells, where it is known better than by the weights and the middle.
+  /// More accurate content of the cells than weight and middle.
   struct Cells {
     Eigen::VectorXd mass;  ///< of each cell; sum to 1
-    /// Points x axes, in cell lengths from -1/2 to 1/2: where the node lies, where the mass lies in
-    /// the mean, and its mean square about the middle.
+    /// Points x axes, in cell lengths from -1/2 to 1/2: the node, the mean of the mass, and its
+    /// mean square about the middle.
     Points node, mean, square;
   };
   Cells cells = {};
 
   bool has_cells() const { return cells.mass.size() > 0; }
 
-  /// The weight of point i where it stands for its cell.
+  /// The weight of point i as the representative of its cell.
   double cell_weight(Eigen::Index i) const {
     if (!has_cells()) return weights[i];
     return i < cells.mass.size() ? cells.mass[i] : 0;
@@ -52,7 +52,7 @@ class QuantityDistribution {
   QuantityDistribution(const WeightedDraws& draws,
                        const std::function<double(const double* x)>& quantity);
 
-  /// Points of no more weight than this do not count.
+  /// Points up to this weight are ignored.
   static double least_weight(const WeightedDraws& draws);
 
   double mean() const;
@@ -68,22 +68,25 @@ class QuantityDistribution {
       const std::function<void(double weight, double center, double half_width)>& each) const;
 
  private:
-  // Points that lie before those of the next; sums need no order among them.
+  // Points before those of the next section; unordered within.
   struct Section {
     std::size_t end;
-    double low, high;  // between which their cells lie
+    double low, high;  // range of their cells
     double weight;
   };
-  // The cell of a section that, with those before it there, reaches so much weight; or its last.
+  // The cell of a section at which its cumulative weight reaches the given weight, or its last
+  // cell.
   std::size_t cell_at(const Section& section, double weight) const;
 
-  // Draws are sorted; cells from section to section. Cells at infinity (a life that never ends) come behind all sections.
+  // Draws are sorted; cells are ordered by section. Cells at infinity (a life that never ends) come
+  // after all sections.
   std::vector<double> center_, half_width_, weight_;
   std::vector<Section> sections_;
   bool cells_ = false;
 };
 
-/// One draw: a point by its weight, then a place within its cell, by a density linear along each axis.
+/// One draw: a point by its weight, then a position within its cell by a density linear along each
+/// axis.
 class WeightedSampler {
  public:
   /// `draws` must outlive the sampler.

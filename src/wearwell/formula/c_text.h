@@ -8,10 +8,10 @@
 
 namespace wearwell::formula {
 
-/// An expression under the lines `law` as a function of C99, `static double NAME(const double *number, const int *label, const
-/// double *parameter, const double *effect)`: with columns and labels in the order of the symbols,
-/// slots(symbols), and random effects by row. Throws InputError like `compile`, and if the
-/// expression depends on previous rows.
+/// An expression under the lines `law` as a function of C99, `static double NAME(const double
+/// *number, const int *label, const double *parameter, const double *effect)`: with columns and
+/// labels in the order of the symbols, slots(symbols), and random effects by row. Throws InputError
+/// like `compile`, and if the expression depends on previous rows.
 std::string c_function(const std::vector<Line>& law, const Wanted& wanted, const Symbols& symbols,
                        const std::string& name);
 

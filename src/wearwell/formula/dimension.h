@@ -28,9 +28,9 @@ class Power {
   int above_ = 0, below_ = 1;
 };
 
-/// Powers of the base units (docs/reference/units.md: those of the SI, "cycle" for whatever is counted and
-/// "radian"), none of them 0. Unlike the powers of a written unit they may be fractions: a stress
-/// intensity has the square root of a length. Empty for a pure number.
+/// Powers of the base units (docs/reference/units.md: those of the SI, "cycle" for whatever is
+/// counted and "radian"), none of them 0. Unlike the powers of a written unit they may be
+/// fractions: a stress intensity has the square root of a length. Empty for a pure number.
 using Powers = std::map<std::string, Power>;
 
 Powers powers_of(const wearwell::Dimension& dimension);

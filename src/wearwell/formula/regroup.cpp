@@ -74,7 +74,8 @@ class Regrouping {
     return to_.add(copy);
   }
 
-  // Between two rows y' = A + B y with constant A and B: y grows by exp(B h) and gains A h growth(B h).
+  // Between two rows y' = A + B y with constant A and B: y grows by exp(B h) and gains A h growth(B
+  // h).
   int recurrence(const LinearRate& rate, int beginning) {
     Node step;
     step.op = Op::step;

@@ -35,10 +35,10 @@ class RateShape {
   int state_, first_input_, result_;
 };
 
-/// One solution of y' = g(y), y(0) = anchor, for t >= 0, as polynomials on panels, each the collocation at 16
-/// Chebyshev nodes (Newton's method; a panel is as long as its last coefficients allow, about 1e-13
-/// of y). All paths with a rate proportional to g follow it; t is the sum of factor times step. It
-/// is extended on request, in panels that do not depend on the requests.
+/// One solution of y' = g(y), y(0) = anchor, for t >= 0, as polynomials on panels, each the
+/// collocation at 16 Chebyshev nodes (Newton's method; a panel is as long as its last coefficients
+/// allow, about 1e-13 of y). All paths with a rate proportional to g follow it; t is the sum of
+/// factor times step. It is extended on request, in panels that do not depend on the requests.
 class Trajectory {
  public:
   explicit Trajectory(const StatePlan& plan);

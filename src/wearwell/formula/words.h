@@ -53,9 +53,10 @@ enum class Op : unsigned char {
   opposite,
   where,
   cum,
-  state,   ///< by its rate
-  expand,  ///< expands numbers by label to rows
-  recurrence,  ///< a state with a linear rate: a its growth from row to row, b its beginning, c its gain
+  state,       ///< by its rate
+  expand,      ///< expands numbers by label to rows
+  recurrence,  ///< a state with a linear rate: a its growth from row to row, b its beginning, c its
+               ///< gain
 };
 
 /// The types of a function's arguments and result.

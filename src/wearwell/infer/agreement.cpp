@@ -15,9 +15,10 @@ std::vector<Disagreement> distances_from_exact(const Fit& fit) {
     const QuantityDistribution drawn(fit.pooled, [i](const double* x) { return x[i]; });
     const Diagnostics& d = fit.diagnostics[i];
     const double sd = fit.exact->sd[static_cast<Eigen::Index>(i)];
-    // A mean without variance has no Monte Carlo standard error to speak of.
+    // Without a variance the mean has no meaningful Monte Carlo standard error.
     const bool has_mean = std::isfinite(sd);
-    constexpr double central = 3.29;  // standard deviations that hold 90 % of a normal distribution
+    constexpr double central = 3.29;  // width of the central 90 % of a normal distribution, in
+                                      // standard deviations
     const double size = has_mean ? sd : (exact.quantile(0.95) - exact.quantile(0.05)) / central;
     const auto add = [&](const char* number, double difference, double error) {
       each[i].push_back({i, number, difference / error, difference / size});

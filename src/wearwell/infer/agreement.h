@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-/// How far the draws lie from quadrature in one number of one parameter.
+/// The difference between draws and quadrature for one statistic of one parameter.
 struct Disagreement {
   std::size_t parameter = 0;
   std::string number;     ///< "median"
@@ -15,15 +15,16 @@ struct Disagreement {
   double deviations = 0;  ///< standard deviations of the posterior
 };
 
-/// Quantiles at 5, 50 and 95 % and the mean (where there is a variance) of each parameter. Only where
-/// there is quadrature (`fit.exact`).
+/// The 5, 50 and 95 % quantiles and the mean (if a variance exists) of each parameter. Requires
+/// quadrature (`fit.exact`).
 std::vector<Disagreement> distances_from_exact(const Fit& fit);
 
-/// Of these, what is no chance: right draws show any of them with a probability of `level` (Sidak 1967; numbers of one parameter are
-/// correlated, which makes it less). A difference far below a standard deviation is none, however many the draws.
+/// The significant differences: correct draws give any of them with probability `level` (Sidak
+/// 1967; correlation within a parameter makes this smaller). A difference far below a standard
+/// deviation is ignored for any number of draws.
 std::vector<Disagreement> disagreements(const Fit& fit, double level);
 
-/// How probable it is that right draws are told to disagree.
+/// The probability that correct draws are reported to disagree.
 inline constexpr double agreement_level = 1e-4;
 
 }  // namespace wearwell

@@ -7,19 +7,19 @@
 namespace wearwell {
 namespace {
 
-// Growth ends where no proper posterior reaches: a factor of e^200 on a half-line (beyond, densities
-// of heavy tails end to be numbers), 10^12 typical changes on a whole line.
+// Growth ends beyond the range of any proper posterior: a factor of e^200 on a half-line
+// (heavy-tailed densities underflow beyond), 10^12 typical changes on a whole line.
 constexpr double farthest_on_half_line = 200, farthest_on_whole_line = 1e12;
 
-// A box whose density on a shared face is less than this share of its neighbour's missed something.
+// A box with less than this fraction of its neighbor's density on a shared face has missed mass.
 constexpr double least_agreement = 0.5;
-// Shares of the tolerance that a single face may lack.
+// The fraction of the tolerance allowed for a single face.
 constexpr double small_share = 0.03;
-// A box not longer than this, along every axis, as its neighbour has looked closely enough.
+// A box at most this much longer than its neighbor, along every axis, is fine enough.
 constexpr double as_small = 0.75;
 
-// Points between the nodes of a box at which it is inspected, by dimension, and the steps of an
-// additive recurrence that fills the unit box evenly (powers of the root of x^(d+1) = x + 1).
+// The number of inspection points between the nodes of a box, by dimension, and the steps of an
+// additive recurrence with low discrepancy in the unit box (powers of the root of x^(d+1) = x + 1).
 constexpr std::array<int, max_exact_dimension + 1> points_between = {0, 3, 6, 10, 16};
 constexpr std::array<std::array<double, max_exact_dimension>, max_exact_dimension + 1>
     wander_steps = {
@@ -29,11 +29,12 @@ constexpr std::array<std::array<double, max_exact_dimension>, max_exact_dimensio
          {0.8191725133961645, 0.6710436067037893, 0.5497004779019703},
          {0.8566748838545029, 0.7338918566271260, 0.6287067210378087, 0.5385972572236101}}};
 
-// How often second moments are judged anew by better means and standard deviations.
+// The number of times second moments are standardized again with better means and standard
+// deviations.
 constexpr int most_standardized = 4;
 
-// What a sound integral may differ by (log) from the highest density that the walk along the ridge
-// met, and from its Laplace approximation.
+// The allowed difference (log) of a correct integral from the highest density on the walk along the
+// ridge, and from its Laplace approximation.
 constexpr double most_above = 3, most_from_laplace = 4;
 
 }  // namespace
@@ -60,7 +61,7 @@ bool BoxIntegrator::reconcile(std::size_t i, int axis, bool high, std::vector<do
   const Cell cell = cells_[i];
   const std::span values(&values_[cell.first], points_);
   polynomial_.face(values, axis, high, on_face);
-  // What would lie beyond the face, if the density went on for half of the box.
+  // The mass beyond the face if the density continued for half of the box.
   const double depth = 0.5 * volume(cell) * cell.control / cell.mass;
   Coordinates u{};
   u[axis] = high ? cell.upper[axis] : std::nextafter(cell.lower[axis], -INFINITY);
@@ -276,7 +277,7 @@ void BoxIntegrator::verify() {
     return;
   }
   const double off = log_mass() - map_.log_integral();
-  // The curvature along the ridge knows of one maximum.
+  // The Laplace approximation along the ridge covers only one maximum.
   if (places_.empty() ? std::abs(off) > most_from_laplace : off < -most_from_laplace) {
     contradicted_ = true;
     failure_ = fmt::format(

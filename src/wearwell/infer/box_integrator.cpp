@@ -11,14 +11,13 @@
 namespace wearwell {
 namespace {
 
-// Nodes per axis and the largest mass of one cell, by dimension: few enough evaluations, cells
-// small enough that spreading a node's mass evenly over its cell keeps quantiles within about 0.1 %
-// of a standard deviation.
+// Nodes per axis and the largest mass of one cell, by dimension: few evaluations, but cells small
+// enough that evenly spread mass keeps quantiles within about 0.1 % of a standard deviation.
 constexpr std::array<int, max_exact_dimension + 1> nodes_per_axis = {0, 10, 7, 5, 4};
 constexpr std::array<double, max_exact_dimension + 1> max_cell_mass = {0, 1. / 40, 1. / 80,
                                                                        1. / 400, 1. / 1000};
 
-// Who asks for fewer digits than studies do gets larger cells.
+// A larger tolerance than that of studies allows larger cells.
 double most_mass(int dimension, double tolerance) {
   constexpr double of_studies = 1e-4;
   return max_cell_mass[dimension] * std::max(1.0, tolerance / of_studies);
@@ -51,7 +50,7 @@ BoxIntegrator::BoxIntegrator(const Posterior& posterior, const Whitening& whiten
   }
   scale_x_ = scale_x_.cwiseSqrt();
   scale_x_ = scale_x_.cwiseMax(std::numeric_limits<double>::min());
-  // How far each coordinate goes with each u, at the center.
+  // The derivative of each coordinate by each u, at the center.
   const RidgeMap::Frame frame = map_.at(0);
   Coordinates u{}, from, to;
   map_.to_real(frame, u, from);
@@ -131,7 +130,7 @@ BoxIntegrator::Cell& BoxIntegrator::add(const Coordinates& lower, const Coordina
     cell.control += weight * (moments_exist_ && !overflowed_ ? moments : 1);
   }
   evaluations_ += static_cast<long>(points_);
-  cell.error = cell.control;  // until it is compared with its halves
+  cell.error = cell.control;  // until compared with its halves
   look_along_axes(cell);
   cells_.push_back(cell);
   return cells_.back();
@@ -158,7 +157,7 @@ void BoxIntegrator::look_along_axes(Cell& cell) const {
       of_mean += high * node_weight(line) / rule_.weight[0];
     }
     if (mean > 0) cell.tail += std::pow(std::min(1.0, of_mean / mean), decay);
-    // Between equals the longer side, so that a cell without structure stays a cube.
+    // Ties go to the longer side, so that a cell without structure stays a cube.
     energy += 1e-300 * (cell.upper[a] - cell.lower[a]);
     if (energy > largest) {
       largest = energy;
@@ -218,11 +217,11 @@ void BoxIntegrator::halve(std::size_t i, int a) {
   add(middle_lower, parent.upper);
   add(parent.lower, middle_upper);
   Cell& first = cells_[i];
-  first = cells_.back();  // the parent's place; its old values stay unused in the arena
+  first = cells_.back();  // reuses the parent's index; its old values stay unused in the arena
   cells_.pop_back();
   Cell& second = cells_.back();
   tree_.halve(i, a, middle_upper[a], false, cells_.size() - 1);
-  // Either half may have what the other lost, be there nothing on its nodes.
+  // Either half may contain what the other missed, even if its nodes are zero.
   const double difference = std::abs(parent.control - first.control - second.control);
   for (Cell* half : {&first, &second})
     half->error = std::max(0.5 * difference, half->tail * half->control);

@@ -12,8 +12,9 @@
 
 namespace wearwell {
 
-/// Adaptive boxes over the map's coordinates (exact.h): refined (box_integrator.cpp), looked at again in
-/// other ways (box_inspection.cpp), laid about several maxima (box_maxima.cpp), and written as nodes (box_result.cpp).
+/// Adaptive boxes over the map's coordinates (exact.h): refinement (box_integrator.cpp), additional
+/// inspection (box_inspection.cpp), several maxima (box_maxima.cpp), and conversion to nodes
+/// (box_result.cpp).
 class BoxIntegrator {
  public:
   BoxIntegrator(const Posterior& posterior, const Whitening& whitening,
@@ -21,7 +22,7 @@ class BoxIntegrator {
   ExactPosterior run();
 
   bool straight() const { return map_.affine(); }
-  /// The walk along the ridge has come by all maxima.
+  /// The walk along the ridge visited all maxima.
   bool reaches_maxima() const;
 
  private:
@@ -31,24 +32,24 @@ class BoxIntegrator {
 
   struct Cell {
     Coordinates lower, upper;
-    std::size_t first;  // of its values in the arena
+    std::size_t first;  // index of its values in the arena
     double mass = 0;    // integral of the density
     double control =
         0;  // integral of density x (1 + squared standardized parameters): mass and second
             // moments in one
     double error = 0;        // estimated, of `control`
-    int axis = 0;            // along which it resolves worst
-    bool inspected = false;  // between its nodes
-    bool agrees = false;     // with its neighbours
+    int axis = 0;            // the worst-resolved axis
+    bool inspected = false;  // inspected between its nodes
+    bool agrees = false;     // agrees with its neighbors
     double tail =
-        0;  // the error relative to `control`, as the cell's own Legendre coefficients tell it
+        0;  // the error relative to `control`, estimated from the cell's Legendre coefficients
   };
 
-  // A maximum in the map's coordinates: how wide it is along each axis, whatever the others and with these held.
+  // A maximum in the map's coordinates, with its marginal and conditional widths along each axis.
   struct Place {
     Coordinates u, width, narrow;
-    double log_density;  // over the reference
-    double volume;       // of its covariance: the root of the determinant
+    double log_density;  // relative to the reference
+    double volume;       // root of the determinant of its covariance
   };
 
   void node(const Cell& cell, std::size_t index, Coordinates& u) const {
@@ -74,20 +75,20 @@ class BoxIntegrator {
     posterior_.to_natural(std::span(z.data(), n), std::span(x.data(), n));
   }
   Eigen::VectorXd natural(const Coordinates& u) const;
-  // Nodes with the same place along the map's axis share a frame.
+  // Nodes with the same position along the map's axis share a frame.
   std::array<RidgeMap::Frame, 10> frames_of(const Cell& cell) const;
   // Evaluates the density on the cell's nodes and adds it.
   Cell& add(const Coordinates& lower, const Coordinates& upper);
-  // Along which axis the two highest Legendre coefficients are largest, and what all of them say of the
-  // error: coefficients that fall geometrically from the mean to the highest are, at the degree where
-  // the rule begins to err, as much smaller again. Halving along one axis tells nothing of the others.
+  // The axis with the largest two highest Legendre coefficients, and an error estimate from all
+  // axes: the geometric decay of the coefficients is extrapolated to the degree at which the rule
+  // begins to err. Halving along one axis gives no information about the others.
   void look_along_axes(Cell& cell) const;
-  // Makes the region and the reference fit all maxima, where there are several.
+  // Extends the region and the reference to all maxima, if there are several.
   void reach_maxima();
   Place place_of(const Whitening& whitening) const;
-  // Halves the boxes at each maximum until they are no longer than some of its widths.
+  // Halves the boxes at each maximum until they are at most a few of its widths long.
   void halve_at_maxima();
-  // A maximum that the boxes do not have.
+  // A maximum that the boxes miss.
   bool missed_maximum() const;
   void add_grid(const Coordinates& lower, const Coordinates& upper, int parts);
   void sum() {
@@ -103,25 +104,24 @@ class BoxIntegrator {
   void refine();
   void halve(std::size_t i) { halve(i, cells_[i].axis); }
   void halve(std::size_t i, int a);
-  // Neighbours have to agree on the density at the face they share: a ridge that leaves a box and is
-  // nothing in the next ran between that one's nodes, and both of its halves may agree that there is
-  // nothing. Such a box is halved until it is as small as the one that knows better. False when all
-  // agree.
+  // Neighbors must agree on the density at their shared face: a ridge that disappears in the next
+  // box passes between its nodes, and halving alone may not detect it. Such a box is halved to the
+  // size of its neighbor. False if all agree.
   bool reconcile();
   bool reconcile(std::size_t i, int axis, bool high, std::vector<double>& on_face);
-  // Halves the box there until it is half of `cell` along every axis.
+  // Halves the box there until it has at most half the size of `cell` along every axis.
   void halve_towards(const Coordinates& there, const Cell& cell);
-  // Is `other` not yet half of `cell` along every axis?
+  // Whether `other` is larger than half of `cell` along some axis.
   bool larger(const Cell& other, const Cell& cell) const;
   double density_by(const Cell& cell, const Coordinates& u) const;
-  // Evaluates the density between the nodes of every box that counts, at points that wander over all
-  // boxes: what the polynomial through the nodes misses there by a share of the box's mean density, its
-  // integral misses by no more than about the square of it. True when the error was too small.
+  // Evaluates the density between the nodes of every relevant box, at low-discrepancy points: if
+  // the polynomial through the nodes has a relative error there, the integral has at most about its
+  // square. True if the error estimate was too small.
   bool inspect();
-  // Second moments count by their size: about the posterior's own mean and in its own standard
-  // deviations, which the whitening only guessed. True when they were guessed badly.
+  // Standardizes second moments by the posterior's mean and standard deviations, of which the
+  // whitening is only an estimate. True if the estimate was bad.
   bool restandardize();
-  // Of the density and standardized natural parameters.
+  // Integrals of the density and standardized natural parameters.
   template <class Visit>
   void for_each_node(const Visit& visit) const {
     Coordinates u, z, x;
@@ -142,18 +142,18 @@ class BoxIntegrator {
     }
   }
   bool too_far(int axis, double reach) const;
-  // Adds a slab at each face where the outermost cells still hold something. False when none does.
+  // Adds a slab at each face whose outermost cells still have mass. False if there is none.
   bool grow();
   // Second moments diverge: from here on only mass is integrated.
   void forget_moments();
-  // Was there anything on the way that no node has seen?
+  // Whether the walk met a density that no node has.
   void verify();
   double log_mass() const;
-  // The node, its weight, and where its cell ends.
+  // The node, its weight, and the bounds of its cell.
   void write_node(const Cell& cell, std::size_t index, Eigen::Index row,
                   WeightedDraws& nodes) const;
   ExactPosterior result();
-  // Of all nodes: those left out of the result together hold some of a second moment.
+  // Over all nodes, because the omitted nodes together have part of a second moment.
   void describe_moments(ExactPosterior& exact) const;
 
   const Posterior& posterior_;
@@ -163,15 +163,15 @@ class BoxIntegrator {
   GaussLegendre rule_;
   std::size_t points_;
   RidgeMap map_;
-  std::size_t stride_;  // of the map's axis among a cell's nodes
+  std::size_t stride_;  // stride of the map's axis among a cell's nodes
   double reference_, log_jacobian_;
   std::array<Coordinates, max_d> unit_;
   CellParts parts_{rule_, d_};
   NodePolynomial polynomial_{rule_, d_};
   BoxTree tree_{d_};
-  double highest_ = -INFINITY;  // log density of any node, over the reference
+  double highest_ = -INFINITY;  // highest log density of any node, relative to the reference
   std::vector<double> top_, next_;
-  double most_weight_;  // of a node on a face
+  double most_weight_;  // largest weight of a node on a face
   Eigen::VectorXd center_x_, scale_x_;
   Coordinates lower_{}, upper_{};
   std::vector<Place> places_;
@@ -181,8 +181,8 @@ class BoxIntegrator {
   long evaluations_ = 0;
   bool moments_exist_ = true;
   Coordinates wander_{};
-  int standardized_ = 0;     // how often
-  bool overflowed_ = false;  // a second moment is no number
+  int standardized_ = 0;     // count
+  bool overflowed_ = false;  // a second moment is not a number
   std::string failure_;
   bool contradicted_ = false;
 };

@@ -7,11 +7,12 @@
 namespace wearwell {
 namespace {
 
-// The region reaches so many widths beyond a maximum; boxes about it are at first no longer than so many narrow ones.
+// The region extends this many widths beyond a maximum; boxes about it are at first at most this
+// many conditional widths long.
 constexpr double widths_beyond = 6, widths_in_a_box = 3;
 
-// A maximum that holds less of the mass, as its curvature says, is not asked for; its density as the boxes have it is to
-// be right to this share.
+// Ignores a maximum with less mass by its curvature; requires this relative accuracy of its density
+// in the boxes.
 constexpr double least_share = 1e-3, well_known = 0.5;
 
 }  // namespace

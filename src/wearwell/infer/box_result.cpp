@@ -5,7 +5,7 @@
 namespace wearwell {
 namespace {
 
-// Nodes with less of the mass are left out of the result.
+// Omits nodes with less mass from the result.
 constexpr double negligible_share = 1e-9;
 
 }  // namespace

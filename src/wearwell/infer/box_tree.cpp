@@ -54,7 +54,8 @@ NodePolynomial::NodePolynomial(const GaussLegendre& rule, int dimension)
 
 double NodePolynomial::value(std::span<const double> values,
                              const BoxTree::Coordinates& place) const {
-  // One axis after the other, the last first: what is left are values at the nodes of the earlier axes.
+  // Contracts one axis after the other, the last first; the remaining values are at the nodes of
+  // the earlier axes.
   std::array<double, 1000> left;
   std::size_t count = values.size();
   const double* from = values.data();

@@ -9,7 +9,7 @@
 
 namespace wearwell {
 
-/// Boxes that are halved again and again: finds the one that a point lies in. For up to four axes.
+/// A binary tree of halved boxes that finds the box of a point. For up to four axes.
 class BoxTree {
  public:
   static constexpr int most = 4;
@@ -19,8 +19,8 @@ class BoxTree {
 
   void add(const Coordinates& lower, const Coordinates& upper, std::size_t box);
 
-  /// `box` keeps the part below the middle of the axis, or above it when `keeps_upper`; `other` is the
-  /// other part.
+  /// `box` keeps the lower half of the axis, or the upper half if `keeps_upper`; `other` is the
+  /// other half.
   void halve(std::size_t box, int axis, double at, bool keeps_upper, std::size_t other);
 
   /// The box, or `none`.
@@ -31,7 +31,7 @@ class BoxTree {
   struct Branch {
     int axis = -1;  // -1: a box
     double at = 0;
-    std::size_t below = none, above = none;  // branches; of a leaf `below` is the box
+    std::size_t below = none, above = none;  // branches; in a leaf `below` is the box
   };
   struct Root {
     Coordinates lower, upper;
@@ -43,16 +43,16 @@ class BoxTree {
   std::vector<std::size_t> leaf_;  // of a box
 };
 
-/// The polynomial through a density at the nodes of a product of Gauss-Legendre rules on [-1, 1]^d, the
-/// first axis fastest.
+/// The polynomial through a density at the nodes of a product of Gauss-Legendre rules on [-1, 1]^d,
+/// the first axis fastest.
 class NodePolynomial {
  public:
   NodePolynomial(const GaussLegendre& rule, int dimension);
 
   double value(std::span<const double> values, const BoxTree::Coordinates& place) const;
 
-  /// On the face where the axis ends, at the nodes of the other axes: their order is that of `values`
-  /// without this axis.
+  /// Values on a face of the axis, at the nodes of the other axes, in the order of `values` without
+  /// this axis.
   void face(std::span<const double> values, int axis, bool high,
             std::vector<double>& on_face) const;
 

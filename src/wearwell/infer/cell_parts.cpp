@@ -17,7 +17,8 @@ CellParts::CellParts(const GaussLegendre& rule, int dimension)
     for (std::size_t k = 0; k < p; ++k) {
       const double place = 0.5 * rule.node[k], t = middle + 2 * half * place;
       for (std::size_t j = 0; j < p; ++j) {
-        double share = half * rule.weight[k];  // times Lagrange's polynomial of node j
+        double share = half * rule.weight[k];  // to be multiplied by the Lagrange polynomial of
+                                               // node j
         for (std::size_t m = 0; m < p; ++m) {
           if (m != j) share *= (t - rule.node[m]) / (rule.node[j] - rule.node[m]);
         }
@@ -30,7 +31,8 @@ CellParts::CellParts(const GaussLegendre& rule, int dimension)
   }
 }
 
-// One matrix an axis, applied to the values at all nodes: `matrix` along `which`, masses elsewhere.
+// Applies one matrix per axis to the values at all nodes: `matrix` along `which`, masses along the
+// others.
 Eigen::VectorXd CellParts::applied(std::span<const double> values, int which,
                                    const Eigen::MatrixXd& matrix) const {
   Eigen::VectorXd result =
@@ -58,8 +60,9 @@ double CellParts::node_weight(std::size_t index) const {
 
 void CellParts::describe(std::span<const double> values, const std::vector<std::size_t>& kept,
                          double volume, Eigen::Index row, WeightedDraws::Cells& cells) const {
-  // Farther from the node's own weight the polynomial is nowhere near the density; the weight stands
-  // then, spread evenly. A density that is nowhere negative has its mean and mean square within these.
+  // If the polynomial's mass is farther from the node's weight, the polynomial is a bad
+  // approximation, and the weight is spread evenly instead. A non-negative density has its mean and
+  // mean square within these bounds.
   constexpr double least = 0.3, most = 3, farthest_mean = 0.3;
   const Eigen::VectorXd mass = applied(values, -1, mass_);
   std::size_t stride = 1;

@@ -10,15 +10,15 @@ namespace wearwell {
 
 enum class Verdict { pass, warn, fail };
 
-/// One reason to believe the numbers or not.
+/// One check of the results.
 struct Check {
   std::string name;
   Verdict verdict = Verdict::pass;
-  std::string detail;  ///< what was found, in numbers
-  std::string advice;  ///< what to do about it; empty when it passes
+  std::string detail;  ///< the finding, with numbers
+  std::string advice;  ///< advice; empty if the check passes
 };
 
-/// Collects what is wrong; the worst finding sets the verdict and the advice.
+/// Collects findings; the worst one determines the verdict and the advice.
 class Findings {
  public:
   explicit Findings(std::string name) { check_.name = std::move(name); }

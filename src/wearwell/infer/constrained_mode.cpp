@@ -16,13 +16,13 @@ namespace {
 
 constexpr int draws_to_start_from = 10;
 
-// A maximum farther than this from the posterior, in its widths, is an asymptote.
+// A maximum farther than this from the posterior, in its widths, is treated as an asymptote.
 constexpr double far = 1e3;
 
 // Curvature in units of the posterior's width below which a direction is a plateau.
 constexpr double least_curvature = 1e-7;
 
-// Curvature in units of the distance between two bounds below which the data tell nothing there.
+// Curvature in units of the distance between two bounds below which the data are not informative.
 constexpr double least_reported = 1e-3;
 
 std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) {
@@ -58,7 +58,8 @@ std::string endless(const Parameter& parameter, bool lower) {
                      lower ? "lower" : "upper");
 }
 
-// Why the highest point found is no mode; empty when it is one. `middle` is the center on the real line.
+// Why the highest point found is not a mode; empty if it is one. `middle` is the center on the real
+// line.
 std::string problem_of(const Posterior& posterior, const Box& box, const Maximum& best,
                        const Eigen::VectorXd& middle, const Eigen::VectorXd& center,
                        const Eigen::VectorXd& width) {
@@ -67,7 +68,8 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Maximum
     const Parameter& parameter = posterior.parameters()[static_cast<std::size_t>(i)];
     const bool lower = best.x[i] <= box.lower[i], upper = best.x[i] >= box.upper[i];
     const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
-    // A density like a power of the distance to the bound: its log slope times the distance.
+    // The exponent of a density that behaves like a power of the distance to the bound: log slope
+    // times distance.
     if ((lower || upper) && std::abs(best.gradient[i] * (best.x[i] - bound)) > 0.01) {
       return endless(parameter, lower);
     }
@@ -77,7 +79,7 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Maximum
     }
   }
   if (best.converged) return {};
-  // The search may lose itself where the others close in.
+  // The search may diverge where the other parameters concentrate.
   for (int i = 0; i < posterior.dimension(); ++i) {
     if (!rises_without_end(posterior, middle, i)) continue;
     return endless(posterior.parameters()[static_cast<std::size_t>(i)], true);
@@ -100,7 +102,7 @@ NaturalMode constrained_mode(const Posterior& posterior, const Fit& fit) {
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     at_start[i] = density.value(view(all[i]));
     summits[i] = maximize(density, all[i], width, box);
-    // Draws of an improper posterior may lie where doubles end.
+    // Draws of an improper posterior may be at the limits of doubles.
     if (!(summits[i].value < INFINITY)) summits[i].value = -INFINITY;
     if (!(at_start[i] < INFINITY)) at_start[i] = -INFINITY;
   });

@@ -11,7 +11,7 @@ namespace wearwell {
 namespace {
 
 constexpr double most_of_all = 0.8;
-constexpr double rounding = 1e-9;  // relative, of numbers that went to SI and back
+constexpr double rounding = 1e-9;  // relative rounding of a conversion to SI and back
 constexpr std::size_t fewest_values = 3;
 
 bool is_multiple(double value, double step) {
@@ -35,7 +35,7 @@ bool most(const std::vector<double>& values, const auto& holds) {
   return static_cast<double>(count) >= most_of_all * static_cast<double>(values.size());
 }
 
-// The largest step of which most values are multiples: a common divisor of three of them.
+// The largest step of which most values are multiples, from common divisors of three values.
 double common_step(const std::vector<double>& values) {
   constexpr int tries = 60;
   constexpr std::uint64_t seed = 20261124;
@@ -53,7 +53,7 @@ double common_step(const std::vector<double>& values) {
   return largest;
 }
 
-// The last of so many significant digits of a value.
+// The unit of the last of the given significant digits of a value.
 double last_digit(double value, int digits) {
   return std::pow(10, std::floor(std::log10(std::abs(value)) + rounding) - digits + 1);
 }
@@ -67,7 +67,7 @@ int significant_digits(const std::vector<double>& values) {
   return in_a_double;
 }
 
-// Observations in the order of all that is the same under the same conditions, then of the value.
+// Observations sorted by conditions, then by value.
 struct Alike {
   const FitData& data;
 
@@ -126,7 +126,7 @@ std::optional<CopiedRows> copied_rows(const FitData& data, const std::vector<dou
     }
     begin = end;
   }
-  constexpr double doubt = 2;  // of the density
+  constexpr double doubt = 2;  // uncertainty factor of the density
   const double expected = std::max(doubt * found.expected, 1e-300);
   const boost::math::poisson distribution(expected);
   found.p =

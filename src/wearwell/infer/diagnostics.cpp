@@ -19,7 +19,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Double is accurate enough, and many times as fast as Boost's default of long double inside.
+// Double is accurate enough and much faster than Boost's default promotion to long double.
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 bool is_constant(std::span<const double> x) {
@@ -28,7 +28,7 @@ bool is_constant(std::span<const double> x) {
   return *high - *low <= rounding * std::max(std::abs(*low), std::abs(*high));
 }
 
-// Summed from the first value on, so that the mean of a constant is that constant.
+// Sums differences from the first value, so that the mean of a constant is exact.
 double mean(std::span<const double> x) {
   double sum = 0;
   for (const double value : x) sum += value - x[0];
@@ -42,7 +42,7 @@ double variance(std::span<const double> x) {
   return sum / static_cast<double>(x.size() - 1);
 }
 
-/// Series of equal length, one behind the other: the halves of the chains.
+/// The halves of the chains: consecutive series of equal length.
 struct Halves {
   std::vector<double> values;
   std::size_t length = 0;
@@ -59,10 +59,11 @@ struct Ranked {
   std::uint32_t place;  ///< in Halves::values
 };
 
-/// What all diagnostics start from.
+/// The common input of all diagnostics.
 struct Pooled {
-  bool usable = false;  ///< finite, not constant, long enough for R-hat; else the rest is empty
-  Halves halves;        ///< the draw in the middle of a chain of odd length is in no half
+  bool usable = false;  ///< finite, not constant, long enough for R-hat; otherwise the rest is
+                        ///< empty
+  Halves halves;        ///< the middle draw of a chain of odd length is in neither half
   std::vector<Ranked> ranked;  ///< the draws in the halves, ascending
   std::vector<double> sorted;  ///< all draws, ascending
 };
@@ -107,7 +108,7 @@ Pooled pool(const Chains& chains) {
   return pooled;
 }
 
-/// Normal scores of the ranks 1 to `count`, with Blom's offset: Phi^-1((r - 3/8)/(count + 1/4)).
+/// Normal scores of the ranks 1 to `count` with Blom's offset: Phi^-1((r - 3/8)/(count + 1/4)).
 class NormalScores {
  public:
   explicit NormalScores(std::size_t count) : whole_(count) {
@@ -117,7 +118,7 @@ class NormalScores {
     }
   }
 
-  /// Of the mean of the ranks `first` to `last`.
+  /// The normal score of the mean of the ranks `first` to `last`.
   double operator()(std::size_t first, std::size_t last) const {
     const std::size_t twice = first + last;
     return twice % 2 == 0 ? whole_[twice / 2 - 1] : score(0.5 * static_cast<double>(twice));
@@ -132,8 +133,7 @@ class NormalScores {
   std::vector<double> whole_;
 };
 
-/// The normal score of each value's rank, equal values sharing the mean of their ranks
-/// (section 4.1).
+/// The normal score of each value's rank; ties have their mean rank (section 4.1).
 Halves rank_normalize(std::span<const Ranked> ranked, const NormalScores& scores,
                       std::size_t length) {
   Halves normal{std::vector<double>(ranked.size()), length};
@@ -145,8 +145,8 @@ Halves rank_normalize(std::span<const Ranked> ranked, const NormalScores& scores
   return normal;
 }
 
-/// The distances from the median, ascending: below it they fall, above they rise, so a merge of the
-/// two runs spares a second sort.
+/// The distances from the median, ascending. They decrease below it and increase above it, so a
+/// merge replaces a second sort.
 std::vector<Ranked> fold(std::span<const Ranked> ranked, double median) {
   auto above = std::lower_bound(ranked.begin(), ranked.end(), median,
                                 [](const Ranked& r, double m) { return r.value < m; });
@@ -177,8 +177,8 @@ double rhat(const Halves& halves) {
   return std::sqrt((n * variance(means) / mean(variances) + n - 1) / n);
 }
 
-/// Effective sample size (section 3.2). The autocovariances are computed lag by lag until Geyer's
-/// criterion stops, which is soon in chains that mix.
+/// Effective sample size (section 3.2). Computes autocovariances lag by lag until Geyer's criterion
+/// stops, which is early for well-mixed chains.
 double ess(const Halves& halves) {
   if (halves.length < 3 || is_constant(halves.values)) return nan;
   const std::size_t length = halves.length;
@@ -204,8 +204,7 @@ double ess(const Halves& halves) {
   const double total = biased + variance(means);
   const auto rho = [&](std::size_t lag) { return 1 - (within - autocovariance(lag)) / total; };
 
-  // Lags are taken in pairs (t, t + 1): while their sums are positive they are added up, none
-  // counting for more than the one before it.
+  // Adds pairs of lags (t, t + 1) while their sums are positive, each limited by the previous one.
   std::size_t t = 0;
   double even = 1, pair = 1 + rho(1);
   double sum = 0, ceiling = HUGE_VAL;
@@ -216,10 +215,10 @@ double ess(const Halves& halves) {
     even = rho(t);
     pair = even + rho(t + 1);
   }
-  // Of the pair that ended it the even lag still counts, which serves antithetic chains.
+  // The even lag of the terminating pair is still added, which improves antithetic chains.
   const double last = pair >= 0 || even > 0 ? even : 0;
-  // Where no pair was taken (halves of up to five draws, or perfect alternation) posterior counts
-  // lag 0 a second time, which gives half the draws.
+  // Without any pair (halves of up to five draws, or perfect alternation) posterior adds lag 0 a
+  // second time, which gives half the draws.
   if (t == 0) sum = 1;
   const double tau = -1 + 2 * sum + last;
   return size / std::max(tau, 1 / std::log10(size));
@@ -234,7 +233,7 @@ double rhat_folded(const Pooled& pooled, const NormalScores& scores) {
   return rhat(rank_normalize(folded, scores, pooled.halves.length));
 }
 
-// The larger or smaller of two numbers that may be unknown.
+// The larger or smaller of two numbers; NaN if either is.
 double larger(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b);
 }
@@ -280,7 +279,7 @@ double mcse_quantile(const Pooled& pooled, double p, double effective) {
            boost::math::ibeta_inv(effective * p + 1, effective * (1 - p) + 1, probability,
                                   Policy());
   };
-  // Phi(-1) and Phi(1), with the digits that posterior has.
+  // Phi(-1) and Phi(1), with the digits used by posterior.
   const double low = std::max(std::floor(rank(0.1586553)), 1.0);
   const double high =
       std::min(std::ceil(rank(0.8413447)), static_cast<double>(pooled.sorted.size()));

@@ -17,13 +17,15 @@
 namespace wearwell {
 namespace {
 
-// Of the level of the check; the tests of location, trend and order have their own.
+// Shares of the check's level; the tests of location, trend and order have their own.
 constexpr double shape_share = 0.25, scatter_share = 0.15, offset_share = 0.05;
-// Of the variance between draws; all of it would make tests of an offset of few rows accuse more often than they say.
+// Credited fraction of the variance between draws; the full variance would make offset tests with
+// few rows reject too often.
 constexpr double credited_offset = 0.6;
-// Beyond, a test is not asked how residuals that depend on each other change it: its p value grows by that.
+// Above this p value the correction for dependent residuals is skipped, because it only increases
+// p.
 constexpr double in_question = 0.02;
-// More observations are judged by so many of them, drawn.
+// A larger data set is tested by a random sample of this size.
 constexpr std::size_t most_observations = 20'000;
 constexpr std::uint64_t seed = 20261124;
 
@@ -55,7 +57,8 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<std
   return some;
 }
 
-// Tests of residuals that depend on each other through the parameters they share scatter more than the score says.
+// Residuals depend on each other through shared parameters, so the scores vary more than standard
+// normal.
 OverDraws over_draws(const StudentizedScores& residuals, const ScoreTest& test, bool two_sided) {
   std::vector<double> each = each_draw(residuals.scores, test);
   OverDraws all{combined_p(each, two_sided), mean(each)};
@@ -93,7 +96,7 @@ std::string advice_on_scatter(const FitData& data) {
          "depends on the mean or the driver.";
 }
 
-// What scatter may follow: along which values, and in words.
+// A variable along which the scatter may change, with its name.
 struct Along {
   std::string name;
   std::vector<double> rank;
@@ -111,7 +114,7 @@ std::vector<Along> what_scatter_may_follow(const FitData& data, const ScoreSampl
   const std::vector<std::size_t> column =
       data.column.empty() ? std::vector<std::size_t>{} : taken(data.column, row);
   std::vector<Along> all;
-  // Those that rank observations alike ask one question.
+  // Variables with equal ranks are tested once.
   const auto add = [&](const std::string& name, const std::vector<double>& values) {
     if (!std::all_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); })) return;
     std::vector<double> rank = centered_ranks(values, column);
@@ -194,7 +197,8 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
   add_scatter_tests(data, sample, row, residuals, tests);
   if (data.rise && data.rise->from_zero) {
     const std::vector<double> driver = taken(data.drivers.front().value, row);
-    // Draw by draw, as the test is exact of the scores of one draw: of means over draws a few rows have too much to say.
+    // Tests each draw, because the test is exact for the scores of one draw; with means over draws
+    // a few rows have too much influence.
     const std::vector<double> each =
         each_draw(scores, [&](std::span<const double> z) { return offset_score(z, driver); });
     tests.push_back({"offset", combined_p(each, true, credited_offset),

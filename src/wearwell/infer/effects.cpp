@@ -9,7 +9,8 @@ namespace wearwell {
 std::vector<StageDiagnostic> unsettled_effects(const Posterior& posterior,
                                                const WeightedDraws& points) {
   constexpr int most = 200;
-  constexpr double of_import = 1e-3;  // in the log likelihood, as of rounding (conditioning.cpp)
+  constexpr double of_import = 1e-3;  // tolerated error of the log likelihood, as for rounding
+                                      // (conditioning.cpp)
   int looked = 0, open = 0;
   double worst = 0, sum = 0;
   for (Eigen::Index i = 0; i < points.values.rows() && looked < most; ++i) {

@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// Looks at up to 200 of these points, evenly by their weight: in how many the likelihood left integrals
-/// within it open (LogDensity::unsettled), and by how much.
+/// Checks up to 200 of these points, evenly by weight: at how many the integrals in the likelihood
+/// missed their tolerance (LogDensity::unsettled), and by how much.
 std::vector<StageDiagnostic> unsettled_effects(const Posterior& posterior,
                                                const WeightedDraws& points);
 

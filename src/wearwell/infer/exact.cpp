@@ -12,7 +12,7 @@ namespace wearwell {
 
 namespace {
 
-constexpr int most_tries = 10'000;  // of a draw
+constexpr int most_tries = 10'000;  // maximum number of attempts per draw
 
 bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -22,7 +22,8 @@ bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
   return true;
 }
 
-// Along the ridge where that has met every maximum, else, or where that does not converge, straight.
+// Along the ridge if the walk met every maximum; otherwise, or without convergence, with the affine
+// map.
 ExactPosterior integrate_by_boxes(const Posterior& posterior, const Whitening& whitening,
                                   const ExactSettings& settings, const Posterior& shape) {
   BoxIntegrator along(posterior, whitening, settings, shape, true);
@@ -46,7 +47,7 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
-  // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
+  // Boxes are too expensive in four dimensions; they are tried only if a lattice does not converge.
   if (posterior.dimension() == 4) {
     const auto on_lattice = settings.maxima.empty() ? integrate_on_lattice : integrate_by_parts;
     ExactPosterior exact = on_lattice(posterior, whitening, settings);
@@ -71,7 +72,7 @@ Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact,
     for (int i = 0; i < draws; ++i) {
       Eigen::VectorXd x;
       double log_density = -INFINITY;
-      // Near an edge of the support a cell may reach beyond it.
+      // A cell near the boundary of the support may extend beyond it.
       for (int tried = 0; tried < most_tries && !std::isfinite(log_density); ++tried) {
         x = sample(rng);
         if (within(posterior, x)) log_density = posterior.value(view(posterior.to_real(view(x))));

@@ -22,11 +22,12 @@ struct ExactSettings {
   /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
   std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
-  /// Local maxima beside the one that the whitening is about (maxima.h), on the real line: the region has to cover them.
+  /// Other local maxima than that of the whitening (maxima.h), on the real line; the region must
+  /// cover them.
   std::vector<Mode> maxima = {};
 };
 
-/// The most parameters that quadrature is meant for.
+/// The maximum number of parameters for quadrature.
 inline constexpr int max_exact_dimension = 4;
 
 /// A posterior normalized by adaptive quadrature: no sampling, so no Monte Carlo error.
@@ -36,7 +37,7 @@ struct ExactPosterior {
   Eigen::VectorXd sd;          ///< likewise
   Eigen::MatrixXd covariance;  ///< likewise, parameters x parameters
   std::optional<double>
-      log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
+      log_evidence;  ///< log of the integral of likelihood x prior; only if every prior is proper
   double log_mass = 0;  ///< log of the integral of likelihood x prior kernels
   double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
   double highest = 0;        ///< log density (on the real line) of the highest node
@@ -61,8 +62,8 @@ struct ExactPosterior {
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
 
-/// The same along the ridge of `shape`, a posterior much like it (of all observations, where this one
-/// lacks one and has no gradient).
+/// The same along the ridge of `shape`, a similar posterior (of all observations, if this one omits
+/// one and has no gradient).
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings, const Posterior& shape);
 

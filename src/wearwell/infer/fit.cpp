@@ -31,7 +31,8 @@ WeightedDraws pool(const Draws& draws) {
   return pooled;
 }
 
-// Those about which chains start, and between which they jump: of the others a chain would draw nothing.
+// The maxima about which chains start and between which they jump; the others have too little mass
+// for any draw.
 std::vector<LocalMaximum> maxima_to_draw(const Fit& fit) {
   constexpr double least = 1e-3;
   std::vector<LocalMaximum> kept;
@@ -167,9 +168,9 @@ bool mixed(const Fit& fit) {
 
 namespace {
 
-// Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
-// suffice are drawn anew, twice as long, and once more: of NUTS with leaps about those that there are, at first as many, which
-// may be seen to be needed as early as in warm-up. Those of an improper posterior never do.
+// Without quadrature and without a requested number of draws, insufficient draws are repeated with
+// twice the length, up to twice; for NUTS first with independence proposals about the existing
+// draws, which warm-up may already request. Draws of an improper posterior never suffice.
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
   FitSettings longer = settings;
@@ -188,7 +189,7 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     }
     const bool may = settings.extend && !fit.exact && proper(fit) && doubling < most_doublings;
     if (!may || mixed(fit)) return;
-    // Of random numbers of their own: the pilot has used those.
+    // Uses separate random streams, because the pilot has used the first ones.
     if (independence)
       longer.run.first_stream += 1ULL << 42;
     else
@@ -198,8 +199,8 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
   }
 }
 
-// Of several numbers one lies far out by chance now and then, the more often the more studies there are. Where quadrature vouches
-// for itself, draws that disagree with it are drawn once more: a fault of the sampler shows again.
+// Among several statistics one is occasionally extreme by chance. Draws that disagree with reliable
+// quadrature are repeated once; a fault of the sampler would reappear.
 void redraw_where_they_disagree(const Posterior& posterior, FitSettings settings, Fit& fit) {
   constexpr double largest_error = 1e-3;
   if (!fit.exact || fit.method == Method::exact || !(fit.exact->error <= largest_error)) return;
@@ -227,7 +228,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
           settings.nuts.max_treedepth};
 
   fit.maxima = shape.maxima;
-  // Polynomials reach no farther than one maximum.
+  // Polynomials cover only one maximum.
   if (shape.mode.found && shape.neck < 0 && !fit.maxima.several()) {
     if (auto quick = surrogate_posterior(whole, fit.whitening)) {
       fit.quick = quick->posterior;
@@ -262,7 +263,8 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
     }
   }
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
-  // A sampler hardly reaches into a throat, and says so, nor from one maximum to the next; draws are then quadrature's.
+  // A sampler hardly reaches the neck of a funnel or another maximum; draws are then taken from
+  // quadrature.
   const bool spared = (shape.neck >= 0 || fit.maxima.several()) && fit.exact &&
                       fit.method == Method::nuts && settings.extend;
   if (spared) fit.method = Method::exact;

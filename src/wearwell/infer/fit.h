@@ -27,51 +27,52 @@ struct FitSettings {
   NutsSettings nuts;
   MetropolisSettings metropolis;
   ExactSettings exact;
-  /// Where no quadrature vouches for draws that have not mixed: twice as many with twice the warm-up, up to twice.
+  /// Without quadrature, repeats unmixed draws with twice the number and warm-up, up to twice.
   bool extend = false;
-  /// Draws that disagree with quadrature are drawn again once, with other random numbers: right ones with this probability.
+  /// Draws that disagree with quadrature are repeated once with other random numbers; correct draws
+  /// with this probability.
   double redraw_level = 1e-4;
 };
 
 /// A posterior as one method drew it, and beside it the exact one where quadrature can reach. Parameters are in their order in
 /// the posterior, in SI.
 struct Fit {
-  Method method;  ///< as asked for; NUTS where exact was asked for and cannot be
+  Method method;  ///< as requested; NUTS if quadrature is requested but impossible
   Whitening whitening;
   std::vector<Tail> tails;  ///< two a parameter
   std::optional<ExactPosterior> exact;
-  std::string no_exact;  ///< why there is no exact posterior; empty when there is one
+  std::string no_exact;  ///< why there is no exact posterior; empty if there is one
   Draws draws;
-  WeightedDraws pooled;                  ///< all draws of all chains, of one weight
-  std::vector<Diagnostics> diagnostics;  ///< of the draws, one a parameter
+  WeightedDraws pooled;                  ///< all draws of all chains, equally weighted
+  std::vector<Diagnostics> diagnostics;  ///< of the draws, one per parameter
   std::vector<QuantityDistribution>
-      marginals;          ///< of each parameter, SI: by quadrature, or else by draws
-  int max_treedepth = 0;  ///< that NUTS was allowed
-  std::vector<StageDiagnostic> stage_diagnostics = {};  ///< what any stage did not reach
-  RunSettings run = {};  ///< of the draws: longer than asked for where settings say `extend`
-  /// The same posterior by polynomials, where observations are many (surface.h); what is done with nodes and
-  /// draws may ask this one.
+      marginals;          ///< of each parameter, SI: by quadrature, else from draws
+  int max_treedepth = 0;  ///< limit for NUTS
+  std::vector<StageDiagnostic> stage_diagnostics = {};  ///< shortfalls of all stages
+  RunSettings run = {};  ///< of the draws; longer than requested if settings `extend`
+  /// A polynomial surrogate of the posterior for many observations (surface.h), for evaluations at
+  /// nodes and draws.
   std::shared_ptr<const Posterior> quick = {};
   double quick_error = 0;
-  /// What the search from many starts found (maxima.h), with shares by quadrature, or else by the draws; empty where there is no mode
-  /// or no finite mass.
+  /// The maxima found from many starts (maxima.h), with shares by quadrature, else from draws;
+  /// empty without a mode or finite mass.
   Maxima maxima = {};
 
-  /// The local maxima beside the one that the whitening is about, for other integrals of much the same posterior.
+  /// The other local maxima than that of the whitening, for integrals of similar posteriors.
   std::vector<Mode> other_maxima() const;
   bool redrawn = false;  ///< the first draws disagreed with quadrature
 };
 
-/// Whether the draws suffice, as the checks of convergence and divergences ask for it (sampler_checks.h).
+/// Whether the draws pass the checks of convergence and divergences (sampler_checks.h).
 bool mixed(const Fit& fit);
 
-/// The draws of one parameter, as diagnostics take them: views, valid while the draws live.
+/// The draws of one parameter for diagnostics: views, valid during the lifetime of the draws.
 Chains chains_of(const Draws& draws, Eigen::Index parameter);
 
-/// Every tail of every parameter can be integrated.
+/// Whether every tail of every parameter is integrable.
 bool proper(const Fit& fit);
 
-/// Why quadrature is out of reach of so many parameters; empty where it is not.
+/// Why quadrature is impossible for this number of parameters; empty if it is possible.
 std::string beyond_quadrature(std::size_t parameters);
 
 /// Finds the mode, examines the tails, searches for other local maxima, integrates exactly when there are at most

@@ -17,7 +17,7 @@
 namespace wearwell {
 namespace {
 
-// Draws that are judged: enough for a median.
+// Number of tested draws, enough for a median.
 constexpr double evaluations = 60'000;
 constexpr Eigen::Index fewest_draws = 40, most_draws = 400;
 // Of very many observations so many are judged, drawn, and scores of fewer draws are asked for: the posterior is narrow.
@@ -26,7 +26,7 @@ constexpr double most_scores = 4e6;
 constexpr Eigen::Index fewest_of_many = 10;
 // An observation that stands for more alike is judged as so many.
 constexpr int most_alike = 1000;
-// A passing check names what has a p value below.
+// A passing check mentions a test with a p value below this.
 constexpr double noted_below = 0.005;
 constexpr std::uint64_t seed = 20261121;  // of the scores of observations in intervals
 constexpr std::uint64_t of_the_sample = 1ULL << 32, of_the_others = of_the_sample + 1;  // streams
@@ -37,8 +37,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Where the driver is the same the order is drawn: tables are often sorted by what was observed, which
-// would make neighbours alike.
+// Ties of the driver are ordered randomly, because tables are often sorted by the observed value,
+// which would make neighbors similar.
 std::vector<std::size_t> order_along(const std::vector<double>& driver) {
   Rng rng(seed, 0);
   std::vector<double> lot;
@@ -51,11 +51,11 @@ std::vector<std::size_t> order_along(const std::vector<double>& driver) {
   return order;
 }
 
-// A score between the two ends, at random where they differ.
+// A random score between the two ends, for an interval.
 double drawn(const NormalScore& score, Rng& rng) {
-  constexpr double most = 1e6;  // its square is still a number
+  constexpr double most = 1e6;  // its square does not overflow
   if (score.exact()) return std::clamp(score.low, -most, most);
-  const double sign = score.low + score.high > 0 ? -1 : 1;  // in the tail that has the digits
+  const double sign = score.low + score.high > 0 ? -1 : 1;  // in the more accurate tail
   const double a = sign > 0 ? score.low : -score.high, b = sign > 0 ? score.high : -score.low;
   const double low = normal_cdf(a), high = normal_cdf(b);
   const double p = low + (high - low) * rng.uniform();
@@ -104,8 +104,8 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                    "residuals of neighbours along " + data.drivers.front().name + " are correlated",
                    other_distribution});
   if (data.unit.empty()) return tests;
-  // Unit by unit, or where rows are judged one by one measured column by column: what is alike within one may
-  // cancel over all of them.
+  // Within each unit, or within each measured column if rows are tested separately, because
+  // correlations within groups may cancel over all of them.
   const std::string one = data.terms ? "measured column" : "unit";
   std::vector<std::size_t> within = order;
   std::stable_sort(within.begin(), within.end(), [&](std::size_t a, std::size_t b) {
@@ -122,8 +122,8 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
   return tests;
 }
 
-// Grubbs' test (1969): the one farthest from the mean of all, by Student's law and Bonferroni's bound. Sees neither
-// where a population lies nor how wide it is, both of which one far outside takes along.
+// Grubbs' test (1969) of the value farthest from the mean, with Student's t and Bonferroni's bound.
+// It does not depend on the population's location and width, which an outlier shifts.
 double outsider_test(std::span<const double> z) {
   const auto n = static_cast<double>(z.size());
   if (n < 4) return 1;
@@ -134,14 +134,15 @@ double outsider_test(std::span<const double> z) {
     squares += square;
     most = std::max(most, square);
   }
-  const double share = most / squares * n / (n - 1);  // of what one alone could have
+  const double share = most / squares * n / (n - 1);  // relative to the maximum possible for one
+                                                      // value
   if (!(share < 1)) return 0;
   const double t = std::sqrt((n - 2) * share / (1 - share));
   const boost::math::students_t distribution(n - 2);
   return std::min(1.0, 2 * n * boost::math::cdf(boost::math::complement(distribution, t)));
 }
 
-// Whether units differ as the law of what varies says.
+// Tests the random effects of the units against their distribution.
 void judge_effects(const FitData& data, const std::vector<std::vector<double>>& drawn_effects,
                    FitOutcome& outcome) {
   std::size_t begin = 0;
@@ -182,7 +183,7 @@ std::string suspect(const FitData& data, std::size_t row) {
   return fmt::format("{} {} is an outlier compared with the others", data.noun, row + 1);
 }
 
-// How far out the outermost observation lies: by its law given all others where that is known.
+// Tests the most extreme observation, by its leave-one-out distribution if known.
 FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& residuals,
                 const std::vector<std::vector<double>>& scores) {
   FitTest result{"extreme residual", 1, "",
@@ -190,7 +191,7 @@ FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& 
                              "correct, the model does not describe it.",
                              data.noun)};
   if (data.terms && data.cheap && loo.terms.size() == residuals.size()) {
-    // One impossible observation may make the others impossible too: of these the farthest.
+    // One impossible observation can make others impossible too; reports the farthest of these.
     constexpr double impossible = 1e-100;
     const auto rank = [&](std::size_t i) {
       return std::make_pair(std::max(loo.terms[i].tail, impossible), -std::abs(residuals[i]));
@@ -213,7 +214,7 @@ FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& 
   return result;
 }
 
-// Of the observations' log densities those of leave-one-out, or those at a draw from the middle.
+// The log densities of the observations: from leave-one-out, or at a middle draw.
 std::optional<CopiedRows> copies(const FitData& data, const WeightedDraws& draws, const Loo& loo) {
   std::vector<double> log_density;
   if (data.measured.log_density) {

@@ -10,24 +10,24 @@
 namespace wearwell {
 namespace {
 
-// Stations half a factor of e apart, until the marginal density (log) has fallen by so much.
+// Stations half a factor of e apart, until the log marginal density has decreased by this much.
 constexpr double step = 0.5, fallen = 3;
 constexpr int most_stations = 60;
 
-// Of the log marginal density: below, a maximum is a plateau.
+// In the log marginal density; a lower maximum is a plateau.
 constexpr double least_curvature = 1e-2;
 
 bool is_scale(const Parameter& parameter) {
   return std::isfinite(parameter.prior.lower) && parameter.prior.lower == parameter.natural_lower;
 }
 
-// Stations along a scale from the first on, one way.
+// Stations along a scale in one direction.
 class Walk {
  public:
   Walk(const Posterior& posterior, int scale, ConditionalMode first)
       : slice_(posterior, scale), before_(first), last_(std::move(first)) {}
 
-  // Nothing where the others have no mode.
+  // Empty if the other parameters have no mode.
   std::optional<ConditionalMode> next(double by) {
     slice_.at = last_.at + by;
     ConditionalMode station = visit(slice_, guesses(before_, last_, by), last_.width);
@@ -53,7 +53,8 @@ std::optional<ConditionalMode> conditional_mode_at(const Posterior& posterior,
   return station;
 }
 
-// At z, or farther out: a search for a start may have ended deep in the throat.
+// At z or farther out, because the search for a start may have ended deep in the neck of the
+// funnel.
 std::optional<ConditionalMode> highest_conditional_mode(const Posterior& posterior,
                                                         const Eigen::VectorXd& z, int i) {
   constexpr double farther = 4, farthest = 60;  // factors of e
@@ -66,7 +67,7 @@ std::optional<ConditionalMode> highest_conditional_mode(const Posterior& posteri
   return highest;
 }
 
-// From one side of the maximum of the marginal density to the other; empty where it has none.
+// The stations around the maximum of the marginal density; empty without a maximum.
 std::vector<ConditionalMode> across_the_maximum(const Posterior& posterior,
                                                 const Eigen::VectorXd& near, int i) {
   const auto first = highest_conditional_mode(posterior, near, i);

@@ -15,28 +15,29 @@ namespace wearwell {
 namespace {
 
 constexpr int most_proposals = 8;  // proposed before each transition
-constexpr int deepest = 3;         // of a transition: at most 7 steps
+constexpr int deepest = 3;         // tree depth of a transition: at most 7 steps
 constexpr int adapting = 100;      // transitions in which steps adapt
 constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5;
-constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that NUTS does not use
+constexpr std::uint64_t own_streams = 1ULL << 40;  // streams that NUTS does not use
 
-// Draws of each chain about which the final mixture lies, and how wide its widest part is. Where evaluations take long
-// fewer, and fewer leaps: of a narrow funnel that leaves chains in the neck, which the checks then tell.
+// Draws per chain for the final mixture, and the width of its widest component. Expensive
+// likelihoods use fewer draws and fewer proposals; in a narrow funnel chains may then stay in the
+// neck, which the checks report.
 struct Manner {
   int learning;
   double wide_scale;
 };
 constexpr Manner thorough{300, 1.5}, sparing{150, 2.5};
 
-// So many leaps that about every second draw is elsewhere, where this share of those that are proposed is taken.
+// The number of proposals for which about every second draw moves, at this acceptance rate.
 int proposals_for(double share_taken) {
   if (!(share_taken > 0)) return most_proposals;
   const double enough = std::ceil(std::log(0.5) / std::log1p(-share_taken));
   return std::clamp(static_cast<int>(std::min<double>(enough, most_proposals)), 2, most_proposals);
 }
 
-// A multivariate Student law with a scale in every direction alike. Its degrees of freedom are such that the density
-// is a whole power.
+// An isotropic multivariate Student distribution. Its degrees of freedom make the density an
+// integer power.
 class Student {
  public:
   Student(int dimension, int least_freedom, double scale)
@@ -48,7 +49,7 @@ class Student {
                          0.5 * dimension * std::log(freedom_ * M_PI) -
                          dimension * std::log(scale))) {}
 
-  // The sum of its densities at squared distances from its middle.
+  // The sum of its densities at squared distances from its center.
   double density(const Eigen::ArrayXd& squares) const {
     const Eigen::ArrayXd base = (1 + squares / (scale_ * scale_ * freedom_)).inverse();
     Eigen::ArrayXd product = base;
@@ -71,10 +72,10 @@ class Student {
   double scale_, factor_;
 };
 
-// Where to leap to, in the coordinates in which the pilot is round.
+// The proposal distribution, in the whitened coordinates of the pilot.
 class Mixture {
  public:
-  // `pilot`: a column a draw.
+  // `pilot`: one column per draw.
   Mixture(const Eigen::MatrixXd& pilot, double wide_scale)
       : middles_(thinned(pilot)),
         near_(static_cast<int>(pilot.rows()), 3, width(pilot.rows(), middles_.rows())),
@@ -112,17 +113,18 @@ class Mixture {
     for (Eigen::Index k = 0; k < most; ++k) some.row(k) = pilot.col(k * pilot.cols() / most);
     return some;
   }
-  // Somewhat less than is best for a normal law (Scott 1992): a law that bends is narrower.
+  // Somewhat less than optimal for a normal distribution (Scott 1992), because a curved posterior
+  // is narrower.
   static double width(Eigen::Index dimension, Eigen::Index count) {
     return 0.85 * std::pow(static_cast<double>(count), -1 / (static_cast<double>(dimension) + 4));
   }
 
-  Eigen::ArrayXXd middles_;  // a row a draw
+  Eigen::ArrayXXd middles_;  // one row per draw
   Student near_, middle_, wide_;
 };
 
-// The real line of each parameter about its middle, in units of its width, bent: t = w sqrt(1 + (w/2)^2), of which the
-// tail exp(t) of a logarithm whose number may be 0 is a normal one.
+// The Gaussianized real line of each parameter about its center, in units of its width: t = w
+// sqrt(1 + (w/2)^2) makes the tail exp(t) of a logarithm (of a quantity that may be 0) normal.
 class Bent final : public LogDensity {
  public:
   Bent(const Posterior& posterior, Eigen::VectorXd middle, Eigen::VectorXd width)
@@ -178,12 +180,12 @@ class Bent final : public LogDensity {
   Eigen::VectorXd middle_, width_;
 };
 
-// Coordinates in which earlier draws are round and of unit size.
+// Whitened coordinates of earlier draws.
 struct Pilot {
   Bent bent;
-  Whitening round;                    // of the bent line
-  Eigen::MatrixXd places;             // a column a draw
-  std::vector<Eigen::VectorXd> last;  // of each chain
+  Whitening round;                    // of the Gaussianized line
+  Eigen::MatrixXd places;             // one column per draw
+  std::vector<Eigen::VectorXd> last;  // last draw of each chain
 };
 
 Pilot pilot_of(const Posterior& posterior, const Draws& draws) {
@@ -268,7 +270,7 @@ class IndependenceChain {
     bool moved = false;
     for (int i = 0; i < proposals_; ++i) {
       const Eigen::VectorXd next = mixture_.draw(rng_);
-      // Most are lost: a density that takes long may end as soon as it is known that this one is.
+      // Most proposals are rejected; an expensive density can stop as soon as rejection is certain.
       const double proposed = mixture_.log_density(next), least = here + std::log(rng_.uniform());
       const double there = density_.value_above(view(next), least + proposed) - proposed;
       if (!(there > least)) continue;
@@ -293,7 +295,7 @@ class IndependenceChain {
 
 struct IndependenceRun {
   Draws draws;
-  double share_taken = 0;  // of the leaps
+  double share_taken = 0;  // of the proposals
 };
 
 IndependenceRun accepted(const Posterior& posterior, const Pilot& pilot, double wide_scale,
@@ -308,7 +310,7 @@ IndependenceRun accepted(const Posterior& posterior, const Pilot& pilot, double 
     all.draws[c] = chain.drawn(settings);
     shares[c] = chain.share_taken(settings);
   });
-  // The chain that leaps least tells how many leaps it takes.
+  // The chain with the lowest acceptance determines the number of proposals.
   all.share_taken = *std::min_element(shares.begin(), shares.end());
   return all;
 }

@@ -20,25 +20,26 @@
 #include "wearwell/infer/ridge_map.h"
 #include "wearwell/math/systematic.h"
 
-// Longer than others: one rule, whose lines are filled, judged and told in the same coordinates.
+// Longer than others: one rule, whose lines are filled, assessed and converted in the same
+// coordinates.
 namespace wearwell {
 namespace {
 
 constexpr int d = 4, outer = 3;
 using Index = std::array<std::int16_t, outer>;
 using Z = LatticeChart::Z;
-using Steps = std::array<double, d>;  // of the lines along each axis, and along them
+using Steps = std::array<double, d>;  // steps between lines along each axis, and along the lines
 
-constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
-// Nodes with less of the mass have no cells of their own: every so much of them one stands for its neighbours. Of a
-// normal posterior they are six of ten and hold a thousandth.
+constexpr double negligible_share = 1e-9;  // nodes with less mass are omitted
+// Nodes with less mass have no cells; a sample of them represents their neighbors. In a normal
+// posterior they are six of ten nodes with a thousandth of the mass.
 constexpr double gathered_share = 3e-7;
-// Where evaluations end before the tolerance is met; what is taken, and told, where no more can be had.
+// The limit of evaluations, and the error that is accepted and reported if the limit is reached.
 constexpr double good_enough = 1e-3, acceptable = 5e-3;
 constexpr long most_nodes = 6'000'000;
-constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
-// Finer than sums ask for: quantiles of a posterior whose cells are as wide as those that sum well are wrong by some
-// hundredths of a standard deviation, which falls with the fourth power of the step.
+constexpr int farthest = 3000;  // steps along an axis; with more, the mass is considered unbounded
+// Finer than sums require: with cells that suffice for sums, quantiles have errors of some
+// hundredths of a standard deviation, which decrease with the fourth power of the step.
 constexpr double widest_reported = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 constexpr double longest_on_line = 0.7;
@@ -49,7 +50,7 @@ std::uint64_t key(const Index& index) {
   return packed;
 }
 
-// A node's natural parameters, and the log Jacobian of its place on the real line.
+// A node's natural parameters, and the log Jacobian of its position on the real line.
 struct Located {
   Eigen::Matrix<double, d, 1, Eigen::DontAlign> natural;
   double log_jacobian = 0;
@@ -59,21 +60,22 @@ struct Located {
 struct Line {
   Index index{};
   double middle = 0, width = 1;
-  int first = 0;               // t of the first value over the step
-  std::vector<double> values;  // log density less the reference
+  int first = 0;               // t of the first value divided by the step
+  std::vector<double> values;  // log density minus the reference
   double highest = -INFINITY;
-  std::vector<Located> kept;  // of each value; empty where there are too many to keep
+  std::vector<Located> kept;  // of each value; empty if too many to store
 };
 
-// What lies in a cell: along each axis the logarithm of the mass is the parabola through that of its node and of both
-// neighbours, in cell lengths.
+// The content of a cell: along each axis the log mass is the parabola through the node and both
+// neighbors, in cell lengths.
 class CellShape {
  public:
   explicit CellShape(double node) : node_(node) {}
 
   void along(int axis, double below, double above) {
     auto& [mass, mean, square] = along_[static_cast<std::size_t>(axis)];
-    // Beside nothing, at an edge, and where mass lies on both sides rather than here, the cell is filled evenly.
+    // At an edge, beside zero mass, and between larger masses on both sides, the cell is filled
+    // evenly.
     if (!(below > 1e-12 * node_ && above > 1e-12 * node_)) return;
     const double tilt = 0.5 * std::log(above / below),
                  bend = std::log(above / node_) + std::log(below / node_);
@@ -102,7 +104,7 @@ class CellShape {
   }
 
  private:
-  // Gauss and Legendre's rule of five nodes on -1/2..1/2.
+  // The Gauss-Legendre rule with five nodes on -1/2..1/2.
   static constexpr std::array<double, 5> places = {-0.4530899229693320, -0.2692346550528415, 0,
                                                    0.2692346550528415, 0.4530899229693320};
   static constexpr std::array<double, 5> weights = {0.1184634425280945, 0.2393143352496832,
@@ -115,24 +117,25 @@ class CellShape {
   std::array<Along, d> along_{};
 };
 
-// What sums over a lattice lack, relative to mass and second moments.
+// The estimated error of sums over a lattice, relative to mass and second moments.
 struct ErrorEstimate {
-  double lacks = 0;  // by the width of steps
+  double lacks = 0;  // from the size of the steps
   double decay =
-      1;  // of the transform of the terms, over the fourth of the lattice's frequency that was seen last
+      1;  // decay of the transform of the terms over the last quarter of the lattice's frequency
 };
 struct ErrorEstimates {
-  std::array<ErrorEstimate, d> along{};  // each axis, the worst direction that it has a part in
+  std::array<ErrorEstimate, d> along{};  // for each axis, the worst direction that involves it
   double steps = 0;                      // of all directions
-  double beyond = 0;                     // what lies where the lattice ends
+  double beyond = 0;                     // mass at the edge of the lattice
 };
 
-// Mass, first and second moments, relative to their sizes: what is to be believed of them.
+// The assessed mass, first and second moments, relative to their sizes.
 using Terms = Eigen::Array<double, 2 * d + 1, 1>;
 
-// A sum over a lattice lacks what its terms' Fourier transform is at the lattice's own frequencies. Halves of the
-// lattice tell it at half of one, quarters at a fourth: beyond, it is taken to fall as between these, as exp(-c frequency);
-// that of smooth terms falls faster. Of one parameter's terms together: any of them may be zero where its sign changes.
+// The error of a lattice sum is the Fourier transform of its terms at the lattice's frequencies.
+// Half and quarter lattices give the transform at a half and a quarter of these; its decay between
+// them, exp(-c frequency), is extrapolated. Smooth terms decay faster. The terms of one parameter
+// are assessed together, because a single one may vanish at a sign change.
 ErrorEstimate beyond_lattice(const Terms& quarter, const Terms& half) {
   ErrorEstimate worst;
   for (int i = 1; i <= d; ++i) {
@@ -147,7 +150,7 @@ ErrorEstimate beyond_lattice(const Terms& quarter, const Terms& half) {
 
 class Lattice {
  public:
-  /// Filled down to `log_negligible` of the highest density.
+  /// Filled down to `log_negligible` relative to the highest density.
   Lattice(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
           double log_negligible)
       : posterior_(posterior), chart_(chart), steps_(steps), log_negligible_(log_negligible) {
@@ -155,7 +158,7 @@ class Lattice {
   }
   Lattice(const Lattice&) = delete;
   Lattice& operator=(const Lattice&) = delete;
-  // Tens of thousands of lines take their time to go.
+  // Freeing tens of thousands of lines takes time.
   ~Lattice() {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 256),
                       [&](const auto& part) {
@@ -163,7 +166,7 @@ class Lattice {
                       });
   }
 
-  // Empty, or why it stopped.
+  // Empty, or the reason for stopping.
   std::string fill(long most) {
     constexpr long most_kept = 1'500'000;  // some tens of megabytes
     std::vector<Line> ring(1);
@@ -219,7 +222,7 @@ class Lattice {
   ErrorEstimates error_estimates(bool moments) {
     const std::vector<LineSums> sums = line_sums(moments);
     ErrorEstimates error_estimates;
-    // Along an axis, and along diagonals, each once.
+    // Each axis and each diagonal once.
     std::array<ErrorEstimate, directions> each;
     tbb::parallel_for(directions / 2 + 1, directions, [&](int direction) {
       const std::array<int, outer> way = way_of(direction);
@@ -254,7 +257,7 @@ class Lattice {
     error_estimates.along[outer] =
         beyond_lattice((quarter[0].square() + quarter[1].square()).sqrt(), half.abs());
     error_estimates.steps += error_estimates.along[outer].lacks;
-    // Shells at the end hold less and less: as the last two do, so do all beyond.
+    // The mass of the outer shells decreases; the ratio of the last two is extrapolated.
     for (const int i : {0, 5, 6, 7, 8}) {
       if (!(shell[0][i] > 0)) continue;
       const double falls = std::min(shell[0][i] / shell[1][i], 0.98);
@@ -263,11 +266,11 @@ class Lattice {
     return error_estimates;
   }
 
-  // Without cells the nodes are good for sums alone.
+  // Without cells the nodes are valid only for sums.
   ExactPosterior result(bool moments, bool with_cells) {
     const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
     const double mass = total();
-    constexpr std::size_t part = 256;  // lines; whatever the number of threads
+    constexpr std::size_t part = 256;  // lines per part, independent of the number of threads
     std::vector<Moments> parts((lines_.size() + part - 1) / part);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
       for (std::size_t l = i * part; l < std::min((i + 1) * part, lines_.size()); ++l)
@@ -296,15 +299,15 @@ class Lattice {
   }
 
  private:
-  static constexpr int directions = 27;     // of the outer axes, with their opposites and none
+  static constexpr int directions = 27;     // directions of the outer axes, with opposites and zero
   static constexpr double shell_depth = 3;  // of log density
 
-  // Where the phase of a direction's wave grows: -1, 0 or 1 along each outer axis.
+  // The direction of a wave: -1, 0 or 1 along each outer axis.
   static std::array<int, outer> way_of(int direction) {
     return {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 % 3 - 1};
   }
 
-  // Of all nodes, in the order of lines whatever the number of threads.
+  // Sums over all nodes, in the order of lines for any number of threads.
   double total() const {
     std::vector<double> masses(lines_.size(), 0.0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 256),
@@ -323,7 +326,7 @@ class Lattice {
     double mass;  // of its cell
   };
 
-  // About the middle, as shares of the mass; the nodes that count.
+  // Moments about the middle relative to the mass, and the relevant nodes.
   struct Moments {
     Eigen::Matrix<double, d, 1, Eigen::DontAlign> first = Eigen::Vector4d::Zero();
     Eigen::Matrix<double, d, d, Eigen::DontAlign> second = Eigen::Matrix4d::Zero();
@@ -345,8 +348,8 @@ class Lattice {
     }
   }
 
-  // Puts the nodes that have cells first and tells how many they are: those with less mass than `least` are sampled in the
-  // order of the lattice, and who is taken stands for its neighbours.
+  // Moves nodes with cells to the front and returns their number. Nodes with less mass than `least`
+  // are sampled in the order of the lattice; a sampled node represents its neighbors.
   static Eigen::Index gather(std::vector<Node>& nodes, double least) {
     const auto small = std::stable_partition(nodes.begin(), nodes.end(),
                                              [&](const Node& node) { return node.mass >= least; });
@@ -422,13 +425,13 @@ class Lattice {
     return line.kept.empty() ? locate(line, j) : line.kept[j];
   }
 
-  // Of one line: its sum, the same with signs that alternate along it, and with those of a fourth of the
-  // frequency; of the two outermost shells.
+  // For one line: its sum, the sum with alternating signs, the sums at a quarter of the frequency,
+  // and the two outermost shells.
   struct LineSums {
     Terms all = Terms::Zero(), half = all, quarter[2] = {all, all}, shell[2] = {all, all};
   };
 
-  // Terms about the mean, by their sizes: first moments by that of the second.
+  // Terms about the mean, scaled; first moments by the scale of the second.
   std::vector<LineSums> line_sums(bool moments) const {
     const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
     std::vector<LineSums> sums(lines_.size());
@@ -485,12 +488,12 @@ class Lattice {
     return sums;
   }
 
-  // A point of a line, or beside it.
+  // A point of a line, or near it.
   struct Place {
     Z z;                      // on the real line
-    double log_jacobian = 0;  // of z by u
+    double log_jacobian = 0;  // of z with respect to u
   };
-  // Where the three coordinates are step (index + shift along one axis).
+  // The three coordinates: step (index + shift along one axis).
   Place place(const Index& index, int axis, double shift, double on_line) const {
     Eigen::Vector4d along;
     for (int i = 0; i < outer; ++i)
@@ -507,8 +510,8 @@ class Lattice {
   double density(const Place& there) const {
     return posterior_.value(there.z) + there.log_jacobian;
   }
-  // Half way to a neighbour, at the same place across the ridge, which bends like the parabola
-  // through it and the neighbour on the other side.
+  // Half way to a neighbor, at the same position across the ridge, whose curve is the parabola
+  // through both neighbors.
   Place between(const Line& line, const Line& other, const Line& opposite, int axis, double shift,
                 int t) const {
     const auto half_way = [](double here, double there, double back) {
@@ -542,8 +545,8 @@ class Lattice {
     return &other == &line ? 0 : node_mass(other, t);
   }
 
-  // Makes the highest density so far the reference: the walk began far below the mode. False when
-  // it was moved so often that there is none.
+  // Makes the highest density so far the reference, if the walk began far below the mode. False if
+  // it was moved so often that the density is unbounded.
   bool set_reference() {
     constexpr int most = 20;
     if (++moves_ > most || !std::isfinite(highest_)) return false;
@@ -556,7 +559,7 @@ class Lattice {
     return true;
   }
 
-  // The density along one line, and where its points lie.
+  // The density along one line, and the positions of its points.
   class Walk {
    public:
     Walk(const Lattice& lattice, const Line& line) : lattice_(lattice), index_(line.index) {
@@ -576,7 +579,7 @@ class Lattice {
       there_.log_jacobian = others_ + here.log_slope;
       return along_->value(here.z) + there_.log_jacobian - lattice_.reference_;
     }
-    // Of the point asked for last.
+    // Of the last evaluated point.
     Located located() const {
       if (!along_) return {lattice_.natural(there_), there_.log_jacobian};
       return {Eigen::Map<const Eigen::Vector4d>(along_->natural().data()), there_.log_jacobian};
@@ -587,16 +590,17 @@ class Lattice {
     Index index_;
     Place there_;
     std::optional<PosteriorAlong> along_;
-    double others_ = 0;  // the log Jacobian of the parameters that stay
+    double others_ = 0;  // log Jacobian of the fixed parameters
   };
 
-  // Scratch of a walk: nodes on the side of smaller and of larger numbers.
+  // Workspace of a walk: nodes in the negative and the positive direction.
   struct Sides {
     std::array<std::vector<double>, 2> values;
     std::array<std::vector<Located>, 2> kept;
   };
 
-  // Finds the line's mode by parabolas from its neighbour's, then walks outward on both sides.
+  // Finds the line's mode by parabolas, starting from its neighbor's mode, then walks outward on
+  // both sides.
   void integrate(Line& line, Sides& sides) const {
     Walk walk(*this, line);
     double middle = walk.value(line.middle);
@@ -653,12 +657,12 @@ class Lattice {
   double highest_ = -INFINITY;
   long nodes_ = 0;
   int moves_ = 0;      // of the reference
-  bool keeps_ = true;  // where nodes lie
+  bool keeps_ = true;  // whether positions of nodes are stored
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
 
-// Of the highest density, where the lattice ends: what is left out goes with the tolerance.
+// The relative density at which the lattice ends; it depends on the tolerance.
 double log_negligible(double tolerance) {
   return std::max(-22.0, -22 + std::log(tolerance / 1e-5));
 }
@@ -667,12 +671,12 @@ Steps steps_of(double step) {
   return {step, step, step, std::min(step, longest_on_line)};
 }
 
-// A lattice that is filled, or why it could not be.
+// A filled lattice, or the reason of its failure.
 struct Filled {
   std::unique_ptr<Lattice> lattice;
   std::string failure;
   ErrorEstimates error_estimates;
-  double error = INFINITY;  // where it was filled
+  double error = INFINITY;  // infinite unless filled
 
   Filled(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
          double log_negligible, long most, const ExactSettings& settings)
@@ -684,7 +688,8 @@ struct Filled {
   }
 };
 
-// Each axis by its own: one that is narrow makes no others finer. Doubts fall as exp(-c/step), those of coarse steps faster.
+// Refines each axis separately, so that a narrow axis does not refine the others. Errors decay as
+// exp(-c/step), faster for coarse steps.
 Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, double tolerance,
                  const Steps& widest) {
   constexpr double share = 0.2, least = 1.15, most = 2.5, coarse = 0.6;
@@ -716,11 +721,10 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     map.emplace(posterior, whitening);
     along = ridge_chart(*map);
   }
-  // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
-  // soon.
+  // Chooses between the charts by lattices of medium steps. If one is expensive, chooses the other.
   constexpr double coarsest = 1, telling = 0.7;
   constexpr long few_nodes = 140'000, enough_nodes = 400'000;
-  // Doubts of coarse lattices are several times too large.
+  // Error estimates of coarse lattices are several times too large.
   const bool coarse = settings.tolerance >= good_enough;
   const double enough = coarse ? 5 * settings.tolerance : settings.tolerance;
   const double first_end = log_negligible(settings.tolerance);
@@ -734,7 +738,8 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     const auto filled_on = [&](const LatticeChart& of, double step, long most) {
       return Filled(posterior, of, steps_of(step), end, most, settings);
     };
-    // Where its coarse lattice has more nodes by half the other chart is no rounder: few of them tell it.
+    // A chart whose coarse lattice has 50 % more nodes is not better; few nodes suffice to see
+    // this.
     const auto rounder = [&] {
       const long most = filled->lattice->nodes() / 2 * 3;
       return filled_on(*along, coarsest, most).failure.empty() &&
@@ -759,7 +764,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     if (!filled->failure.empty()) {
       exact.failure = filled->failure;
       if (end == first_end) break;
-      // Too many nodes so far out: what lies beyond is then told.
+      // Too many nodes in the tails; the mass beyond is then reported.
       end = first_end;
       may_deepen = false;
       filled.reset();
@@ -771,8 +776,8 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
       best = std::move(filled);
     const bool fine = std::equal(steps.begin(), steps.end(), widest.begin(), std::less_equal<>());
     if (error <= enough && fine) break;
-    // Across a kink or a jump errors fall by a power of the step: what the evaluations will not suffice
-    // for is not begun.
+    // With a kink or a jump errors decrease only by a power of the step; a refinement that exceeds
+    // the evaluations is not started.
     const double step = mean_step(steps);
     const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
     const bool hopeless =
@@ -787,7 +792,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     const Steps steps_now = steps;
     const double end_now = end;
     steps = next_steps(steps, error_estimates, enough, widest);
-    // What lies beyond falls about as the density at the end.
+    // The mass beyond is about proportional to the density at the end.
     const double most_beyond = 0.5 * enough;
     if (may_deepen && error_estimates.beyond > most_beyond)
       end -= std::clamp(1.5 * std::log(error_estimates.beyond / most_beyond), 1.0, 4.0);

@@ -9,9 +9,10 @@ namespace {
 constexpr int d = 4, outer = 3;
 using Z = LatticeChart::Z;
 
-// Of a parameter between two bounds the density on the real line falls no faster than exp(-|z|), so that a lattice has to
-// go 22 units out: z = w sqrt(1 + (w/5)^2) is nearly the normal quantile of its uniform share, scaled to slope 1, and makes
-// of that tail a normal one. Others stay as they are.
+// For a parameter between two bounds the density on the real line decays no faster than exp(-|z|),
+// so a lattice would extend 22 units. z = w sqrt(1 + (w/5)^2) is nearly the normal quantile of its
+// uniform probability, scaled to slope 1, and makes the tail normal. Other parameters are
+// unchanged.
 class Bending {
  public:
   explicit Bending(const Posterior& posterior) {
@@ -29,7 +30,7 @@ class Bending {
   double slope(std::size_t i, double w) const {
     return bent_[i] ? (1 + 2 * square_of(w)) / std::sqrt(1 + square_of(w)) : 1;
   }
-  // Makes z of w; returns the log of the product of the slopes.
+  // Maps w to z; returns the log of the product of the slopes.
   double to_real(Z& w) const {
     double slopes = 1;
     for (std::size_t i = 0; i < d; ++i) {
@@ -52,8 +53,8 @@ class Bending {
   std::array<bool, d> bent_{};
 };
 
-// Lines along the parameter that the others hold closest, so that they follow a narrow ridge in it
-// that bends; the others by their covariance.
+// Lines along the parameter that the others determine best, so that they follow a narrow curved
+// ridge; the others by their covariance.
 class Straight final : public LatticeChart {
  public:
   Straight(const Posterior& posterior, const Whitening& whitening) : bending_(posterior) {
@@ -66,7 +67,7 @@ class Straight final : public LatticeChart {
     const Eigen::Matrix4d scale = slopes.cwiseInverse().asDiagonal() * whitening.scale;
     const Eigen::Matrix4d covariance = scale * scale.transpose();
     const Eigen::Matrix4d precision = covariance.inverse();
-    // The smallest share of its variance that is left when the others are known.
+    // The smallest fraction of a parameter's variance that remains given the others.
     double least = INFINITY;
     for (int i = 0; i < d; ++i) {
       const double share = 1 / (precision(i, i) * covariance(i, i));
@@ -117,7 +118,7 @@ class Straight final : public LatticeChart {
   double line_center_ = 0, line_scale_ = 1;
 };
 
-// Along the ridge of a funnel. The lattice stands askew in the coordinates of the map: along an axis
+// Along the ridge of a funnel. The lattice is sheared in the coordinates of the map; otherwise
 // whole layers of cells would share one value of a parameter, whose distribution would have steps.
 class AlongRidge final : public LatticeChart {
  public:

@@ -13,8 +13,8 @@
 
 namespace wearwell {
 
-/// Sums over weighted points of a posterior that say how one term is predicted by all others: over
-/// w/p, p the term's density at a point of weight w. Relative to the largest of them so far.
+/// Sums over weighted posterior points for the leave-one-out prediction of one term: w/p, with the
+/// term's density p at a point of weight w. Relative to the largest so far.
 class LeftOut {
  public:
   void add(double log_weight, double log_p, const NormalScore* score) {
@@ -62,19 +62,20 @@ class LeftOut {
   double sum_ = 0, with_ = 0, below_ = 0, above_ = 0;
 };
 
-/// Of each of so many terms, over all points, in parts of so many: the sums do not depend on threads.
+/// The sums of each term over all points, in parts of fixed size, so that they do not depend on
+/// threads.
 std::vector<LeftOut> left_out(const LogDensity& likelihood, const WeightedDraws& points,
                               std::size_t terms, const Scores* scores, Eigen::Index part = 512);
 
-/// The score of one term at a draw; empty where tails are not asked for.
+/// The score of one term at a draw; empty without tails.
 using ScoreAt = std::function<NormalScore(std::size_t draw)>;
 
-/// One term by draws of one weight, their weights smoothed: elpd, lpd, k-hat, tail. `log_p` are its
-/// log densities at the draws; they become what each draw adds to the error of elpd, to the first
-/// order, over all observations that the term stands for.
+/// One term from equally weighted draws with smoothed importance weights: elpd, lpd, k-hat, tail.
+/// `log_p` are its log densities at the draws; they are replaced by the first-order influence of
+/// each draw on the error of elpd, over all observations of the term.
 void leave_out_smoothed(LooTerm& term, Eigen::Ref<Eigen::VectorXd> log_p, const ScoreAt& score);
 
-/// What a draw of that weight adds to the error of elpd, to the first order.
+/// The first-order influence of a draw with this weight on the error of elpd.
 double influence(const LooTerm& term, double log_weight, double log_p);
 
 }  // namespace wearwell

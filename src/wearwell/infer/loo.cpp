@@ -12,7 +12,8 @@
 namespace wearwell {
 namespace {
 
-// Over observations: their number, the sum of a value and that of squared distances from its mean.
+// Over observations: their number, the sum of a value and the sum of squared deviations from its
+// mean.
 struct Sums {
   double n = 0, sum = 0, scatter = 0;
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr double numbers_wanted = 4e7, fewest_draws = 100, most_draws = 400;
 constexpr std::size_t most_smoothed = 1000;
 
-// Evenly among all.
+// Evenly chosen among all.
 WeightedDraws thinned(const WeightedDraws& draws, std::size_t terms) {
   const double wanted =
       std::clamp(numbers_wanted / static_cast<double>(terms), fewest_draws, most_draws);
@@ -30,7 +30,7 @@ WeightedDraws thinned(const WeightedDraws& draws, std::size_t terms) {
   return few;
 }
 
-// The terms that their own observation moves most: lpd - elpd is about the variance of log p.
+// The most influential terms: lpd - elpd is about the variance of log p.
 std::vector<std::size_t> most_uneven(const std::vector<LooTerm>& terms) {
   std::vector<std::size_t> order(terms.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -69,7 +69,7 @@ Loo loo_of_many(const LogDensity& likelihood, const WeightedDraws& draws, std::s
   const std::vector<std::size_t> smoothed = most_uneven(loo.terms);
   std::vector<bool> apart(terms);
   for (const std::size_t i : smoothed) apart[i] = true;
-  // Column by column what is smoothed; of all others their influence, draw by draw.
+  // Smooths weights by column; adds the influence of all other terms for each draw.
   Eigen::MatrixXd log_p(count, static_cast<Eigen::Index>(smoothed.size()));
   std::vector<std::vector<NormalScore>> z(scores ? static_cast<std::size_t>(count) : 0);
   Eigen::VectorXd influences = Eigen::VectorXd::Zero(count);

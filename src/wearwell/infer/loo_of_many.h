@@ -7,13 +7,12 @@
 
 namespace wearwell {
 
-/// From so many terms on `psis_loo` is `loo_of_many`.
+/// With at least this many terms `psis_loo` uses `loo_of_many`.
 inline constexpr std::size_t terms_are_many = 20'000;
 
-/// Leave-one-out in memory of the size of the terms, however many draws: sums over some hundred
-/// draws, which are enough where each of many terms moves the posterior so little. Weights of the
-/// thousand most uneven terms are smoothed and have a k-hat; that of all others is -infinity. Arguments as
-/// of `psis_loo`.
+/// Leave-one-out with memory proportional to the number of terms. Sums over some hundred draws
+/// suffice, because each of many terms has little influence. Weights of the thousand most uneven
+/// terms are smoothed and have a k-hat; the others have -infinity. Arguments as in `psis_loo`.
 Loo loo_of_many(const LogDensity& likelihood, const WeightedDraws& draws, std::size_t terms,
                 double efficiency, const Scores* scores);
 

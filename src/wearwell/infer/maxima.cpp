@@ -15,32 +15,33 @@
 namespace wearwell {
 namespace {
 
-// Searches go uphill in batches, whatever the number of threads.
+// Searches run in batches of fixed size, independent of the number of threads.
 constexpr std::size_t batch = 8;
 constexpr int uphill_evaluations = 250;
 
-// A maximum whose share of the mass, and of second moments about the first maximum, is smaller is left out.
+// A maximum with a smaller share of the mass and of second moments about the first maximum is
+// omitted.
 constexpr double negligible = 1e-5;
 constexpr std::size_t most_maxima = 64;
 
-// Another maximum with so much more mass (log) takes the place of the first.
+// Another maximum with this much more mass (log) replaces the first.
 constexpr double much_more = 1;
 
-// Points and ends of searches lower than the highest maximum by more (log) may belong to a maximum only if that is far
-// broader: by a factor of e^2 along every axis.
+// Points and ends of searches lower by more than this (log) can belong to a relevant maximum only
+// if it is broader by a factor of e^2 along every axis.
 double reach(Eigen::Index dimension) {
   return 25 + 2 * static_cast<double>(dimension);
 }
 
 struct Effort {
-  int points;          // at which the density is looked at
+  int points;          // at which the density is evaluated
   std::size_t fewest;  // searches
   std::size_t most;    // of them
-  std::size_t enough;  // where the number of maxima found says that none is left
+  std::size_t enough;  // if the number of maxima indicates that none is left
 };
 
-// An observation costs an evaluation about as much as any other. The walks along the tails and the sampler take thousands of
-// evaluations.
+// The cost of an evaluation is proportional to the number of observations. For comparison, the
+// walks along the tails and the sampler take thousands of evaluations.
 Effort effort_for(const Posterior& posterior, const Mode& known) {
   const int d = posterior.dimension();
   if (posterior.likelihood()->is_slow()) return {64, 4, 16, 4};
@@ -55,7 +56,7 @@ Effort effort_for(const Posterior& posterior, const Mode& known) {
   return {points, 12, d <= 8 ? 128u : 32u, 32};
 }
 
-// On the real line, in units of the widths of the first maximum.
+// The real line in units of the widths of the first maximum.
 class Search {
  public:
   Search(const Posterior& posterior, const Mode& known)
@@ -65,7 +66,7 @@ class Search {
 
   const Whitening& round() const { return round_; }
 
-  // Some starts at once.
+  // A batch of starts.
   void follow(const std::vector<Eigen::VectorXd>& starts) {
     std::vector<Mode> ends(starts.size());
     const double least = highest() - reach(posterior_.dimension());
@@ -84,13 +85,13 @@ class Search {
     return most;
   }
   double dropped() const { return dropped_; }
-  // How many maxima of any mass no search has found yet.
+  // The expected number of undiscovered maxima of any mass.
   double left() const {
     const auto w = static_cast<double>(found_.size());
     const auto n = static_cast<double>(searches_);
     return w * (w + 1) / std::max(n - w - 2, 1.0);
   }
-  // Whether more searches would hardly find more.
+  // Whether more searches would probably find no more.
   bool exhausted() const { return left() < 0.5; }
 
   Maxima result() {
@@ -101,7 +102,7 @@ class Search {
     for (const Found& each : found_) total += std::exp(each.log_mass - top);
     const auto by_mass = [](const Found& a, const Found& b) { return a.log_mass > b.log_mass; };
     const auto heaviest = std::min_element(found_.begin(), found_.end(), by_mass);
-    // The first stays where it is unless another has much more.
+    // The first keeps its place unless another has much more mass.
     if (heaviest->log_mass > found_.front().log_mass + much_more)
       std::rotate(found_.begin(), heaviest, heaviest + 1);
     std::stable_sort(found_.begin() + 1, found_.end(), by_mass);
@@ -120,7 +121,8 @@ class Search {
     }
     for (LocalMaximum& each : maxima.found) each.share /= kept;
     dropped_ = dropped;
-    // Of those that are left as many are of weight as of those that were found.
+    // Assumes the same fraction of non-negligible maxima among the undiscovered as among the found
+    // ones.
     maxima.left =
         left() * static_cast<double>(maxima.found.size()) / static_cast<double>(found_.size());
     return maxima;
@@ -132,7 +134,7 @@ class Search {
     double log_mass = 0;
     int reached = 0;
   };
-  // Nothing where it comes to no maximum, or to one far below `least`.
+  // Empty if it reaches no maximum, or one far below `least`.
   Mode uphill(const Eigen::VectorXd& start, double least) const {
     const Objective objective = [&](std::span<const double> u, std::span<double> gradient) {
       if (gradient.empty()) return -density_.value(u);
@@ -153,7 +155,7 @@ class Search {
     return there;
   }
 
-  // The maximum that a search ended at, if it is one of those that are known.
+  // The known maximum at which a search ended, if any.
   const Found* nearest(const Eigen::VectorXd& z, double log_density) const {
     constexpr double same = 0.5, as_high = 0.1;  // widths; log
     for (const Found& each : found_) {
@@ -181,7 +183,7 @@ class Search {
     const double log_mass = mode.log_density - log_determinant;
     if (std::isfinite(log_mass)) found_.push_back({mode, log_mass, reached});
   }
-  // From the first, squared, in its standard deviations of natural parameters.
+  // Squared distance from the first, in its standard deviations of natural parameters.
   double distance(const Mode& mode) const {
     double sum = 0;
     for (std::size_t i = 0; i < posterior_.parameters().size(); ++i) {
@@ -198,7 +200,7 @@ class Search {
   WhitenedDensity density_;
   std::vector<Found> found_;
   std::size_t searches_ = 0;
-  double dropped_ = 0;  // maxima of weight that are more than can be kept
+  double dropped_ = 0;  // non-negligible maxima beyond the limit
 };
 
 }  // namespace
@@ -219,7 +221,7 @@ Maxima find_maxima(const Posterior& posterior, const Mode& known) {
     }
     std::vector<Eigen::VectorXd> starts;
     while (starts.size() < batch && (high < points.high.size() || plain < points.plain.size())) {
-      // By turns, as long as there are both.
+      // Alternates while both kinds remain.
       const bool highest =
           high < points.high.size() && (high <= plain || plain == points.plain.size());
       starts.push_back(highest ? points.high[high++].z : points.plain[plain++].z);
@@ -228,7 +230,8 @@ Maxima find_maxima(const Posterior& posterior, const Mode& known) {
     search.follow(starts);
   }
   Maxima maxima = search.result();
-  // In one dimension there is a maximum between any two points that are lower; and where nothing is left to start from.
+  // No maximum is left if all starts are used, or in one dimension, where every peak among the
+  // points was followed.
   if (high == points.high.size() && (posterior.dimension() == 1 || plain == points.plain.size()))
     maxima.left = 0;
   maxima.left += search.dropped();

@@ -11,31 +11,30 @@ namespace wearwell {
 /// A local maximum of a posterior on its real line.
 struct LocalMaximum {
   Mode mode;
-  double share =
-      1;  ///< of the posterior's mass that lies about it: first by Laplace's approximation
-  int reached = 0;  ///< so many searches ended there
+  double share = 1;  ///< share of the posterior's mass; at first by Laplace's approximation
+  int reached = 0;   ///< number of searches that ended there
 };
 
-/// The local maxima of non-negligible mass that a search from many starts found; the first is the one about which everything
-/// is laid. Empty where no search was made.
+/// The local maxima of non-negligible mass found from many starts; the first is the center of all
+/// later computations. Empty without a search.
 struct Maxima {
   std::vector<LocalMaximum> found;
-  int starts = 0;  ///< from which searches went uphill, the first one included
-  double left =
-      0;  ///< how many more maxima of non-negligible mass are to be expected, which no search has found
+  int starts = 0;   ///< starts of searches, including the first
+  double left = 0;  ///< expected number of undiscovered maxima of non-negligible mass
 
   bool several() const { return found.size() > 1; }
 };
 
-/// Searches for further local maxima than `known`, the one that the search from the start values found, if it found one. Quasi-random points
-/// (an additive recurrence) fill the prior's mass (a parameter whose prior is improper: the surroundings of its start value),
-/// the surroundings of the start values, and those of `known`. Uphill go the searches from points that are higher than
-/// all of their neighbours (Torn and Viitanen 1994, J. Global Optimization 5, 267-276), and as many from points of the prior
-/// as they lie, until the expected number of maxima not yet seen, w (w + 1)/(n - w - 2) after n searches that found
-/// w (Boender and Rinnooy Kan 1987, Math. Programming 37, 59-80), is below a half and every point within reach of the
-/// highest density was followed. Fewer points where an evaluation takes long, by the number of observations and by
-/// `LogDensity::is_slow`, never by time: the outcome is the same on any machine. `known` stays the first unless another has more
-/// than e times its mass.
+/// Searches for local maxima other than `known`, the maximum found from the start values, if any.
+/// Quasi-random points (an additive recurrence) cover the prior's mass (for an improper prior: the
+/// surroundings of the start value), the surroundings of the start values, and those of `known`.
+/// Searches start from points that are higher than all of their neighbors (Torn and Viitanen 1994,
+/// J. Global Optimization 5, 267-276), and from as many unselected points of the prior, until the
+/// expected number of undiscovered maxima, w (w + 1)/(n - w - 2) after n searches that found w
+/// (Boender and Rinnooy Kan 1987, Math. Programming 37, 59-80), is below a half and every point
+/// within reach of the highest density was followed. Expensive likelihoods, judged by the number of
+/// observations and `LogDensity::is_slow` and not by time, use fewer points, so the result is the
+/// same on any machine. `known` stays the first unless another has more than e times its mass.
 Maxima find_maxima(const Posterior& posterior, const Mode& known);
 
 /// A sentence for the check of the computation, with the parameters in their units: "12 starts found one maximum"; "24 starts:

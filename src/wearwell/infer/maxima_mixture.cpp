@@ -14,7 +14,7 @@ Map map(std::span<const double> z) {
   return {z.data(), static_cast<Eigen::Index>(z.size())};
 }
 
-// Degrees of freedom by which points of a posterior are counted to a maximum.
+// Degrees of freedom for assigning posterior points to maxima.
 constexpr double counting_freedom = 5;
 
 }  // namespace

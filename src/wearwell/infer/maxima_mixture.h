@@ -11,11 +11,11 @@
 
 namespace wearwell {
 
-/// A mixture of multivariate Student distributions on the real line: one about each local maximum of a posterior, by its
-/// curvature, weighted by its mass.
+/// A mixture of multivariate Student distributions on the real line, one about each local maximum
+/// of a posterior, with its curvature and mass.
 class MaximaMixture {
  public:
-  /// `evenly`: the part of the weights, 0 to 1, that all maxima share alike.
+  /// `evenly`: the fraction of the weights, 0 to 1, that is divided equally.
   MaximaMixture(std::span<const LocalMaximum> maxima, double freedom, double evenly = 0);
 
   std::size_t size() const { return components_.size(); }
@@ -23,8 +23,8 @@ class MaximaMixture {
   /// Up to a constant.
   double log_density(std::span<const double> z) const;
 
-  /// The log of the share that component k has of the density at z; its derivatives are written to `gradient` unless that is
-  /// empty.
+  /// The log of component k's share of the density at z; writes its derivatives to `gradient`
+  /// unless that is empty.
   double log_share(std::span<const double> z, std::size_t k, std::span<double> gradient) const;
 
   /// The component with the largest share.
@@ -47,10 +47,10 @@ class MaximaMixture {
   double freedom_;
 };
 
-/// By which points of the posterior are counted to the maxima.
+/// The mixture that assigns posterior points to the maxima.
 MaximaMixture counting_mixture(const Maxima& maxima);
 
-/// The mass about each maximum as weighted points of the posterior have it.
+/// The mass about each maximum, from weighted posterior points.
 void measure_shares(const Posterior& posterior, const WeightedDraws& points, Maxima& maxima);
 
 }  // namespace wearwell

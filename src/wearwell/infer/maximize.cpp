@@ -12,7 +12,7 @@ namespace {
 
 constexpr int iterations = 300;
 constexpr double longest_step = 30;  // in units
-constexpr double plateau = 1e-9;     // curvature in units that rounding may turn round
+constexpr double plateau = 1e-9;     // curvature in units below which rounding determines the sign
 
 using Indices = std::vector<Eigen::Index>;
 
@@ -39,7 +39,7 @@ class Climb {
         return maximum;
       }
       if (!go(step.move, maximum)) {
-        // Rounding leaves no way up.
+        // No ascent is possible within rounding.
         maximum.converged = step.concave && step.gain < 1e-6;
         return maximum;
       }
@@ -50,8 +50,8 @@ class Climb {
  private:
   struct Step {
     Eigen::VectorXd move;
-    double gain;   // that it promises
-    bool concave;  // the density is curved downwards along every free parameter
+    double gain;   // predicted gain
+    bool concave;  // the density is concave along every free parameter
   };
 
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const {
@@ -74,7 +74,7 @@ class Climb {
     Eigen::MatrixXd result(n, n);
     Eigen::VectorXd above(n), below(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      // No smaller than what the digits of x can tell.
+      // At least the resolution of x.
       const double by = std::max(difference[i], 1e-11 * std::abs(x[i]));
       Eigen::VectorXd up = x, down = x;
       up[i] = std::min(x[i] + by, box_.upper[i]);
@@ -90,8 +90,8 @@ class Climb {
     return 0.5 * (result + result.transpose());
   }
 
-  // The step to the top of the parabola within the box: as long as it leaves through a bound, the
-  // parameter that does so first ends there, and the others make the best of it.
+  // The step to the maximum of the parabola within the box: while it crosses a bound, the first
+  // such parameter is fixed at its bound and the others are optimized again.
   Step newton(const Maximum& maximum) const {
     Indices free = free_at(maximum);
     Step step{Eigen::VectorXd::Zero(maximum.x.size()), 0, true};
@@ -102,7 +102,7 @@ class Climb {
       const Parabola top = parabola(maximum.curvature(free, free), unit, slope);
       if (step.move.isZero(0)) step.concave = top.concave;
       const Eigen::VectorXd move = top.move.cwiseProduct(unit);
-      // How much of it stays inside.
+      // The fraction of the step inside the box.
       double share = 1;
       std::size_t leaves = free.size();
       for (std::size_t j = 0; j < free.size(); ++j) {
@@ -133,8 +133,8 @@ class Climb {
     bool concave;
   };
 
-  // In units, or in widths where these are smaller: beside a width of 1e-8 the curvature of a width of
-  // 1 would drown in rounding.
+  // Scales by units, or by widths if smaller, because beside a width of 1e-8 the curvature of a
+  // width of 1 is lost in rounding.
   static Parabola parabola(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& unit,
                            const Eigen::VectorXd& slope) {
     Eigen::VectorXd width = Eigen::VectorXd::Ones(unit.size());
@@ -155,7 +155,8 @@ class Climb {
     return {move, eigen.eigenvalues()[0] > -plateau * std::min(1.0, bend.maxCoeff())};
   }
 
-  // The first of ever shorter steps that goes up, along `move` or else along the gradient.
+  // Backtracking: the first shorter step that increases the density, along `move` or else along the
+  // gradient.
   bool go(const Eigen::VectorXd& move, Maximum& maximum) const {
     const Eigen::VectorXd slope = maximum.gradient.cwiseProduct(unit_.cwiseAbs2());
     for (const Eigen::VectorXd& direction : {move, slope}) {

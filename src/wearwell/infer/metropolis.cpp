@@ -24,10 +24,10 @@ class Window {
     squares_ += delta * (u - mean_).transpose();
   }
 
-  /// A walk that hardly moved says nothing of directions.
+  /// A walk without enough movement gives no directions.
   bool tells() const { return moves_ >= 10 * mean_.size(); }
 
-  /// Cholesky's factor, shrunk towards a small multiple of the identity as in NUTS.
+  /// The Cholesky factor, shrunk towards a small multiple of the identity as in NUTS.
   Eigen::MatrixXd factor() const {
     const Eigen::Index d = mean_.size();
     const Eigen::MatrixXd covariance = squares_ / (count_ - 1) * (count_ / (count_ + 5)) +
@@ -42,7 +42,7 @@ class Window {
   Eigen::MatrixXd squares_;
 };
 
-// The length and directions of steps, which warm-up adapts.
+// The length and directions of steps, adapted in warm-up.
 class Steps {
  public:
   Steps(Eigen::Index dimension, int warmup)
@@ -62,7 +62,7 @@ class Steps {
   /// After warm-up iteration i, counted from 0.
   void adapt(int i, const Eigen::VectorXd& u, bool accepted) {
     constexpr double target = 0.35;
-    // Robbins-Monro with steps that fade.
+    // Robbins-Monro with decreasing steps.
     log_length_ += (accepted - target) / std::sqrt(++count_);
     if (i >= warmup_ / 8 && i < warmup_ / 2) window_.add(u, accepted);
     if (i + 1 == warmup_ / 4 || i + 1 == warmup_ / 2) {
@@ -72,7 +72,7 @@ class Steps {
       }
       window_ = Window(u.size());
     }
-    // What is kept is the average over the last quarter.
+    // Keeps the average over the last quarter.
     const int first = warmup_ - warmup_ / 4;
     if (i >= first) log_length_sum_ += log_length_;
     if (i + 1 == warmup_ && first < warmup_) log_length_ = log_length_sum_ / (warmup_ - first);
@@ -101,7 +101,7 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
   const Eigen::Index d = start.size();
   Eigen::VectorXd x = start, proposal(d);
   double log_density = posterior.natural_value(view(x));
-  // What is told of a draw is its density with the Jacobian, as of every other method.
+  // The reported density of a draw includes the Jacobian, as for all other methods.
   const auto on_real_line = [&] { return posterior.value(view(posterior.to_real(view(x)))); };
   double reported = on_real_line();
   long accepted = 0;

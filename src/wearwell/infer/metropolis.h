@@ -10,15 +10,15 @@
 
 namespace wearwell {
 
-/// One chain of Metropolis-Hastings on the natural parameters, as An et al. (2011, Table 4) print
-/// it: each proposal moves every parameter uniformly within +- its half width (SI, > 0 each) and is
-/// accepted with probability min(1, ratio of densities); settings.warmup iterations are discarded.
+/// One chain of Metropolis-Hastings on the natural parameters (An et al. 2011, Table 4): each
+/// proposal moves every parameter uniformly within +- its half width (SI, > 0 each) and is accepted
+/// with probability min(1, ratio of densities); settings.warmup iterations are discarded.
 Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
                        const Eigen::VectorXd& half_width, const RunSettings& settings, Rng& rng);
 
 /// One chain of random-walk Metropolis on the whitened real line, from `start` there: normal steps
-/// of one length in every direction. Warm-up learns the directions from its own draws (Haario et
-/// al. 2001, in two windows) and the length towards an acceptance of 0.35, and then holds both.
+/// of one length in every direction. Warm-up adapts the directions to its draws (Haario et al.
+/// 2001, in two windows) and the length towards an acceptance of 0.35; both are then fixed.
 Chain whitened_metropolis_chain(const Posterior& posterior, const Whitening& whitening,
                                 const Eigen::VectorXd& start, const RunSettings& settings,
                                 Rng& rng);

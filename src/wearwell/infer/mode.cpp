@@ -10,16 +10,17 @@
 namespace wearwell {
 namespace {
 
-// In units of the transform's own scale: a mode farther from a plausible start is no mode.
+// In units of the transform's scale; a maximum farther from a plausible start is not accepted.
 constexpr double far = 12;
 
-// Newton's method follows a scale over as many factors of e.
+// Newton's method follows a scale over this many factors of e.
 constexpr double farthest = 60;
 
-// A summit flatter than this in some direction is a ridge.
+// A maximum flatter than this in some direction is a ridge.
 constexpr double least_curvature = 1e-4;
 
-// Of a symmetric matrix, over its diagonal: sizes of 1e-9 and 1 may stand side by side.
+// The smallest eigenvalue of a symmetric matrix scaled to unit diagonal, because magnitudes of 1e-9
+// and 1 can occur together.
 double least_eigenvalue(const Eigen::MatrixXd& curvature) {
   const double flattest = curvature.diagonal().minCoeff();
   if (!(flattest > 0)) return flattest;
@@ -28,8 +29,8 @@ double least_eigenvalue(const Eigen::MatrixXd& curvature) {
   return flattest * scaled.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
 }
 
-// Curved downwards in every direction, differences of 1e-4 resolve it, and another step of Newton's
-// promises nothing.
+// Concave in every direction, resolved by differences of 1e-4, and without further gain from a
+// Newton step.
 bool is_summit(const LogDensity& density, const Mode& mode) {
   constexpr double steepest = 1e5, promise = 1e-3;
   const Eigen::MatrixXd& curvature = mode.curvature;
@@ -76,7 +77,7 @@ Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start) {
     mode.found = is_summit(density, mode);
     if (mode.found) return mode;
   }
-  // Newton's method, which sets its differences by the widths that it meets and follows ridges.
+  // Newton's method adapts its differences to the local widths and follows ridges.
   const auto n = start.size();
   const Box everywhere{Eigen::VectorXd::Constant(n, -INFINITY),
                        Eigen::VectorXd::Constant(n, INFINITY)};

@@ -6,12 +6,12 @@
 
 namespace wearwell {
 
-/// Where a density is highest near `start`, and its shape there.
+/// The mode of a density near `start`, and its curvature.
 struct Mode {
   Eigen::VectorXd position;
   double log_density = 0;
   Eigen::MatrixXd curvature;  ///< minus the Hessian of the log density
-  bool found = false;  ///< false: the search ran away (no mode, as in a funnel or an improper
+  bool found = false;  ///< false: the search diverged (no mode, as in a funnel or an improper
                        ///< posterior); then start
 };
 

@@ -21,7 +21,7 @@ Eigen::VectorXd natural_widths(const Posterior& posterior, const Whitening& whit
 }
 
 Box natural_box(const Posterior& posterior, const Eigen::VectorXd& width) {
-  // Closer to a scatter of zero gradients drown in rounding (of an integral over fatigue limits).
+  // Closer to a scatter of zero, rounding dominates gradients (of an integral over fatigue limits).
   constexpr double inset = 1e-6;
   Box box{width, width};
   for (Eigen::Index i = 0; i < width.size(); ++i) {

@@ -21,10 +21,10 @@ class NaturalDensity final : public LogDensity {
   const Posterior& posterior_;
 };
 
-/// How wide the posterior is along each parameter, to first order.
+/// The width of the posterior along each parameter, to first order.
 Eigen::VectorXd natural_widths(const Posterior& posterior, const Whitening& whitening);
 
-/// Just inside the support: on its very bound a density may be no number.
+/// Just inside the support, because the density may be NaN at the bound.
 Box natural_box(const Posterior& posterior, const Eigen::VectorXd& width);
 
 }  // namespace wearwell

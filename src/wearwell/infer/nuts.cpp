@@ -7,17 +7,16 @@
 namespace wearwell {
 namespace {
 
-// A trajectory whose energy error exceeds this has left the region where the integrator follows the
-// posterior.
+// A trajectory with a larger energy error is divergent.
 constexpr double max_energy_error = 1000;
 
-// Weights along a trajectory are exp(initial energy - energy). Above e^600, which only a start far
-// outside of the posterior can meet, they are cut so that sums stay finite.
+// Weights along a trajectory are exp(initial energy - energy). They are limited to e^600, which
+// only a start far outside the posterior exceeds, so that sums stay finite.
 double weight_of(double gain) {
   return std::exp(std::min(gain, 600.0));
 }
 
-// False once a trajectory with these end velocities and summed momentum has turned back on itself.
+// False if a trajectory with these end velocities and summed momentum makes a U-turn.
 template <int N>
 bool still_going(const SmallVector<N>& velocity_begin, const SmallVector<N>& velocity_end,
                  const SmallVector<N>& momentum_sum) {
@@ -84,7 +83,7 @@ template <int N>
 Nuts<N>::Nuts(const LogDensity& density, bool dense_metric, int max_treedepth)
     : metric(density.dimension(), dense_metric), density_(density), max_treedepth_(max_treedepth) {}
 
-// At rest; false where the density is zero.
+// Without momentum; false if the density is zero.
 template <int N>
 bool Nuts<N>::evaluate(const Eigen::VectorXd& position, PhasePoint<N>& z) const {
   z.position = position;
@@ -112,7 +111,7 @@ double Nuts<N>::hamiltonian(const PhasePoint<N>& z) const {
   return 0.5 * z.momentum.dot(metric.velocity(z.momentum)) - z.log_density;
 }
 
-// False when the step left the support.
+// False if the step leaves the support.
 template <int N>
 bool Nuts<N>::leapfrog(PhasePoint<N>& z, double epsilon) const {
   const auto n = static_cast<std::size_t>(z.position.size());
@@ -187,8 +186,8 @@ NutsStep Nuts<N>::step(Rng& rng) {
     weight += tree.weight;
 
     // The old trajectory and the new subtree meet between `inner` (old side) and tree.*_begin (new
-    // side). A backward subtree is walked against time, which leaves the signs of all products
-    // below as they are.
+    // side). A backward subtree is reversed in time, which does not change the signs of the
+    // products below.
     const SmallVector<N> old_sum = momentum_sum;
     const SmallVector<N> inner_velocity = ahead ? forward_velocity : backward_velocity;
     const SmallVector<N> inner_momentum = ahead ? forward_momentum : backward_momentum;

@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// Vectors and matrices of N variables that never allocate. N is Eigen::Dynamic (up to max_dimension), or a small number
-/// known to the compiler, which makes the short trajectories of 1 to 4 parameters faster.
+/// Non-allocating vectors and matrices of N variables. N is Eigen::Dynamic (up to max_dimension),
+/// or a small compile-time constant, which is faster for 1 to 4 parameters.
 template <int N>
 inline constexpr int max_size = N == Eigen::Dynamic ? max_dimension : N;
 template <int N>
@@ -40,7 +40,7 @@ class Metric {
   SmallMatrix<N> covariance_, inverse_factor_;
 };
 
-/// A position with all that the next step needs of it.
+/// A position with cached density and gradient.
 template <int N>
 struct PhasePoint {
   SmallVector<N> position, momentum, gradient;
@@ -48,19 +48,20 @@ struct PhasePoint {
 };
 
 /// The no-U-turn sampler with multinomial sampling along the trajectory (Hoffman and Gelman 2014;
-/// Betancourt 2017, appendix A), with the extra U-turn checks between subtrees that Stan has had
-/// since 2.21.
+/// Betancourt 2017, appendix A), with the additional U-turn checks between subtrees of Stan 2.21
+/// and later.
 template <int N>
 class Nuts {
  public:
   Nuts(const LogDensity& density, bool dense_metric, int max_treedepth);
 
-  /// Throws std::logic_error when the density is zero there.
+  /// Throws std::logic_error if the density is zero there.
   void set_position(const Eigen::VectorXd& position);
-  /// The same for a proposal that was accepted by its value alone; stays where it is when the density has no finite gradient there.
+  /// The same for a proposal accepted by its value; keeps the position if the density has no finite
+  /// gradient there.
   void move_to(const Eigen::VectorXd& position);
 
-  /// One transition: moves the position and says how.
+  /// One transition: moves the position and returns its diagnostics.
   NutsStep step(Rng& rng);
 
   /// A step size with acceptance near 0.8 for a single leapfrog, found by doubling or halving

@@ -54,7 +54,7 @@ double pareto_smooth(std::vector<double>& log_weights) {
   });
   const std::size_t first = order.size() - tail;
   const double cutoff = std::exp(log_weights[order[first - 1]]);
-  // All alike: the observation does not matter.
+  // All equal: the observation has no influence.
   if (!(log_weights[order[first]] < 0)) return 0;
   std::vector<double> excess;
   for (std::size_t i = first; i < order.size(); ++i) {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-/// Importance weights whose largest are smoothed by a generalized Pareto law (Vehtari, Simpson,
-/// Gelman, Yao, Gabry 2024, JMLR 25(72)). The shape k-hat of that law says whether the weights may be
-/// trusted. Conventions of the R package loo.
+/// Importance weights with the largest smoothed by a generalized Pareto distribution (Vehtari,
+/// Simpson, Gelman, Yao, Gabry 2024, JMLR 25(72)). Its shape k-hat shows whether the weights are
+/// reliable. Conventions of the R package loo.
 namespace wearwell {
 
 /// P(X > x) = (1 + k x/sigma)^(-1/k).
@@ -16,16 +16,15 @@ struct GeneralizedPareto {
   double quantile(double p) const;
 };
 
-/// Zhang and Stephens (2009), Technometrics 51, 316-325, with k drawn towards 1/2 by the weight of
-/// 10 observations, as in that paper. `ascending` are positive.
+/// Zhang and Stephens (2009), Technometrics 51, 316-325, with k shrunk towards 1/2 with the weight
+/// of 10 observations, as in that paper. `ascending` are positive.
 GeneralizedPareto fit_generalized_pareto(std::span<const double> ascending);
 
 /// Smooths the min(S/5, 3 sqrt(S)) largest of S importance weights in place (logarithms, up to a
-/// constant) and returns k-hat; infinity where the tail has fewer than 5, 0 where all
-/// of it are equal.
+/// constant) and returns k-hat; infinity if the tail has fewer than 5, 0 if all of it are equal.
 double pareto_smooth(std::vector<double>& log_weights);
 
-/// Up to this k-hat weights from so many draws may be trusted: min(1 - 1/log10(S), 0.7).
+/// The largest reliable k-hat for this number of draws: min(1 - 1/log10(S), 0.7).
 double khat_threshold(double draws);
 
 }  // namespace wearwell

@@ -11,7 +11,8 @@
 namespace wearwell {
 namespace {
 
-// Heavier tails leave less of a part at the far end of a broad neighbour, lighter ones less of it at the neighbour's maximum.
+// Heavier tails reduce a part at the far end of a broad neighbor, lighter ones at the neighbor's
+// maximum.
 constexpr double freedom = 8;
 
 // The likelihood times the share of one maximum.
@@ -62,7 +63,7 @@ std::vector<LocalMaximum> all_maxima(const Posterior& posterior, const Whitening
   return all;
 }
 
-// Those of all parts: first all nodes with cells, then those without.
+// Combines all parts: first the nodes with cells, then those without.
 WeightedDraws joined(const std::vector<ExactPosterior>& parts, const std::vector<double>& shares) {
   const Eigen::Index d = parts.front().nodes.values.cols();
   Eigen::Index cells = 0, nodes = 0;

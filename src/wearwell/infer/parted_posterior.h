@@ -4,10 +4,11 @@
 
 namespace wearwell {
 
-/// The posterior as a sum of parts, one about each of its local maxima (the whitening's center and `settings.maxima`): its density
-/// times the share that a mixture of Student distributions about the maxima gives to one of them. The shares are smooth and
-/// sum to 1, so every part is a smooth density with one maximum of weight, which a lattice takes (lattice.h). Nodes and moments are
-/// those of the parts together.
+/// Integrates the posterior as a sum of parts, one about each local maximum (the whitening's center
+/// and `settings.maxima`): the density times the share of one component in a mixture of Student
+/// distributions about the maxima. The shares are smooth and sum to 1, so every part is a smooth
+/// density with one relevant maximum, which a lattice can integrate (lattice.h). Nodes and moments
+/// combine all parts.
 ExactPosterior integrate_by_parts(const Posterior& posterior, const Whitening& whitening,
                                   const ExactSettings& settings);
 

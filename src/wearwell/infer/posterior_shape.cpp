@@ -7,8 +7,8 @@
 namespace wearwell {
 namespace {
 
-// The mode and the tails about it. A walk along a tail that meets a higher density than the mode's
-// starts the search anew from there: sigma may lie 20 factors of e below where it was guessed.
+// The mode and the tails about it. If a walk along a tail meets a higher density than the mode's,
+// the search restarts from there: sigma may be 20 factors of e below its guess.
 PosteriorShape mode_and_tails(const Posterior& posterior) {
   constexpr int most_searches = 4;
   constexpr double higher = 0.01;
@@ -31,8 +31,8 @@ PosteriorShape mode_and_tails(const Posterior& posterior) {
   }
 }
 
-// Other maxima than the mode; the one with by far the most mass takes its place. A search that began in a valley between two may
-// have found none.
+// Maxima other than the mode; one with far more mass replaces it. A search that began in a valley
+// between two may have found none.
 void search_further(const Posterior& posterior, PosteriorShape& shape) {
   shape.maxima = find_maxima(posterior, shape.mode);
   if (shape.maxima.found.empty()) return;

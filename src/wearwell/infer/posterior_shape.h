@@ -9,17 +9,17 @@
 
 namespace wearwell {
 
-/// Where a posterior's mass lies, before it is integrated or drawn from.
+/// The location of a posterior's mass, before integration or sampling.
 struct PosteriorShape {
   Mode mode;                ///< on the real line
   std::vector<Tail> tails;  ///< about the mode
-  double highest;           ///< log density met anywhere
-  int neck = -1;  ///< the scale of a funnel (funnel.h): then the mode is the middle of the mass
-  Maxima maxima = {};  ///< of a posterior whose tails can be integrated
+  double highest;           ///< highest log density met
+  int neck = -1;  ///< the scale of a funnel (funnel.h); the mode is then the middle of the mass
+  Maxima maxima = {};  ///< for a posterior with integrable tails
 };
 
-/// Looks for the mode, the tails and other maxima. Where there is no mode the shape is that about the middle of the mass; other
-/// maxima of an improper posterior do not matter.
+/// Finds the mode, the tails and other maxima. Without a mode the shape is that about the middle of
+/// the mass. Other maxima of an improper posterior are not searched.
 PosteriorShape posterior_shape(const Posterior& posterior);
 
 }  // namespace wearwell

@@ -32,8 +32,8 @@ double divergence(std::span<const double> x, std::span<const double> p, std::spa
     const double p_below = p_sum / p_total, q_below = q_sum / q_total;
     const double both = p_below + q_below;
     if (both == 0) continue;
-    // P ln(P/M) + Q ln(Q/M) with t = (P - Q)/(P + Q), in a form that keeps its digits where P and
-    // Q nearly agree, as they do for alpha near 1.
+    // P ln(P/M) + Q ln(Q/M) with t = (P - Q)/(P + Q), in a form that is accurate for nearly equal P
+    // and Q, as for alpha near 1.
     const double t = (p_below - q_below) / both;
     const double shape =
         std::abs(t) == 1 ? 2 * std::numbers::ln2 : 2 * t * std::atanh(t) + std::log1p(-t * t);
@@ -44,7 +44,7 @@ double divergence(std::span<const double> x, std::span<const double> p, std::spa
   return bound > 0 ? integral / (bound * std::numbers::ln2) : 0;
 }
 
-/// The draws in ascending order, with what belongs to each.
+/// The draws in ascending order, with their densities and weights.
 struct Sorted {
   std::vector<std::size_t> order;
   std::vector<double> draws;
@@ -68,7 +68,7 @@ double sensitivity(const Sorted& sorted, std::span<const double> log_component) 
   const auto [lowest, highest] = std::minmax_element(log_component.begin(), log_component.end());
   double gradients = 0;
   for (const double alpha : {0.99, 1.01}) {
-    // Relative to the largest weight, which cannot overflow.
+    // Relative to the largest weight, to avoid overflow.
     const double largest = alpha > 1 ? *highest : *lowest;
     std::vector<double> scaled = sorted.weights;
     for (std::size_t i = 0; i < scaled.size(); ++i) {
@@ -87,7 +87,7 @@ void check_lengths(std::size_t draws, std::span<const double> component,
   }
 }
 
-/// Whether the draws have a distribution that could move.
+/// Whether the draws are finite and vary.
 bool usable(std::span<const double> draws, std::span<const double> weights) {
   if (draws.empty() || !all_finite(draws) || !all_finite(weights)) return false;
   if (!weights.empty() && !(sum(weights) > 0)) return false;

@@ -2,21 +2,21 @@
 
 #include <span>
 
-/// How much does a posterior move when its prior or its likelihood is weakened or strengthened a
-/// little? After Kallioinen, Paananen, Bürkner, Vehtari (2024), "Detecting and diagnosing prior and
-/// likelihood sensitivity with power-scaling", Statistics and Computing 34, 57. Nothing is fitted
-/// anew: the draws are weighted by p(theta)^(alpha - 1) or p(y | theta)^(alpha - 1).
+/// The sensitivity of a posterior to weakening or strengthening its prior or likelihood, after
+/// Kallioinen, Paananen, Bürkner, Vehtari (2024), "Detecting and diagnosing prior and likelihood
+/// sensitivity with power-scaling", Statistics and Computing 34, 57. No refit is needed: the draws
+/// are weighted by p(theta)^(alpha - 1) or p(y | theta)^(alpha - 1).
 ///
 /// Conventions of the R package priorsense, with two simplifications: the gradient divides each
 /// distance by its own |log2(alpha)|, and the importance weights are not Pareto-smoothed (at these
 /// alphas they vary by some per cent).
 namespace wearwell {
 
-/// Sensitivities at or above this are worth a look.
+/// Sensitivities at or above this are relevant.
 inline constexpr double power_scaling_threshold = 0.05;
 
-/// Sensitivities of one quantity: the distance that its distribution moves, per doubling of the
-/// component's weight; dimensionless, 0 for no influence.
+/// Sensitivities of one quantity: the change of its distribution per doubling of the component's
+/// weight; dimensionless, 0 for no influence.
 struct PowerScaling {
   double prior;
   double likelihood;
@@ -25,17 +25,17 @@ struct PowerScaling {
 enum class PowerScalingVerdict {
   none,                             ///< the prior does not matter
   strong_prior_or_weak_likelihood,  ///< only the prior matters
-  prior_data_conflict,              ///< both matter: each pulls its own way
+  prior_data_conflict,              ///< both matter and contradict each other
   unknown                           ///< a sensitivity is NaN
 };
 
 /// `draws` of one quantity and, for the same draws, the log prior and the log likelihood of all
-/// data, each up to a constant. The log prior is that of the parameters as the user states it: the
-/// Jacobian of a transform to the real line does not belong to it. `weights`: those of the draws,
-/// not negative; empty for equal ones. Draws and weights of all chains in one row, in any order.
+/// data, each up to a constant. The log prior is that of the parameters as the user states it:
+/// without the Jacobian of a transform to the real line. `weights`: those of the draws, not
+/// negative; empty for equal ones. Draws and weights of all chains together, in any order.
 ///
-/// NaN when anything is not finite, no weight is positive, or the draws are all equal. Throws
-/// std::invalid_argument when lengths differ.
+/// NaN if anything is not finite, no weight is positive, or all draws are equal. Throws
+/// std::invalid_argument for different lengths.
 PowerScaling power_scaling(std::span<const double> draws, std::span<const double> log_prior,
                            std::span<const double> log_likelihood,
                            std::span<const double> weights = {});

@@ -14,7 +14,7 @@
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
 
-// Longer than others: the checks of a prior share its cuts and the integrals without them.
+// Longer than others: the checks of a prior share its bounds and the integrals without them.
 namespace wearwell {
 namespace {
 
@@ -23,7 +23,7 @@ std::string in_unit(const Parameter& parameter, double si) {
   return fmt::format("{:.4g}{}", from_si(parameter.unit, si), unit);
 }
 
-// A line of the study that says what is known of this parameter, without the numbers.
+// A template line of the study for a prior of this parameter.
 std::string prior_line(const Parameter& parameter) {
   const std::string& unit = parameter.unit.text;
   const std::string number = unit == "1" ? "..." : fmt::format("\"... {}\"", unit);
@@ -92,8 +92,8 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
 
 namespace {
 
-// The same posterior with the bounds of one parameter moved away from its mean to twice the
-// distance; bounds set by physics stay.
+// The same posterior with the bounds of one parameter moved to twice the distance from its mean;
+// physical bounds stay.
 Posterior with_cut_moved(const Posterior& posterior, std::size_t index, double mean) {
   std::vector<Parameter> parameters = posterior.parameters();
   Parameter& moved = parameters[index];
@@ -104,7 +104,7 @@ Posterior with_cut_moved(const Posterior& posterior, std::size_t index, double m
   return Posterior(std::move(parameters), posterior.likelihood());
 }
 
-// Other bounds have other transforms: the same parameters lie elsewhere on the real line.
+// Other bounds imply other transforms, so positions on the real line change.
 Whitening whitening_of(const Posterior& wider, const Posterior& posterior, const Fit& fit) {
   Eigen::VectorXd x(posterior.dimension());
   posterior.to_natural(view(fit.whitening.center), view(x));
@@ -113,7 +113,7 @@ Whitening whitening_of(const Posterior& wider, const Posterior& posterior, const
   return mode.found ? whitening_at(mode) : Whitening{center, fit.whitening.scale};
 }
 
-// The other local maxima, where they lie on the real line of the wider one.
+// The other local maxima, on the real line of the wider posterior.
 std::vector<Mode> maxima_of(const Posterior& wider, const Posterior& posterior, const Fit& fit) {
   std::vector<Mode> maxima;
   Eigen::VectorXd x(posterior.dimension());
@@ -132,8 +132,8 @@ bool has_cut(const Parameter& parameter) {
                   (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
 }
 
-// Mass that a cut may leave out, and how far that may move a mean, if beyond the cut the density is
-// nowhere higher than at it.
+// An upper estimate of the mass outside the bounds and of the resulting shift of a mean, assuming
+// that the density outside is at most that at the bound.
 struct LeftOut {
   double share = 0;
   double shift = 0;  // standard deviations
@@ -160,7 +160,7 @@ LeftOut left_out(const Posterior& wider, const Posterior& posterior, const Fit& 
   return all;
 }
 
-// What moving the cut of one parameter does; nothing where it has none.
+// The effect of moving the bounds of one parameter; empty without such bounds.
 struct CutFinding {
   std::optional<Verdict> verdict;
   std::string detail;
@@ -168,7 +168,7 @@ struct CutFinding {
 
 CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t index) {
   constexpr double tolerated = 0.25;      // standard deviations
-  constexpr double without_error = 1e-3;  // so little more than which integration would not see
+  constexpr double without_error = 1e-3;  // a shift below the resolution of the integration
   const Parameter& parameter = posterior.parameters()[index];
   if (!has_cut(parameter)) return {};
   if (!fit.exact) {
@@ -183,7 +183,7 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
                                        "mean would add less than {:.1g} of the posterior",
                                        parameter.name, std::max(out.share, 1e-12))};
   }
-  // A thousandth of a standard deviation is enough to see a quarter.
+  // An accuracy of a thousandth of a standard deviation suffices to detect a quarter.
   const ExactPosterior exact = integrate(wider, whitening_of(wider, posterior, fit),
                                          {.tolerance = 1e-3,
                                           .cells = false,
@@ -238,7 +238,7 @@ namespace {
 // Densities relative to the highest one, from bins of a twentieth of the central 90 %.
 class RelativeDensity {
  public:
-  // `finest` is the least share that the distribution resolves.
+  // `finest` is the smallest probability that the distribution resolves.
   RelativeDensity(const QuantityDistribution& distribution, double finest)
       : distribution_(distribution),
         finest_(finest),
@@ -258,8 +258,9 @@ class RelativeDensity {
  private:
   double mass(double a, double b) const { return distribution_.cdf(b) - distribution_.cdf(a); }
 
-  // A bin says nothing of the density at its edge: that of a skewed distribution may hold most of it and begin far beyond
-  // the bound. So where a bin accuses, ever smaller shares nearest to the bound are asked how densely they lie.
+  // A bin does not determine the density at its edge: a bin of a skewed distribution may contain
+  // most of the mass and yet begin far from the bound. So for a suspicious bin, the density of
+  // successively smaller probabilities next to the bound is examined.
   double refined(double ratio, double bound, int inward) const {
     constexpr double accused = 0.3, alike = 0.8;
     if (!(ratio >= accused)) return ratio;
@@ -273,7 +274,7 @@ class RelativeDensity {
       at_bound = density(share);
       highest = std::max(highest, at_bound);
     }
-    // Between quantiles, where the distribution is narrower than a bin.
+    // Between quantiles, if the distribution is narrower than a bin.
     for (double p = first; p < 1 - first / 2; p += first) {
       const double length =
           distribution_.quantile(p + first / 2) - distribution_.quantile(p - first / 2);
@@ -293,12 +294,12 @@ class RelativeDensity {
 
 Check bounds(const Posterior& posterior, const Fit& fit) {
   constexpr double warns_above = 0.3, fails_above = 0.6;
-  // Of nodes far out the cells say little; of draws ten are a share.
+  // Cells of nodes in the tails are coarse; for draws at least ten are needed.
   const double finest =
       fit.exact ? 1e-5
                 : 10 / static_cast<double>(std::max<Eigen::Index>(1, fit.pooled.values.rows()));
   Findings findings("bounds");
-  // Of each parameter at its lower and its upper bound.
+  // For each parameter at its lower and its upper bound.
   std::vector<std::array<double, 2>> ratios(posterior.parameters().size());
   tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
     const Distribution& prior = posterior.parameters()[i].prior;
@@ -330,7 +331,7 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
 
 namespace {
 
-// The probit of a law's distribution function, to about 1e-12 in either tail: beyond, the nearer of -7 and 7.
+// The probit of a prior's cdf, accurate to tails of about 1e-12; beyond, -7 or 7.
 double score_of(const Distribution& distribution, double x) {
   double low = -7, high = 7;
   for (int i = 0; i < 60; ++i) {
@@ -340,8 +341,8 @@ double score_of(const Distribution& distribution, double x) {
   return 0.5 * (low + high);
 }
 
-// Whether a law ends on this side while its density is still high: it says nothing against what lies there, as
-// a half-normal law of a scatter says nothing against a small one.
+// Whether a prior ends on this side with a high density. It then does not contradict values there,
+// as a half-normal prior of a scatter does not contradict a small one.
 bool ends_high(const Distribution& distribution, bool lower) {
   constexpr int stations = 400;
   constexpr double high = 0.01;
@@ -355,18 +356,20 @@ bool ends_high(const Distribution& distribution, bool lower) {
          highest + std::log(high);
 }
 
-// A posterior on the scale on which its prior is standard normal: its standard deviation, 1 where the data say nothing and 0
-// where the prior is improper; and how improbable the prior makes what the data say, either side.
+// A posterior on the scale on which its prior is standard normal: its standard deviation (1 without
+// information in the data, 0 for an improper prior), and the two-sided prior predictive probability
+// of the data's estimate.
 struct AgainstPrior {
   double width = 0, p_value = 1;
 };
 
-// The posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the variance of a mean
-// and the mean of a variance add up. So m / sqrt(1 - v) is standard normal where the likelihood is, too, and is
-// the distance of prior and likelihood by their common standard deviation. No surprise where the prior excludes
-// nothing on that side.
+// If the prior is correct, the posterior mean m with posterior variance v has variance 1 - v, by
+// the law of total variance. So m / sqrt(1 - v) is standard normal for a normal likelihood; it is
+// the distance between prior and likelihood in units of their common standard deviation. The p
+// value is 1 if the prior excludes nothing on that side.
 AgainstPrior against_prior(const Distribution& distribution, std::vector<double> draws) {
-  constexpr double least_learned = 0.05;  // of 1 - v, which 4000 draws tell to sqrt(2/4000) = 0.022
+  constexpr double least_learned = 0.05;  // lower limit of 1 - v, which 4000 draws estimate to
+                                          // sqrt(2/4000) = 0.022
   if (!distribution.proper) return {};
   const auto score = [&](double share) {
     const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));
@@ -380,7 +383,8 @@ AgainstPrior against_prior(const Distribution& distribution, std::vector<double>
   return {sd, std::erfc(distance / std::numbers::sqrt2)};
 }
 
-// The draws about each maximum that holds some, where there are several: the data say one or another.
+// The draws about each maximum that has any, if there are several; the data are compatible with
+// each of them.
 std::vector<std::vector<Eigen::Index>> draws_by_maximum(const Posterior& posterior,
                                                         const Fit& fit) {
   constexpr double least = 0.05;
@@ -403,7 +407,7 @@ std::vector<std::vector<Eigen::Index>> draws_by_maximum(const Posterior& posteri
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   constexpr double excluded = 2.7e-3, far_out = 1e-2;  // three standard deviations, and 2.6
-  constexpr double hardly_narrower = 0.7;              // the data hold as much as the prior
+  constexpr double hardly_narrower = 0.7;              // data and prior are equally informative
   Findings findings("prior-data-conflict");
   const Eigen::MatrixXd& values = fit.pooled.values;
   std::vector<double> log_prior(static_cast<std::size_t>(values.rows())),
@@ -437,7 +441,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
       continue;
     }
     auto [width, p] = against_prior(parameter.prior, {draws.begin(), draws.end()});
-    // A prior that expects one of several maxima does not exclude what the data say.
+    // A prior that is compatible with one of several maxima does not contradict the data.
     for (const std::vector<Eigen::Index>& group : groups) {
       const Eigen::VectorXd some = draws(group);
       p = std::max(p, against_prior(parameter.prior, {some.begin(), some.end()}).p_value);

@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// Checks of what was asked rather than of how it was computed: prior, data and their posterior.
+/// Checks of the problem rather than of the computation: prior, data and posterior.
 
 /// Every tail is integrable, and means and variances exist (tail.h).
 Check proper_posterior(const Posterior& posterior, const Fit& fit);
@@ -14,10 +14,10 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit);
 /// Moving the bounds of a flat or uniform prior outward does not move the means.
 Check prior_cut(const Posterior& posterior, const Fit& fit);
 
-/// The posterior does not pile up at a bound.
+/// The posterior does not accumulate at a bound.
 Check bounds(const Posterior& posterior, const Fit& fit);
 
-/// Prior and likelihood do not pull a parameter apart (power_scaling.h).
+/// Prior and likelihood do not contradict each other about a parameter (power_scaling.h).
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit);
 
 }  // namespace wearwell

@@ -17,18 +17,18 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// Farther than this from the mode, in widths, an end is at infinity.
+// An end farther than this from the mode, in widths, is treated as infinite.
 constexpr double far = 1e6;
 
 constexpr int most_searches = 80;
 
-// What is profiled, and how far a plausible change of it is.
+// The profiled quantity, with a plausible change.
 struct Target {
   ProfiledQuantity quantity;
   double at_mode, width, lower, upper;
 };
 
-// The density of the other parameters where a quantity has one value.
+// The density of the other parameters at a fixed value of a quantity.
 class Held final : public LogDensity {
  public:
   Held(const NaturalDensity& whole, const Box& box, const Eigen::VectorXd& unit,
@@ -50,7 +50,7 @@ class Held final : public LogDensity {
     const Eigen::Index fixed = quantity_.parameter;
     for (Eigen::Index i = 0, j = 0; i < x.size(); ++i) {
       if (i == fixed) continue;
-      // How the fixed one follows, by a central difference.
+      // The derivative of the fixed parameter, by a central difference.
       const double middle = x[i], step = 1e-5 * unit_[i];
       x[i] = middle + step;
       const double up = quantity_.solve(x.data(), value_);
@@ -90,7 +90,7 @@ Eigen::VectorXd without(const Eigen::VectorXd& x, Eigen::Index left_out) {
   return others;
 }
 
-// One end, sought from the mode outward: the signed root of the deviance is nearly a straight line.
+// One end, by a search outward from the mode: the signed root of the deviance is nearly linear.
 class Search {
  public:
   Search(const NaturalDensity& density, const Box& box, const Eigen::VectorXd& unit,
@@ -122,7 +122,7 @@ class Search {
       if (next.excess >= 0) return between(inner, next);
       if (at_bound) return {nothing, "the likelihood allows all values up to the bound"};
       if (std::abs(at - target_.at_mode) > far * target_.width) break;
-      // To where a straight line would reach, and a little beyond.
+      // Slightly beyond the linear extrapolation.
       const double reached = std::max(next.excess + root_, 1e-3 * root_);
       step = std::abs(at - target_.at_mode) * std::clamp(1.02 * root_ / reached - 1, 0.05, 3.0);
       inner = next;
@@ -136,7 +136,7 @@ class Search {
     double at, excess;
   };
 
-  // The root of the deviance, less the one that is sought; sets `problem_` where no search ended.
+  // The root of the deviance minus its target; sets `problem_` if no search converged.
   double excess(double at) {
     const Held held(density_, box_, unit_, target_.quantity, at);
     Maximum summit;
@@ -145,7 +145,7 @@ class Search {
       summit.value = held.value({});
       summit.converged = true;
     } else {
-      // Along the straight line through mode and last answer.
+      // Linear extrapolation through the mode and the last solution.
       const double moved = last_ - target_.at_mode;
       const double share = moved != 0 ? (at - target_.at_mode) / moved : 1;
       const Eigen::VectorXd ahead = mode_others_ + share * (last_others_ - mode_others_);
@@ -166,7 +166,8 @@ class Search {
     return std::sqrt(2 * std::max(fall, 0.0)) - root_;
   }
 
-  // The first climb that comes to an end; where none does, the same in smaller steps, and at last the highest of all.
+  // The first search that converges; if none does, searches in smaller steps, and finally the
+  // highest point.
   Maximum highest_from(const std::vector<Eigen::VectorXd>& starts, const Held& held) const {
     std::optional<Maximum> best;
     for (const double size : {1.0, 0.05}) {
@@ -218,7 +219,7 @@ class Search {
   std::string problem_;
 };
 
-// The likelihood's own: the posterior's may be those of a tail that has no end.
+// Widths of the likelihood, because those of the posterior may come from an unbounded tail.
 Eigen::VectorXd widths_about(const NaturalMode& mode, Eigen::VectorXd widths) {
   constexpr double most = 30;  // standard errors
   for (Eigen::Index i = 0; i < widths.size(); ++i) {
@@ -259,7 +260,7 @@ class Profiler {
 
   ProfileInterval of(const ProfiledQuantity& quantity) const {
     const Eigen::VectorXd x = mode_.position.cwiseMax(box_.lower).cwiseMin(box_.upper);
-    // Its spread to first order, all widths taken as independent: enough for a first step.
+    // Its spread to first order, with independent widths; sufficient for a first step.
     double squares = 0;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       Eigen::VectorXd up = x, down = x;

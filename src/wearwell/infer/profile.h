@@ -8,31 +8,30 @@
 
 namespace wearwell {
 
-/// One end of a profile-likelihood interval; NaN where there is none, and `open` says why.
+/// One end of a profile-likelihood interval; NaN for an open end, with the reason in `open`.
 struct ProfileEnd {
   double value = 0;
   std::string open;
 };
 
-/// All values of a number that the likelihood allows: 2 (its maximum less its maximum under that
-/// value) is at most chi-square's quantile with one degree of freedom (Venzon and Moolgavkar 1988).
-/// Unlike a standard error it does not change with the way in which a parameter is written, and it
-/// need not be symmetric.
+/// A profile-likelihood interval: all values with a deviance of at most the chi-square quantile
+/// with one degree of freedom (Venzon and Moolgavkar 1988). Unlike a standard error it does not
+/// depend on the parametrization, and it can be asymmetric.
 struct ProfileInterval {
   ProfileEnd lower, upper;
 };
 
-/// A number that follows from the parameters, and fixes one of them when the others are known.
+/// A function of the parameters that determines one of them given the others.
 struct ProfiledQuantity {
   Eigen::Index parameter = 0;                    ///< the one that it fixes
   std::function<double(const double* x)> value;  ///< of natural parameters
-  /// What that parameter must be for `value`, given the others in x; NaN where nothing does.
+  /// The value of that parameter for `value`, given the others in x; NaN if there is none.
   std::function<double(const double* x, double value)> solve;
 };
 
-/// The intervals of all parameters, natural and in SI. `mode` is one (no problem); meant for flat
-/// and uniform priors (mode.maximum), whose bounds close no interval: an end that is not reached
-/// before the bound is open.
+/// The intervals of all parameters, natural and in SI. `mode` must have no problem. Intended for
+/// flat and uniform priors (mode.maximum); their bounds do not close an interval: an end that is
+/// not reached before the bound is open.
 std::vector<ProfileInterval> profile_intervals(const Posterior& posterior, const Fit& fit,
                                                const NaturalMode& mode, double level);
 

@@ -19,18 +19,18 @@
 namespace wearwell {
 namespace {
 
-// Numbers held at once: draws are thinned beyond.
+// Limit of stored numbers; more draws are thinned.
 constexpr double most_numbers = 5e7;
 
-// Of nodes and observations: beyond, draws serve instead of nodes, and fewer of them.
+// Limit of nodes times observations; beyond it fewer draws replace the nodes.
 constexpr double most_at_nodes = 2e7, most_at_draws = 4e6, fewest_draws = 400;
 constexpr std::size_t many_terms = 1000;
 
-// With more doubtful observations than this the model is in doubt, not the weights.
+// With more unreliable terms than this, the model is the problem, not the weights.
 constexpr std::ptrdiff_t most_refits = 20;
 
-// All of a likelihood but one observation: the sum of all other factors. Of a likelihood that is no such sum (one that
-// integrates its factors' product by a rule of its own) what is left when that of the observation is taken away.
+// A likelihood without one observation: the sum of all other factors. If the likelihood is not such
+// a sum (it integrates the product of factors by its own rule), subtracts the observation's factor.
 class Without final : public LogDensity {
  public:
   Without(std::shared_ptr<const LogDensity> whole, std::size_t term, std::span<const double> at)
@@ -60,7 +60,8 @@ class Without final : public LogDensity {
     }
     return sum < infinity ? sum : -infinity;
   }
-  // By differences: no likelihood tells the gradients of its terms. Only searches for a peak ask.
+  // By differences, because likelihoods do not provide gradients of single terms. Only mode
+  // searches need it.
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
     constexpr double step = 6e-6;  // the cube root of the rounding error
     std::vector<double> moved(x.begin(), x.end());
@@ -78,7 +79,7 @@ class Without final : public LogDensity {
  private:
   std::shared_ptr<const LogDensity> whole_;
   std::size_t term_;
-  std::vector<int> counts_;  // of the others
+  std::vector<int> counts_;  // counts of the others
   bool sums_ = false;
 };
 
@@ -92,7 +93,7 @@ struct Refitted {
   double elpd = 0, tail = 1, error = 0;
 };
 
-// Empty where the quadrature fails.
+// Empty if the quadrature fails.
 std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
                                        std::size_t term, const Scores* scores,
                                        std::optional<bool> along_ridge, std::vector<Mode> maxima,
@@ -111,7 +112,7 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   settings.stop = std::move(stop);
   ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) {
-    // Without an observation that pulled it far away the posterior lies elsewhere.
+    // Without an influential observation the posterior may be elsewhere.
     const Mode mode = find_mode(others, whitening.center);
     if (mode.found) exact = integrate(others, whitening_at(mode), settings);
   }
@@ -133,10 +134,10 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   return Refitted{elpd, scores ? std::min(1.0, 2 * std::min(below, above)) : 1, exact.error};
 }
 
-// Log densities of the terms at draws: a column a term.
+// Log densities of the terms at draws, one column per term.
 Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws& draws,
                               std::size_t terms) {
-  // Each of many observations moves the posterior so little that some hundred draws tell how it is predicted.
+  // Each of many observations has so little influence that some hundred draws suffice.
   const double rows = static_cast<double>(draws.values.rows()),
                all = rows * static_cast<double>(terms);
   const double wanted = terms < many_terms
@@ -156,7 +157,7 @@ Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws&
   return log_density;
 }
 
-// Draws that count for fewer independent ones, on the average over the bulk of all parameters.
+// The average bulk efficiency of the draws over all parameters.
 double efficiency_of(const Fit& fit) {
   double least = 1;
   for (const Diagnostics& each : fit.diagnostics) {
@@ -221,7 +222,7 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
       left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
   loo.by_quadrature = true;
   loo.error = 0;
-  // The worst first: those whose weights reach beyond the nodes.
+  // The worst terms first, whose weights extend beyond the nodes.
   std::vector<std::size_t> uneven;
   for (std::size_t i = 0; i < loo.terms.size(); ++i) {
     LooTerm& term = loo.terms[i];

@@ -30,7 +30,7 @@ ResidualShapeFound shape_of(std::span<const double> residuals) {
     const double share = below * below / (k * (n - k)) / square;
     if (share > explained) explained = share, cut = i + 1;
   }
-  // A few values far outside are an outlier's tail, not a group.
+  // A few extreme values are outliers, not a group.
   constexpr double apart = 0.8, of_all = 0.1;
   const double smaller = std::min(static_cast<double>(cut), n - static_cast<double>(cut));
   if (explained > apart && smaller >= of_all * n) return {ResidualShape::two_groups, cut};

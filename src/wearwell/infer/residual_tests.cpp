@@ -24,7 +24,7 @@ double mean(std::span<const double> z) {
   return std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(z.size());
 }
 
-// Residuals in standard deviations that are all alike (readings that are all zero) tell of no trend: rounding would.
+// Constant standardized residuals (all readings zero) have no trend except by rounding.
 bool differ(std::span<const double> z) {
   constexpr double least = 1e-9;
   const auto [low, high] = std::minmax_element(z.begin(), z.end());
@@ -38,7 +38,7 @@ std::vector<double> centered(std::span<const double> z) {
   return rest;
 }
 
-// P(T <= t) of Student's t where t^2 = freedom r^2/(1 - r^2), from the cosine r between residuals
+// P(T <= t) of Student's t with t^2 = freedom r^2/(1 - r^2), from the cosine r between residuals
 // and a direction.
 double below(double cosine, double freedom) {
   if (!(freedom >= 1) || std::isnan(cosine)) return 0.5;
@@ -59,7 +59,7 @@ double cosine(std::span<const double> a, std::span<const double> b) {
 
 // P(sum of a_j X_j^2 < 0) of independent standard normal X_j (Imhof 1961, Biometrika 48, 419-426).
 double negative_form(const std::vector<double>& a) {
-  if (a.front() >= 0) return 0;  // the smallest first
+  if (a.front() >= 0) return 0;  // ascending
   if (a.back() <= 0) return 1;
   const auto integrand = [&](double u) {
     double angle = 0, log_size = 0;
@@ -73,7 +73,7 @@ double negative_form(const std::vector<double>& a) {
   return std::clamp(0.5 - rule.integrate(integrand, 1e-9) / std::numbers::pi, 0.0, 1.0);
 }
 
-// Driver and value about the means of their groups, relative to their sizes; and how many groups.
+// Driver and value, centered within groups and scaled, and the number of groups.
 struct Centered {
   std::vector<double> driver, value;
   std::size_t groups = 0;

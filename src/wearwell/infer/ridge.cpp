@@ -65,7 +65,7 @@ ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& gu
   }
   const Box everywhere{Eigen::VectorXd::Constant(n, -infinity),
                        Eigen::VectorXd::Constant(n, infinity)};
-  constexpr double enough = 1e-6;  // a Laplace approximation asks for no more
+  constexpr double enough = 1e-6;  // sufficient for a Laplace approximation
   const Maximum summit = maximize(slice, *best, width, everywhere, enough);
   station.rest = summit.x;
   station.width = width;
@@ -75,9 +75,8 @@ ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& gu
       !station.curvature.allFinite()) {
     return station;
   }
-  // In units in which the diagonal is 1, so that sizes of 1e-9 and 1 stand side by side. A direction
-  // without curvature counts as one of unit width: it can only make a tail look heavier by a
-  // constant.
+  // Scaled to unit diagonal, so that magnitudes of 1e-9 and 1 can occur together. A direction
+  // without curvature counts as unit width, which only changes a tail by a constant factor.
   for (Eigen::Index i = 0; i < n; ++i) {
     const double bend = station.curvature(i, i);
     station.width[i] = bend > 1e-8 ? 1 / std::sqrt(bend) : 1;

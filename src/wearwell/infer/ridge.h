@@ -9,12 +9,13 @@
 
 namespace wearwell {
 
-/// The density of all coordinates but one, which is held. Refers to `whole`, which must outlive it.
+/// The density of all coordinates except one, which is fixed. Refers to `whole`, which must outlive
+/// it.
 class Slice final : public LogDensity {
  public:
   Slice(const LogDensity& whole, int held) : whole_(whole), held_(static_cast<std::size_t>(held)) {}
 
-  double at = 0;  ///< the value of the held coordinate
+  double at = 0;  ///< value of the fixed coordinate
 
   int dimension() const override { return whole_.dimension() - 1; }
   double value(std::span<const double> rest) const override;
@@ -32,27 +33,28 @@ class Slice final : public LogDensity {
   std::size_t held_;
 };
 
-/// All coordinates but that one.
+/// All coordinates except that one.
 Eigen::VectorXd without(const Eigen::VectorXd& whole, Eigen::Index held);
 
-/// One place on a ridge: a coordinate is held, the others are at their conditional mode.
+/// A point on a ridge: one coordinate is fixed, the others are at their conditional mode.
 struct ConditionalMode {
   double at = 0;          ///< of the held coordinate
   Eigen::VectorXd rest;   ///< the others
-  Eigen::VectorXd width;  ///< of the others there, one by one
+  Eigen::VectorXd width;  ///< conditional width of each other coordinate
   Eigen::MatrixXd curvature;
-  double log_density = 0;   ///< of all coordinates, there
-  double log_marginal = 0;  ///< of the held coordinate, the others integrated out by Laplace
-  bool converged = false;   ///< the others have a mode there, and it was found
+  double log_density = 0;   ///< of all coordinates at this point
+  double log_marginal = 0;  ///< of the fixed coordinate, with the others integrated out by
+                            ///< Laplace's approximation
+  bool converged = false;   ///< the conditional mode of the others exists and was found
 };
 
-/// Climbs from the highest of `guesses` to the conditional mode at `slice.at`. `width` > 0 is about
-/// how far the others may move.
+/// Searches the conditional mode at `slice.at` from the highest of `guesses`. `width` > 0 is about
+/// the possible change of the others.
 ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
                       const Eigen::VectorXd& width);
 
-/// Where the others may be at the next station, `step` farther than the last of the two: where they were,
-/// on the straight line through both, and on the curves of what grows or shrinks like e^held.
+/// Guesses for the others at the next station, `step` beyond the last of the two: unchanged, linear
+/// extrapolation through both, and exponential extrapolation.
 std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last,
                                      double step);
 

@@ -8,22 +8,23 @@
 namespace wearwell {
 namespace {
 
-// Less change of widths (log) and bend (in widths) than this along three standard deviations is
-// round enough for an affine map.
+// An affine map suffices if widths (log) and the ridge (in widths) change less than this along
+// three standard deviations.
 constexpr double straight = 0.02;
 
-// Modes are found half a standard deviation apart near the center and farther apart far out; they end
-// where the density (log) has fallen by so much.
+// Stations are half a standard deviation apart near the center and farther apart in the tails; they
+// end where the log density has decreased by this much.
 constexpr double first_step = 0.5, growth = 1.15, fallen = 40;
 constexpr int steady = 8, most_modes = 60;
 
-// A marginal density of a scale that has not fallen by more (log) over such a way (log) has no end.
+// A marginal density of a scale that has not decreased by this much (log) over this distance (log)
+// is unbounded in extent.
 constexpr double hardly = 8, endless_way = 100;
 
-// Integration begins where the marginal density of the axis (log) has fallen by so much.
+// Integration begins where the log marginal density of the axis has decreased by this much.
 constexpr double begin = 14;
 
-// Widths of the others with the axis held, from the covariance of all.
+// Conditional widths of the others given the axis, from the covariance.
 Eigen::VectorXd conditional_widths(const Eigen::MatrixXd& covariance, int axis) {
   const Eigen::Index d = covariance.rows();
   Eigen::VectorXd width(d - 1);
@@ -44,7 +45,7 @@ ConditionalMode visit_at(Slice& slice, double z, const Whitening& whitening,
     return visit(slice, guesses(before ? *before : *last, *last, z - last->at), last->width);
   }
   const Eigen::Index d = covariance.rows();
-  // The conditional mean of a normal.
+  // The conditional mean of a normal distribution.
   const Eigen::VectorXd center = without(whitening.center, axis);
   Eigen::VectorXd rest(d - 1);
   for (Eigen::Index j = 0; j < d - 1; ++j) {
@@ -61,7 +62,7 @@ Splines::Splines(std::vector<double> at, Eigen::MatrixXd values)
     : at_(std::move(at)), values_(std::move(values)) {
   const auto n = static_cast<Eigen::Index>(at_.size());
   second_ = Eigen::MatrixXd::Zero(n, values_.cols());
-  // Natural ends; Thomas's algorithm for the tridiagonal system.
+  // Natural splines; Thomas algorithm for the tridiagonal system.
   Eigen::VectorXd above = Eigen::VectorXd::Zero(n);
   const auto gap = [&](Eigen::Index i) {
     return at_[static_cast<std::size_t>(i + 1)] - at_[static_cast<std::size_t>(i)];
@@ -125,7 +126,7 @@ void RidgeMap::choose_axis(const Posterior& posterior) {
     const Eigen::VectorXd widths = below.width.cwiseQuotient(above.width).array().log().matrix();
     const Eigen::VectorXd bend =
         (below.rest + above.rest - 2 * middle.rest).cwiseQuotient(middle.width);
-    // A map that is round but bent costs evaluations; one that is narrow where boxes are wide, mass.
+    // A curved map costs evaluations; a map that is too narrow loses mass.
     const double change = widths.cwiseAbs().maxCoeff() + 0.25 * bend.cwiseAbs().maxCoeff();
     if (change > most_change) {
       most_change = change;
@@ -174,8 +175,8 @@ void RidgeMap::follow(const Posterior& posterior) {
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ConditionalMode& mode = modes[i];
     at.push_back((mode.at - whitening_.center[axis_]) / unit_);
-    // The Cholesky factor of the inverse curvature: logarithms of its diagonal, the rest of each
-    // column over it.
+    // The Cholesky factor of the inverse curvature: logarithms of its diagonal, and the rest of
+    // each column divided by it.
     const Eigen::MatrixXd scaled =
         mode.width.asDiagonal() * mode.curvature * mode.width.asDiagonal();
     const Eigen::MatrixXd factor =

@@ -10,12 +10,12 @@
 
 namespace wearwell {
 
-/// Cubic splines through points of a few values each: two continuous derivatives, straight beyond
-/// the ends.
+/// Cubic splines for vectors of a few values: twice continuously differentiable, linear beyond the
+/// ends.
 class Splines {
  public:
   Splines() = default;
-  /// `at` ascends; two points or more; `values` has a row a point.
+  /// `at` is ascending with at least two points; `values` has a row per point.
   Splines(std::vector<double> at, Eigen::MatrixXd values);
 
   Eigen::Index size() const { return values_.cols(); }
@@ -26,30 +26,30 @@ class Splines {
   Eigen::MatrixXd values_, second_;  // and second derivatives
 };
 
-/// A smooth map from u, where a posterior is round and of unit size, to its real line. Affine, or, where the
-/// widths of the other coordinates change along one of them (the axis), as in a funnel, or the ridge
-/// bends: u[axis] moves along the axis, the others are measured from their conditional mode there in
-/// units of their conditional widths. For up to `most` coordinates.
+/// A smooth map from u, in which a posterior is nearly standard normal, to its real line. It is
+/// affine, or, for a funnel or a curved ridge, follows one coordinate (the axis): u[axis] moves
+/// along the axis, and the others are measured from their conditional mode there in units of their
+/// conditional widths. For up to `most` coordinates.
 class RidgeMap {
  public:
   static constexpr int most = 4;
   using Coordinates = std::array<double, most>;
 
-  /// Walks along the ridge, unless it is to be affine. Refers to neither.
+  /// Walks along the ridge unless `affine` is requested. Does not keep references.
   RidgeMap(const Posterior& posterior, const Whitening& whitening, bool affine = false);
 
-  /// The map where u[axis] is t.
+  /// The map at u[axis] = t.
   struct Frame {
-    Coordinates center;                     // z where the other u are 0
+    Coordinates center;                     // z at zero for the other u
     std::array<double, most * most> scale;  // by column, of the other u
-    double log_jacobian = 0;                // of z by u, less log_scale()
+    double log_jacobian = 0;                // of z with respect to u, minus log_scale()
   };
   Frame at(double t) const;
   void to_real(const Frame& frame, const Coordinates& u, Coordinates& z) const;
 
-  /// The u of a place on the real line.
+  /// The u of a position on the real line.
   Coordinates from_real(const Eigen::VectorXd& z) const;
-  /// The walk has come by there, along the axis.
+  /// Whether the walk passed this position along the axis.
   bool reaches(const Eigen::VectorXd& z) const;
 
   double log_scale() const { return log_scale_; }
@@ -57,19 +57,20 @@ class RidgeMap {
   int axis() const { return axis_; }
   bool affine() const { return affine_; }
 
-  /// Between which values of u[axis] to begin.
+  /// The initial range of u[axis].
   double lower() const { return lower_; }
   double upper() const { return upper_; }
 
-  /// The highest log density met on the walk, and the log of the posterior's integral by Laplace's
-  /// approximation, station by station; of an affine map the density at its center, and NaN.
+  /// The highest log density on the walk, and the log integral of the posterior from Laplace
+  /// approximations at the stations; for an affine map the density at its center, and NaN.
   double highest() const { return highest_; }
   double log_integral() const { return log_integral_; }
 
-  /// The highest log density met where the marginal density is of weight: not in the throat of a funnel.
+  /// The highest log density where the marginal density is non-negligible, which excludes the neck
+  /// of a funnel.
   double highest_of_weight() const { return highest_of_weight_; }
 
-  /// The marginal density of a scale hardly fell over a hundred factors of e.
+  /// The marginal density of a scale decreased too little over a hundred factors of e.
   bool endless() const { return endless_; }
 
  private:

@@ -21,8 +21,8 @@
 namespace wearwell {
 namespace {
 
-// As Stan does on its own scale: uniform on (-2, 2) in every direction, until inside the support,
-// where the density has a gradient too.
+// As in Stan: uniform on (-2, 2) in every direction, until inside the support with a finite
+// gradient.
 Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
   Eigen::VectorXd u(whitened.dimension()), slope(whitened.dimension());
   for (int attempt = 0; attempt < 100; ++attempt) {
@@ -36,7 +36,7 @@ Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
       "units of data and priors");
 }
 
-// About the maximum that is chain c's, in the coordinates of `whitening`.
+// Starts about the maximum of chain c, in the coordinates of `whitening`.
 Eigen::VectorXd random_start(const Posterior& posterior, const Whitening& whitening,
                              std::span<const LocalMaximum> maxima, std::size_t c, Rng& rng) {
   if (maxima.size() < 2) return random_start(WhitenedDensity(posterior, whitening), rng);
@@ -51,7 +51,7 @@ class MaximaJumps {
   MaximaJumps(const Whitening& whitening, std::span<const LocalMaximum> maxima)
       : mixture_(maxima, freedom, evenly), whitening_(whitening), to_u_(whitening.scale) {}
 
-  // Where to go from u, at which the density is `log_density`; nothing where it stays.
+  // The accepted position from u with density `log_density`; empty if it stays.
   std::optional<Eigen::VectorXd> jump(const WhitenedDensity& density, const Eigen::VectorXd& u,
                                       double log_density, Rng& rng) const {
     std::optional<Eigen::VectorXd> moved;
@@ -106,7 +106,7 @@ class NutsChain {
     nuts_.find_reasonable_step_size(rng_);
   }
 
-  // So many iterations of the warm-up; keeps the second half of them where that is wanted.
+  // Runs iterations of the warm-up; optionally keeps the second half.
   void warm_up(int iterations, bool keeps) {
     const int first = keeps ? iterations / 2 : iterations;
     late_.values.resize(iterations - first, posterior_.dimension());
@@ -166,9 +166,9 @@ class NutsChain {
   Chain late_;
 };
 
-// Whether as many draws as were asked for, from a sampler that walks as it did late in warm-up, are likely to suffice.
+// Whether the requested draws will probably suffice, judged from late warm-up.
 bool promising(const Draws& late, int draws) {
-  constexpr double most_rhat = 1.05, least = 125;  // effective draws a chain
+  constexpr double most_rhat = 1.05, least = 125;  // effective draws per chain
   const auto length = static_cast<double>(late.front().values.rows());
   for (Eigen::Index i = 0; i < late.front().values.cols(); ++i) {
     const Diagnostics d = diagnose(chains_of(late, i));
@@ -184,7 +184,7 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
                   const NutsSettings& options, const RunSettings& settings,
                   bool may_propose_independently, std::span<const LocalMaximum> maxima) {
   std::vector<std::unique_ptr<NutsChain<N>>> chains(static_cast<std::size_t>(settings.chains));
-  // Leaps take fewer evaluations than transitions without them, once there is something to leap about.
+  // With a proposal mixture, transitions need fewer evaluations.
   const bool independence = may_propose_independently && posterior.likelihood()->is_slow();
   const int first = settings.warmup / (independence ? 4 : 2);
   for (const int iterations : {first, settings.warmup - first}) {

@@ -29,7 +29,7 @@ Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const Nut
 /// Random-walk Metropolis.
 struct MetropolisSettings {
   std::optional<Eigen::VectorXd>
-      half_width;  ///< of the proposals, SI; without it warm-up finds directions and length
+      half_width;  ///< of the proposals, SI; if empty, warm-up adapts directions and length
 };
 
 /// Independent Metropolis-Hastings chains from starts as for NUTS: on the natural parameters with

@@ -12,7 +12,7 @@ namespace wearwell {
 
 namespace {
 
-// What this method can do next, and which other could take its place.
+// Advice for this method, and an alternative method.
 std::string draw_more(const Fit& fit) {
   if (fit.exact) return "Draw more (--draws, --warmup), or use --method exact.";
   if (fit.method == Method::metropolis) {
@@ -26,7 +26,7 @@ std::string draw_more(const Fit& fit) {
 
 Check convergence(const Posterior& posterior, const Fit& fit, bool agrees_with_exact) {
   constexpr double largest_rhat = 1.01,
-                   tolerable_rhat = 1.05;  // the latter where quadrature agrees
+                   tolerable_rhat = 1.05;  // the latter if quadrature agrees
   const double least_ess = 100.0 * static_cast<double>(fit.draws.size());
   Findings findings("convergence");
   double rhat = 0, ess = INFINITY;

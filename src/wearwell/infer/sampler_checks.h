@@ -6,19 +6,19 @@
 
 namespace wearwell {
 
-/// Checks of the draws. Slow convergence and divergences are warnings where quadrature agrees with
-/// the draws.
+/// Checks of the draws. Slow convergence and divergences are only warnings if quadrature agrees
+/// with the draws.
 
 /// R-hat and effective sample sizes (diagnostics.h).
 Check convergence(const Posterior& posterior, const Fit& fit, bool agrees_with_exact);
 
-/// NUTS followed the posterior everywhere, and the tree depth did not end its walks.
+/// Divergences of NUTS, and transitions that reached the tree depth limit.
 Check divergences(const Fit& fit, bool agrees_with_exact);
 
 /// E-BFMI of every chain.
 Check energy(const Fit& fit);
 
-/// The draws against quadrature, in Monte Carlo standard errors.
+/// The difference between draws and quadrature, in Monte Carlo standard errors.
 Check exact_agreement(const Posterior& posterior, const Fit& fit);
 
 }  // namespace wearwell

@@ -13,7 +13,7 @@
 namespace wearwell {
 namespace {
 
-constexpr double farthest = 35;  // scores have a mean
+constexpr double farthest = 35;  // bound that keeps means of scores finite
 
 // The z with Phi(z) = below, given both tails.
 double score_of(double below, double above) {
@@ -24,7 +24,7 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// What is left of `values` after their part along `direction`.
+// `values` without their component along `direction`.
 std::vector<double> without(std::span<const double> values, std::span<const double> direction) {
   const double square =
       std::inner_product(direction.begin(), direction.end(), direction.begin(), 0.0);

@@ -15,7 +15,7 @@ const char* stage_name(Stage stage) {
     case Stage::quadrature:
       return "quadrature";
     case Stage::digits:
-      return "digits";
+      return "conditioning";
     case Stage::constrained_mode:
       return "mode in the parameters' own units";
     case Stage::effects:

@@ -8,15 +8,15 @@
 
 namespace wearwell {
 
-/// The stages of a fit that can fall short of what they promise. A new stage gets an entry here; a
-/// test walks over the list and asks of each that its failure ends trust.
+/// The stages of a fit that can miss their accuracy. A new stage needs an entry here; a test checks
+/// for each that its failure makes the fit untrusted.
 enum class Stage { mode, maxima, tails, quadrature, digits, constrained_mode, effects };
 
 inline constexpr std::array all_stages = {Stage::mode,       Stage::maxima, Stage::tails,
                                           Stage::quadrature, Stage::digits, Stage::constrained_mode,
                                           Stage::effects};
 
-/// What a stage did not reach. Verdict::warn where something else vouches for the numbers.
+/// A shortfall of a stage. Verdict::warn if the numbers are confirmed otherwise.
 struct StageDiagnostic {
   Stage stage;
   Verdict verdict;

@@ -12,10 +12,11 @@
 namespace wearwell {
 namespace {
 
-// Beyond this many axes neighbours say nothing: any two points are about equally far apart.
+// With more axes neighbors are meaningless, because all points are about equally far apart.
 constexpr Eigen::Index most_for_neighbours = 8;
 
-// A column a point of the unit cube: fractions of multiples of the powers of the root of x^(d+1) = x + 1 lie evenly.
+// Low-discrepancy points of the unit cube, one per column: fractional parts of multiples of the
+// powers of the root of x^(d+1) = x + 1.
 Eigen::MatrixXd evenly(Eigen::Index dimension, Eigen::Index count) {
   double root = 1.5;
   for (int i = 0; i < 64; ++i) root = std::pow(1 + root, 1 / static_cast<double>(dimension + 1));
@@ -28,7 +29,7 @@ Eigen::MatrixXd evenly(Eigen::Index dimension, Eigen::Index count) {
       points(a, i) = x - std::floor(x);
     }
   }
-  // Far from both faces, where quantiles of long tails are no places to start from.
+  // Keeps away from the faces, because extreme quantiles of long tails are bad starts.
   constexpr double margin = 1e-3;
   return margin + (1 - 2 * margin) * points.array();
 }
@@ -38,7 +39,8 @@ double score_of(double share) {
   return quantile(standard, share);
 }
 
-// Of a parameter on the real line: by the prior, or about the start value over some hundred of its scales.
+// The start range of a parameter on the real line: from the prior, or some hundred scales about the
+// start value.
 double about_start(const Parameter& parameter, const Transform& transform, double score) {
   const Distribution& prior = parameter.prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
@@ -62,7 +64,7 @@ double of_prior(const Parameter& parameter, const Transform& transform, double s
   return about_start(parameter, transform, score_of(share));
 }
 
-// Those that are higher than all others within a ball in the unit cube that holds a few points.
+// The points that are higher than all others in a ball of the unit cube with a few points.
 void add_highest(const Eigen::MatrixXd& cube, const std::vector<StartPoint>& points,
                  std::vector<StartPoint>& high) {
   const Eigen::Index d = cube.rows();

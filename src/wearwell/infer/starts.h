@@ -8,20 +8,20 @@
 
 namespace wearwell {
 
-/// A place where a search may start, and how high it is.
+/// A start of a search, with its log density.
 struct StartPoint {
   Eigen::VectorXd z;  ///< on the real line
   double log_density = 0;
 };
 
-/// Where searches of a posterior start (maxima.h).
+/// The starts of a search for maxima (maxima.h).
 struct StartPoints {
-  std::vector<StartPoint> high;   ///< higher than all of their neighbours, the highest first
-  std::vector<StartPoint> plain;  ///< of the prior's mass, one as the other
+  std::vector<StartPoint> high;   ///< higher than all of their neighbors, highest first
+  std::vector<StartPoint> plain;  ///< unselected points of the prior's mass
 };
 
-/// About `count` quasi-random points: half of them in the prior's mass, a quarter about the start values, a quarter about
-/// the middle of `known`.
+/// About `count` quasi-random points: half of them in the prior's mass, a quarter about the start
+/// values, a quarter about the middle of `known`.
 StartPoints start_points(const Posterior& posterior, const Whitening& known, int count);
 
 }  // namespace wearwell

@@ -16,7 +16,7 @@ constexpr double known = 0.5;  // least variance of a mean that is standardized 
 constexpr std::size_t null_samples = 1000;
 constexpr std::uint64_t seed = 20261125;
 
-// So that all draws have the same mean square.
+// Scales all draws to the same mean square.
 void even_out_size(std::vector<std::vector<double>>& scores) {
   std::vector<double> size;
   for (const auto& z : scores)
@@ -29,7 +29,8 @@ void even_out_size(std::vector<std::vector<double>>& scores) {
   }
 }
 
-// The studentized score is `of_mean` times the mean over draws and `of_deviation` times the draw's deviation from it.
+// The studentized score is `of_mean` times the mean over draws and `of_deviation` times the draw's
+// deviation from it.
 struct Factors {
   Eigen::VectorXd of_mean, of_deviation;
 };

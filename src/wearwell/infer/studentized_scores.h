@@ -7,31 +7,34 @@
 
 namespace wearwell {
 
-/// Residuals of a posterior, each of variance 1 under a right law.
+/// Residuals of a posterior, with variance 1 for a correct model.
 struct StudentizedScores {
-  std::vector<std::vector<double>> scores;  ///< draws x observations; one row where draws are alike
-  /// Draws x observations: how far the score of a draw is from its mean over draws, over the root of the number of draws.
-  /// Zero where an observation is not exact.
+  std::vector<std::vector<double>> scores;  ///< draws x observations; one row if draws are equal
+  /// Draws x observations: the deviation of a draw's score from its mean over draws, divided by the
+  /// root of the number of draws. Zero for an observation that is not exact.
   Eigen::MatrixXd deviation;
 };
 
-/// Of the scores (bayes/normal_score.h) of observations under draws, draws x observations, their means over the draws,
-/// each divided by its standard deviation.
+/// Standardized means over the draws of the observations' scores (bayes/normal_score.h), draws x
+/// observations.
 ///
-/// Truth and draw are exchangeable given the data. So under a right law the scores under a draw have covariance I, which
-/// is C between draws and I - C of the means over draws, for any number of parameters and any prior. Of a linear model
-/// with a flat prior C is the hat matrix, its diagonal c the leverage, and mean over root (1 - c) the studentized residual
-/// (Cook and Weisberg 1982, section 2.2.1). Where more than half of the variance is between draws the divisor is root 1/2,
-/// and so much of each draw's deviation is left that the variance is 1: what little is known of such a score is not
-/// magnified.
+/// Truth and draw are exchangeable given the data. So for a correct model the scores under a draw
+/// have covariance I, composed of C between draws and I - C of the means over draws, for any number
+/// of parameters and any prior. For a linear model with a flat prior C is the hat matrix, its
+/// diagonal c the leverage, and the mean over root (1 - c) the studentized residual (Cook and
+/// Weisberg 1982, section 2.2.1). If more than half of the variance is between draws, the divisor
+/// is root 1/2, and part of each draw's deviation is kept so that the variance is 1; this avoids
+/// amplifying uncertain scores.
 ///
-/// The factor that all scores of a draw have in common is taken out first: the scatter's uncertainty is no leverage.
-/// Scores that are not `exact` are drawn from intervals and are kept draw by draw: their means are not normal.
+/// The common factor of all scores of a draw is removed first, because the uncertainty of the
+/// scatter is not leverage. Scores that are not `exact` are random draws from intervals and stay
+/// separate, because their means are not normal.
 StudentizedScores studentized_scores(std::vector<std::vector<double>> scores,
                                      const std::vector<bool>& exact);
 
-/// The root mean square, by simulation, of a test of the scores of one draw under a right law: residuals are normal with
-/// the covariance of studentized ones. It is 1 of independent ones when `test` is a standard normal number of those.
+/// The root mean square, by simulation, of a test of one draw's scores for a correct model, with
+/// normal residuals of the studentized covariance. It is 1 for independent residuals if `test` is a
+/// standard normal score.
 double null_size(const StudentizedScores& of,
                  const std::function<double(std::span<const double>)>& test);
 

@@ -17,13 +17,13 @@ constexpr double reach = 7;      // standard deviations, by polynomials
 constexpr double farthest = 21;  // by the parabola
 constexpr double close = 1e-5;   // of log densities within `near` of the highest
 constexpr double near = 15, roughly = 1e-2;
-constexpr double gone = 18;  // log density that has to be lost where the parabola begins
+constexpr double gone = 18;  // required decrease of the log density where the parabola begins
 constexpr std::array<int, 3> nodes_of_one = {17, 25, 33}, nodes_of_two = {11, 15, 19},
                              nodes_of_three = {9, 11, 13}, nodes_of_four = {7, 9, 11};
 
 using U = std::array<double, most_parameters>;
 
-// Of the real line by the natural parameter.
+// The derivative of the real line by the natural parameter.
 double real_slope(const Parameter& parameter, double x) {
   const double lower = parameter.prior.lower, upper = parameter.prior.upper;
   if (std::isfinite(lower) && std::isfinite(upper)) {
@@ -144,7 +144,7 @@ class Surface final : public LogDensity {
     return to_u_ * (whole_.to_real(x) - center_);
   }
 
-  // By polynomials; outside of their box by the parabola that touches them at the nearest place.
+  // By polynomials; outside their box by the tangent parabola at the nearest point.
   double continued(const Eigen::VectorXd& u, double* slope) const {
     U t{};
     for (Eigen::Index a = 0; a < u.size(); ++a)
@@ -175,7 +175,7 @@ class Trial {
         d_(posterior.dimension()),
         highest_(posterior.value(view(whitening.center))) {}
 
-  // None where it is not finite everywhere.
+  // Empty if it is not finite everywhere.
   std::optional<Series> series(int n) const {
     const auto count = static_cast<std::size_t>(std::pow(n, d_));
     std::vector<double> values(count);
@@ -193,7 +193,7 @@ class Trial {
     return Series(d_, n, std::move(values));
   }
 
-  // The error of the log-likelihood where it counts; infinite where it is not close enough.
+  // The error of the log-likelihood in the relevant region; infinite if not close enough.
   double error(const Posterior& quick) const {
     constexpr int inside = 60, outside = 30;
     std::array<double, inside + outside> off{};
@@ -201,7 +201,7 @@ class Trial {
       Rng rng(20261122, static_cast<std::uint64_t>(k));
       Eigen::VectorXd u(d_);
       for (double& each : u) each = rng.uniform(-1, 1);
-      // Evenly along rays in the box, and beyond it.
+      // Points along rays in the box and beyond it.
       u *= (k < inside ? reach * std::pow(rng.uniform(), 0.5) : rng.uniform(reach, farthest)) /
            (k < inside ? 1 : u.cwiseAbs().maxCoeff());
       const Eigen::VectorXd z = whitening_(u);

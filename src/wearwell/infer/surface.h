@@ -8,11 +8,11 @@
 
 namespace wearwell {
 
-/// A posterior of so many observations that each evaluation takes long, and that so many observations have
-/// made narrow: its likelihood by Chebyshev polynomials about the mode.
+/// A surrogate of a posterior with many observations, whose evaluations are expensive and whose
+/// posterior is narrow: Chebyshev polynomials of the likelihood about the mode.
 struct QuickPosterior {
   std::shared_ptr<const Posterior> posterior;
-  double error = 0;  ///< of the log-likelihood, the largest that was found between the nodes
+  double error = 0;  ///< of the log-likelihood, the largest found between the nodes
 };
 
 /// None where observations are fewer than thirty (factors of `LogDensity::pointwise`; with four parameters fewer than 20,000, as some thousand evaluations

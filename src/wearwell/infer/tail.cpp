@@ -14,22 +14,22 @@
 namespace wearwell {
 namespace {
 
-// A fitted index of 2.03 is read as 2: slopes are measured at a finite distance.
+// A fitted index of 2.03 counts as 2, because slopes are measured at a finite distance.
 constexpr double slack = 0.05;
 
-// The walk ends where doubles end to resolve the density: e^40 times the start, or e^20 widths away on
-// a whole line.
+// The walk ends at the resolution of doubles: e^40 times the start, or e^20 widths away on a whole
+// line.
 constexpr double far_log = 40;
 constexpr int steps = 20;
 
-// Where another parameter has moved by so many factors of e, the ridge has left what is walked along that one, whose own
-// tails say how the posterior ends there; a density that is met beyond is no mode.
+// If another parameter has changed by this many factors of e, the walk follows that parameter's
+// tail, which is measured separately; a higher density beyond is not a mode.
 constexpr double out_of_reach = 60;
 
 // Stations without a conditional mode, after which the ridge is lost.
 constexpr int most_failures = 6;
 
-// A density that has fallen by so much (log), and falls like so high a power, has no tail.
+// A density that has decreased by this much (log), with such a high power, has no heavy tail.
 constexpr double fallen = 200, steep = 50;
 
 const Parameter& parameter_of(const Posterior& posterior, int i) {
@@ -41,7 +41,7 @@ bool all_proper(const Posterior& posterior) {
                      [](const Parameter& parameter) { return parameter.prior.proper; });
 }
 
-// Of the prior itself: at a billionth of the way to the bound, or a billion times as far.
+// The tail index of the prior, at 1e-9 of the distance to the bound, or 1e9 times as far out.
 double prior_index(const Parameter& parameter, bool upward, bool towards_bound) {
   const Distribution& prior = parameter.prior;
   constexpr double near = 1e-9;
@@ -60,16 +60,16 @@ double prior_index(const Parameter& parameter, bool upward, bool towards_bound) 
   return (upward ? 1 : -1) * log_density(prior, x).slope * distance;
 }
 
-// What was met on the way, station by station: logarithms of the distance (from 0, or to the bound),
-// of the density of the parameter there, and of the likelihood.
+// The stations of the walk: logarithms of the distance (from 0, or to the bound), of the
+// parameter's marginal density, and of the likelihood.
 struct Walk {
   std::vector<double> log_distance, log_density, log_likelihood;
-  std::vector<bool> converged;  // whether the others had a mode there
-  bool lost = false;            // the others' conditional mode, or the numbers
-  bool vanished = false;        // there is no density left
-  bool left = false;            // another parameter ran out of reach
+  std::vector<bool> converged;  // whether the conditional mode exists
+  bool lost = false;            // the conditional mode or finite numbers were lost
+  bool vanished = false;        // the density vanished
+  bool left = false;            // another parameter left the range
 
-  // Without the stations where the others had no mode.
+  // Without the stations that have no conditional mode.
   Walk sound() const {
     Walk kept{{}, {}, {}, {}, lost, vanished, left};
     for (std::size_t i = 0; i < converged.size(); ++i) {
@@ -83,8 +83,8 @@ struct Walk {
 
   std::size_t stations() const { return log_density.size(); }
 
-  // By the far half, the median of slopes between neighbours: one bad station does not matter.
-  // `may_slow`: of a tail towards infinity under priors that are not proper.
+  // From the far half, the median of slopes between neighbors, which is robust against a bad
+  // station. `may_slow`: for a tail towards infinity under improper priors.
   double index(bool may_slow) const {
     return index_from(std::max<std::size_t>(1, stations() / 2), may_slow);
   }
@@ -94,7 +94,7 @@ struct Walk {
       slopes.push_back((log_density[i] - log_density[i - 1]) /
                        (log_distance[i] - log_distance[i - 1]));
     }
-    // A tail like a power of the logarithm (a Weibull scale under a flat prior) falls ever more slowly.
+    // A tail like a power of a logarithm (Weibull scale, flat prior) decreases ever more slowly.
     constexpr std::size_t last = 1;
     const bool slower =
         may_slow && slopes.size() > last && std::is_sorted(slopes.begin(), slopes.end()) &&
@@ -132,7 +132,7 @@ bool Tail::has_moment(int order) const {
 
 namespace {
 
-// The place of the mode on the ridge along parameter i.
+// The mode as a point on the ridge along parameter i.
 ConditionalMode at_mode(const Slice& slice, const Mode& mode, int i) {
   const Eigen::Index d = mode.position.size();
   const Eigen::VectorXd rest = without(mode.position, i);
@@ -147,7 +147,7 @@ ConditionalMode at_mode(const Slice& slice, const Mode& mode, int i) {
   return station;
 }
 
-// Of coordinate i about the mode, the others free: the size of the first step on a whole line.
+// The marginal width of coordinate i at the mode: the first step on a whole line.
 double width_at(const Mode& mode, int i) {
   if (!mode.found) return 1;
   const Eigen::VectorXd size = mode.curvature.diagonal().cwiseSqrt().cwiseInverse();
@@ -156,7 +156,7 @@ double width_at(const Mode& mode, int i) {
   return std::isfinite(width) && width > 0 ? width : 1;
 }
 
-// Whether a density that had vanished falls no farther at the end of the walk: then only the end is kept.
+// Whether a vanished density stops decreasing at the end of the walk; then only the end is kept.
 bool levels_out(Walk& walk) {
   constexpr std::size_t end = 5;
   const Walk sound = walk.sound();
@@ -170,7 +170,7 @@ bool levels_out(Walk& walk) {
   return true;
 }
 
-// Of the others, those with a bound: their real line counts factors of e.
+// Other parameters with a bound, whose real line counts factors of e.
 bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
                      const Eigen::VectorXd& rest) {
   for (Eigen::Index j = 0; j < rest.size(); ++j) {
@@ -182,7 +182,7 @@ bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
   return false;
 }
 
-// `to_the_end`: where the density has vanished as well.
+// `to_the_end`: continues after the density has vanished.
 Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward, bool to_the_end) {
   const int i = tail.parameter;
   const Distribution& prior = parameter_of(posterior, i).prior;
@@ -200,7 +200,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
         mode.position[i] + (outward ? 1 : -1) * (whole_line ? unit * std::expm1(0.5 * way) : way);
     ConditionalMode station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
     if (!std::isfinite(station.log_density)) {
-      // The end of the likelihood's domain, or of the range of doubles on the way up.
+      // The end of the likelihood's domain, or of the range of doubles upward.
       if (!walk.vanished) (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
       break;
     }
@@ -261,10 +261,10 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   if (!way.vanished && way.stations() >= enough) {
     tail.index = way.index(may_slow);
   } else if (way.left) {
-    // Along the other parameter the tail is measured from there on.
+    // From there on the tail along the other parameter is relevant.
   } else if (!way.vanished) {
-    // Where the others have no mode either, the posterior may be improper along all of them: that much
-    // is told by any stations.
+    // If the others have no mode either, the posterior may be improper along all of them; any
+    // stations show this.
     tail.known = false;
     const double index = all.stations() >= enough ? all.index(may_slow) : tail.index;
     if (!Tail{i, upward, tail.towards_bound, index}.integrable()) {
@@ -272,7 +272,7 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
       tail.known = true;
     }
   }
-  // Where the others have no mode, the likelihood is watched all the same.
+  // Without a conditional mode, the likelihood is still examined.
   if (proper && !(way.stations() < 2 ? all : way).likelihood_grows()) {
     tail.index = !tail.known          ? of_prior
                  : tail.towards_bound ? std::min(tail.index, of_prior)
@@ -280,13 +280,13 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
     tail.known = true;
     tail.by_prior = true;
   }
-  // The likelihood tends to a limit there: the tail is the prior's, whose integral is known to be finite.
+  // The likelihood has a limit there, so the tail is that of the prior, whose integral is finite.
   if (tail.towards_bound && prior.proper && tail.known && tail.index < of_prior + slack)
     tail.by_prior = true;
   return tail;
 }
 
-// Whether the likelihood grows along a tail while the scale of a funnel is held.
+// Whether the likelihood increases along a tail at a fixed scale of a funnel.
 bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& tail) {
   const int i = tail.parameter, scale = funnel.scale;
   const Eigen::VectorXd& z = funnel.middle.position;
@@ -297,7 +297,7 @@ bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& 
       (tail.upward != below ? 1 : -1) * (whole_line ? width_at(funnel.middle, i) : 1);
   Slice held(posterior, scale);
   held.at = z[scale];
-  const int among = i - (i > scale);  // its place where the scale is held
+  const int among = i - (i > scale);  // its index without the scale
   Slice slice(held, among);
   slice.at = z[i];
   ConditionalMode last = visit(slice, {without(without(z, scale), among)},
@@ -323,7 +323,7 @@ bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& 
 
 std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
   const bool proper = all_proper(posterior);
-  // Each walk is its own; they take most of the time where a likelihood costs much.
+  // Walks are independent; they dominate the time for an expensive likelihood.
   std::vector<Tail> all(2 * static_cast<std::size_t>(posterior.dimension()));
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, proper);

@@ -7,25 +7,26 @@
 
 namespace wearwell {
 
-/// How a posterior ends in one direction of one parameter: its marginal density falls like
-/// |x|^-index far out, or like (distance to the bound)^-index towards a bound. Found by walking
-/// outward along the ridge (the other parameters at their conditional mode) and integrating them
-/// out by Laplace's approximation; nothing is assumed about the model but that a likelihood has no
-/// pole inside its natural support. Towards a bound inside that support the tail is the prior's, and
-/// nothing is measured. Where every prior is proper and the likelihood does not grow along the walk,
-/// the tail is no heavier than the prior's; nor is it towards a bound where the likelihood tends to a limit. Towards a bound
-/// at which a prior has no finite integral the walk goes on where the density has all but vanished: a likelihood that ends at e^-1000 of
-/// its highest makes the integral as infinite as any other.
+/// The tail of a posterior in one direction of one parameter: its marginal density behaves like
+/// |x|^-index for large |x|, or like (distance to the bound)^-index at a bound. It is measured by a
+/// walk outward along the ridge (the other parameters at their conditional mode, integrated out by
+/// Laplace's approximation). The only assumption about the model is that the likelihood has no pole
+/// inside its natural support. At a bound inside that support the tail is that of the prior and is
+/// not measured. If every prior is proper and the likelihood does not increase along the walk, the
+/// tail is no heavier than the prior's; the same holds at a bound where the likelihood has a limit.
+/// At a bound with an infinite prior integral the walk continues after the density has nearly
+/// vanished, because a likelihood with a limit of e^-1000 of its maximum still makes the integral
+/// infinite.
 struct Tail {
   int parameter = 0;
   bool upward = true;  ///< towards larger values
   bool towards_bound = false;
-  double index = 0;   ///< infinity for a tail that falls faster than any power
+  double index = 0;   ///< infinity for a tail that decreases faster than any power
   bool known = true;  ///< false: the ridge was lost before the index could be measured
-  /// The highest density met on the way, and where on the real line; empty when there was no way.
+  /// The highest density on the walk, and its position on the real line; empty without a walk.
   double highest = 0;
   Eigen::VectorXd highest_at = {};
-  bool by_prior = false;  ///< no heavier than that of a proper prior, however slowly that falls
+  bool by_prior = false;  ///< no heavier than that of a proper prior
 
   /// The posterior has a finite integral in this direction.
   bool integrable() const;

@@ -11,9 +11,10 @@
 namespace wearwell {
 namespace {
 
-// Of the log density at the mode over that of the highest node.
+// Threshold for the log density at the mode minus that of the highest node.
 constexpr double most_above = 3;
-// Of that at the highest point of a search over that of the draws from which it began: a peak between them would hold more.
+// Threshold for the highest point of a search minus its starting draws; a peak with mass between
+// the draws would be higher.
 constexpr double most_above_draws = 5;
 
 }  // namespace
@@ -60,7 +61,8 @@ std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior,
     }
   }
   if (mode.fell_short) {
-    // Where it climbed hardly above the draws it is on a plateau or an edge (a scatter of zero), and they missed nothing.
+    // If the search rose only slightly above the draws, it is on a plateau or at an edge (a scatter
+    // of zero), and the draws miss no mass.
     const bool missed = !(mode.above_draws < most_above_draws);
     found.push_back({Stage::constrained_mode, missed ? Verdict::fail : Verdict::warn,
                      missed ? mode.problem

@@ -10,9 +10,10 @@
 
 namespace wearwell {
 
-/// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in the order in which a reader should care:
-/// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
-/// computation. The last tells what any stage of the computation fell short of (stage.h).
+/// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in order of importance:
+/// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy,
+/// exact-agreement, computation. The last reports shortfalls of any stage of the computation
+/// (stage.h).
 ///
 /// A `flat` prior is the absence of knowledge: an answer that depends on where it is truncated fails. A `uniform` prior, or a
 /// bound on another distribution, is knowledge: the same dependence is a warning.

@@ -29,7 +29,7 @@ double DualAveraging::adapted() const {
 template <int N>
 WindowedWarmup<N>::WindowedWarmup(int iterations, double target_accept)
     : initial_(75), last_(50), window_(25), iterations_(iterations), step_size_(target_accept) {
-  // Stan's proportions where the usual windows do not fit.
+  // Stan's proportions if the usual windows do not fit.
   if (iterations < initial_ + last_ + window_) {
     initial_ = static_cast<int>(0.15 * iterations);
     last_ = static_cast<int>(0.1 * iterations);
@@ -71,7 +71,8 @@ void WindowedWarmup<N>::adapt(int iteration, const NutsStep& step, Nuts<N>& nuts
   nuts.find_reasonable_step_size(rng);
   step_size_.restart(nuts.step_size);
 
-  // The next window is twice as long, and takes in what would be too short for one more.
+  // The next window is twice as long, and includes a remainder that is too short for another
+  // window.
   count_ = 0;
   window_ *= 2;
   const int slow_end = iterations_ - last_;

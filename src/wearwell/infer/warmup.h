@@ -12,7 +12,7 @@ class DualAveraging {
  public:
   explicit DualAveraging(double target_accept) : target_(target_accept) {}
 
-  /// Starts anew around `step_size`.
+  /// Restarts around `step_size`.
   void restart(double step_size);
 
   /// The next step size to try, after a transition with this acceptance.
@@ -37,7 +37,7 @@ class WindowedWarmup {
   /// Adapts `nuts` after warm-up transition `iteration` (0-based).
   void adapt(int iteration, const NutsStep& step, Nuts<N>& nuts, Rng& rng);
 
-  /// Sets the averaged step size when warm-up is over.
+  /// Sets the averaged step size at the end of warm-up.
   void finish(Nuts<N>& nuts) const { nuts.step_size = step_size_.adapted(); }
 
  private:

@@ -17,8 +17,8 @@ using Map = Eigen::Map<Eigen::VectorXd>;
 Whitening whitening_at(const Mode& mode) {
   const Eigen::Index n = mode.position.size();
   if (!mode.found) return {mode.position, Eigen::MatrixXd::Identity(n, n)};
-  // Widths that are far apart are first made alike, or the wide ones would drown in the rounding of
-  // the narrow ones.
+  // Scales widths of very different magnitude first, because rounding of the narrow ones would
+  // dominate the wide ones.
   constexpr double far_apart = 1e10;
   const Eigen::VectorXd diagonal = mode.curvature.diagonal();
   if (diagonal.minCoeff() > 0 && diagonal.maxCoeff() > far_apart * diagonal.minCoeff()) {

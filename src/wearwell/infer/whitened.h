@@ -6,8 +6,8 @@
 
 namespace wearwell {
 
-/// An affine map x = center + scale * u after which a density is roughly round and of unit size
-/// about u = 0.
+/// An affine map x = center + scale * u after which a density is nearly standard normal about u =
+/// 0.
 struct Whitening {
   Eigen::VectorXd center;
   Eigen::MatrixXd scale;  ///< square, not triangular
@@ -15,8 +15,7 @@ struct Whitening {
   Eigen::VectorXd operator()(const Eigen::VectorXd& u) const { return center + scale * u; }
 };
 
-/// From the curvature at the mode; where it is flat or not positive, unit size along that
-/// direction.
+/// From the curvature at the mode; unit scale along directions that are flat or not positive.
 Whitening whitening_at(const Mode& mode);
 
 /// The density of u, up to the constant |det scale|. Refers to `density`, which must outlive it.

@@ -251,7 +251,8 @@ class Lattice {
   }
 
  private:
-  // Nodes (i, j) widths from the mode of each wanted unit; `weight` keeps the log of the area of a cell.
+  // Nodes (i, j) widths from the mode of each wanted unit; `weight` keeps the log of the area of a
+  // cell.
   Sweep& sweep(double i, double j, double log_cell) {
     if (used_ == result_.sweeps.size()) result_.sweeps.emplace_back();
     Sweep& s = result_.sweeps[used_++];

@@ -9,18 +9,18 @@
 namespace wearwell {
 namespace {
 
-// Of a density at nodes an even step apart, what lies between node i and the next: the integral of the
-// polynomial through six of them.
+// The integral of a density between node i and the next, from the polynomial through six equally
+// spaced nodes.
 double between(std::span<const double> share, std::size_t i) {
-  const auto at = [&](std::size_t k) {  // 0 is two nodes before i; there is nothing beyond the ends
+  const auto at = [&](std::size_t k) {  // index 0 is two nodes before i; zero beyond the ends
     return i + k >= 2 && i + k - 2 < share.size() ? share[i + k - 2] : 0;
   };
   const double mass = (11 * (at(0) + at(5)) - 93 * (at(1) + at(4)) + 802 * (at(2) + at(3))) / 1440;
   return std::max(mass, 0.0);
 }
 
-// The derivative of numbers at such nodes by the step, of fourth order where there are neighbours; only
-// among nodes from `first` to `last`.
+// The derivative at equally spaced nodes by the step, of fourth order where neighbors exist; uses
+// only nodes from `first` to `last`.
 double derivative(std::span<const double> value, std::size_t i, std::size_t first,
                   std::size_t last) {
   const auto y = [&](std::size_t k) { return value[k]; };
@@ -33,12 +33,11 @@ double derivative(std::span<const double> value, std::size_t i, std::size_t firs
   return i + 1 <= last ? y(i + 1) - y(i) : y(i) - y(i - 1);
 }
 
-// Where about so much of the weight ends, from some of the cells: two places that have the quantile between them but
-// for bad luck. Fewer cells are soon counted through.
+// A probable bracket of the quantile, from a sample of the cells. Not used for few cells.
 template <class Cells>
 std::pair<double, double> about(const Cells& cells, double share) {
   constexpr std::size_t some = 1024;
-  constexpr double margin = 0.06;  // three standard deviations of a share of so many
+  constexpr double margin = 0.06;  // three standard deviations of a proportion of the sample size
   if (cells.size() < 8 * some) return {-infinity, infinity};
   std::vector<std::pair<double, double>> sample;
   double all = 0;
@@ -96,7 +95,7 @@ double CellMixture::add_curve(double weight, std::span<const double> share,
   for (std::size_t i = 0; i < n; ++i) all += share[i];
   for (std::size_t i = 0; i + 1 < n; ++i) inside += between(share, i);
   const double scale = weight * all / inside;
-  // Where numbers are finite the curve is followed.
+  // Follows the curve where numbers are finite.
   std::size_t first = 0, last = n - 1;
   while (first < last && !std::isfinite(value[first])) ++first;
   while (last > first && !std::isfinite(value[last])) --last;
@@ -112,7 +111,7 @@ double CellMixture::add_curve(double weight, std::span<const double> share,
     }
     if (!(cell.high > from)) continue;
     if (i >= first && i + 1 <= last && length != 0) {
-      constexpr double most = 3;  // so that it falls nowhere
+      constexpr double most = 3;  // keeps the cubic monotone
       const double mean = cell.weight / scale;
       double ends[] = {share[i] * length / (mean * derivative(value, i, first, last)),
                        share[i + 1] * length / (mean * derivative(value, i + 1, first, last))};
@@ -139,7 +138,7 @@ double CellMixture::Cell::below(double x) const {
   return weight * u * (a * (1 - u) * (1 - u) + u * (3 - 2 * u) - b * u * (1 - u));
 }
 
-// The rest of a cubic is one.
+// Deflates the cubic.
 bool CellMixture::Cell::cut(double from) {
   if (!std::isfinite(high)) return true;
   const double u = (from - low) / (high - low), a = at_low, b = at_high;
@@ -213,8 +212,8 @@ double CellMixture::quantile(double p) const {
     if (!(place > low && place < high)) continue;
     (weight_below(cells_, place) < wanted ? low : high) = place;
   }
-  double below = 0;        // the weight of cells below all that is left
-  std::vector<Cell> open;  // those that the search still may cut
+  double below = 0;        // the weight of cells below the remaining ones
+  std::vector<Cell> open;  // cells that the search may still cut
   for (const Cell& cell : cells_) {
     if (cell.high <= low) {
       below += cell.weight;
@@ -223,7 +222,7 @@ double CellMixture::quantile(double p) const {
     }
   }
   for (int step = 0; step < 200 && high - low > 1e-13 * std::abs(high); ++step) {
-    // By the geometric mean where lives differ by orders of magnitude.
+    // Uses the geometric mean if lives span orders of magnitude.
     const double middle = low > 0 && high > 4 * low ? std::sqrt(low * high) : 0.5 * (low + high);
     if (!(middle > low && middle < high)) break;
     if (below + weight_below(open, middle) < wanted) {

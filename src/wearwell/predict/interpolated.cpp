@@ -14,9 +14,10 @@ namespace {
 using Eigen::Index;
 
 constexpr Index most_axes = 4;
-constexpr double tolerance = 0.03;  // relative, of what the polynomials miss
+constexpr double tolerance = 0.03;  // relative misfit of the polynomials
 
-// Products of Hermite polynomials of the whitened parameters, normalized under the normal distribution.
+// Products of Hermite polynomials of the whitened parameters, normalized under the normal
+// distribution.
 class Basis {
  public:
   explicit Basis(const ThinnedPosterior& few) : axes_(few.values.cols()) {
@@ -44,7 +45,7 @@ class Basis {
     llt_.matrixL().solveInPlace(z);
     double hermite[most_axes][16];
     for (Index a = 0; a < axes_; ++a) {
-      // Beyond what the few points reach nothing is known, and hardly any weight lies.
+      // Clamps to the range of the few points; beyond it there is little weight.
       constexpr double reach = 6;
       const double at = std::clamp(z[a], -reach, reach);
       hermite[a][0] = 1;
@@ -79,7 +80,7 @@ class Basis {
   std::vector<int> powers_;
 };
 
-// Numbers of one sign by their logarithm, whose polynomials need fewer terms.
+// Uses the logarithm for quantities of one sign, because its polynomials need fewer terms.
 struct Scaled {
   Points values;
   std::vector<bool> logarithm, finite;
@@ -94,8 +95,8 @@ struct Scaled {
   }
 };
 
-// Of each number what its polynomial misses of what was left for judging, relative, root mean square; infinite where it is not
-// finite.
+// The relative root mean square misfit of each quantity's polynomial at the validation points;
+// infinite if not finite.
 std::vector<double> misfits(const ThinnedPosterior& few, const Points& at_few, const Scaled& scaled,
                             const Points& terms, const Eigen::MatrixXd& coefficients,
                             const std::vector<Index>& judging) {
@@ -125,7 +126,7 @@ std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws
   const Index n = at_few.rows();
   if (draws.lower.empty() || draws.values.cols() > most_axes) return found;
   const Basis basis(few);
-  constexpr Index apart = 8;  // every eighth point judges what the others say
+  constexpr Index apart = 8;  // every eighth point is for validation
   if (!basis.exists() || n < 2 * apart * basis.size() / (apart - 1)) return found;
   const Scaled scaled(at_few);
   Points all(n, basis.size());

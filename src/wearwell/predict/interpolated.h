@@ -10,15 +10,14 @@ namespace wearwell {
 
 struct Interpolated {
   QuantityDistribution distribution;
-  double
-      misfit;  ///< of the polynomial at points that it was not fitted to, relative, root mean square
+  double misfit;  ///< relative root mean square misfit at the validation points
 };
 
-/// The distributions of numbers that are smooth in the parameters and expensive, known at few of a posterior's points:
-/// `at_few` has a row a point and a column a number. Over the whole posterior, with its cells, they are polynomials fitted to these by
-/// least squares, in Hermite polynomials of the whitened parameters. Few points alone leave the noise of their number in a quantile.
-/// None of a number whose polynomial misses points that it was not fitted to by more than 3 % of its size, in the mean square, and where the
-/// posterior has no cells.
+/// The distributions of expensive, smooth functions of the parameters that are known at few points
+/// of a posterior: `at_few` has a row per point and a column per quantity. Over the whole posterior
+/// with its cells, each is a least-squares polynomial (Hermite polynomials of the whitened
+/// parameters). This removes the noise that few points leave in quantiles. Empty for a quantity
+/// with a validation misfit above 3 % (root mean square), and for a posterior without cells.
 std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws,
                                                       const ThinnedPosterior& few,
                                                       const Points& at_few);

@@ -37,16 +37,16 @@ double ItemMixture::cdf(double value) const {
 
 double ItemMixture::quantile(double p) const {
   if (!defined_) return std::nan("");
-  // From the dominant point outward; beyond any number there is nothing to find.
+  // Searches outward from the dominant point, within the range of doubles.
   constexpr double beyond = 1e4;
   const double start = std::clamp(log_center_.front(), -beyond, beyond);
   const double root = solve_increasing([&](double x) { return below(x) - p; }, start, 1,
                                        {.absolute = 1e-9}, -2 * beyond, 2 * beyond);
-  return std::exp(root);  // 0 and infinity at the ends
+  return std::exp(root);  // 0 or infinity at the ends
 }
 
 void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z) {
-  constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
+  constexpr double golden = 0.6180339887498949;  // its multiples modulo 1 have low discrepancy
   double whole = 0;
   const double shift = std::modf((static_cast<double>(draw) + 0.5) * golden, &whole);
   z.clear();

@@ -7,16 +7,16 @@
 
 namespace wearwell {
 
-/// The distribution of a positive number that differs from item to item, for an item not yet seen:
+/// The predictive distribution of a positive quantity with item-to-item variation, for a new item:
 /// its logarithm is normal about ln center(x) with standard deviation log_sd(x), mixed over the
-/// posterior of x. No draws of the item: quantiles of the mixture are solved for.
+/// posterior of x. Quantiles are roots of the exact mixture, without sampling.
 class ItemMixture {
  public:
   ItemMixture(const WeightedDraws& draws, const Function& center, const Function& log_sd);
 
-  /// 0 < p < 1. Infinite or 0 where so many centers are; NaN where one with weight is no number.
+  /// 0 < p < 1. Infinite or 0 if enough centers are; NaN if one with weight is NaN.
   double quantile(double p) const;
-  /// The probability of a number not above `value`, which is positive.
+  /// The probability of a value up to `value` > 0.
   double cdf(double value) const;
 
  private:

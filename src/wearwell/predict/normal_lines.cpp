@@ -41,13 +41,13 @@ double NormalLines::score_at(const Line& line, std::size_t i, double x) const {
   const std::size_t n = line.end - line.begin;
   const double score = line.first + line.step * static_cast<double>(i);
   if (!std::isfinite(y[i]) || !std::isfinite(y[i + 1])) {
-    // Numbers grow without bound there as one over the distance from some score.
+    // There the quantity diverges like 1/(distance from some score).
     const bool up = std::isfinite(y[i]);
     const double end = up ? y[i] : y[i + 1];
     const double part = std::isfinite(end) && x > 0 && end > 0 ? 1 - end / x : 0.5;
     return score + line.step * (up ? part : 1 - part);
   }
-  // Finite nodes about.
+  // Neighboring finite nodes.
   std::size_t first = i, last = i + 1;
   while (last - first + 1 < neighbours) {
     const bool before = first > 0 && std::isfinite(y[first - 1]),
@@ -59,7 +59,7 @@ double NormalLines::score_at(const Line& line, std::size_t i, double x) const {
       ++last;
   }
   const std::size_t count = last - first + 1;
-  // Lives by their logarithms, in which they are smoother.
+  // Uses logarithms of lives, which are smoother.
   const bool positive = *std::min_element(y + first, y + last + 1) > 0;
   const auto scaled = [positive](double value) { return positive ? std::log(value) : value; };
   double value[neighbours];
@@ -81,7 +81,7 @@ double NormalLines::score_at(const Line& line, std::size_t i, double x) const {
   return score + line.step * u;
 }
 
-// Which share of a line's items have no more than x.
+// The fraction of a line's items up to x.
 double NormalLines::below(const Line& line, double x) const {
   const double* y = values_.data() + line.begin;
   const std::size_t n = line.end - line.begin;
@@ -91,7 +91,7 @@ double NormalLines::below(const Line& line, double x) const {
     const auto* found = rising ? std::upper_bound(y, y + n, x)
                                : std::partition_point(y, y + n, [x](double v) { return v > x; });
     const auto k =
-        static_cast<std::size_t>(found - y);  // the first beyond x (falling: the first up to x)
+        static_cast<std::size_t>(found - y);  // the first beyond x (decreasing: the first up to x)
     if (k == 0 || k == n) return rising == (k == n) ? 1 : 0;
     const double below = normal_cdf(score_at(line, k - 1, x));
     return rising ? below : 1 - below;
@@ -119,7 +119,7 @@ double NormalLines::quantile(double p) const {
   if (!defined_ || lines_.empty()) return std::nan("");
   if (!(low_ <= high_) || cdf(high_) < p) return infinity;
   if (!(low_ < high_) || cdf(low_) >= p) return low_;
-  // From where the heaviest line has it.
+  // Starts at the quantile of the line with the largest weight.
   const Line& line =
       *std::max_element(lines_.begin(), lines_.end(),
                         [](const Line& a, const Line& b) { return a.weight < b.weight; });

@@ -7,17 +7,19 @@
 
 namespace wearwell {
 
-/// The distribution over items of a number that is known along lines of a standard normal score: of each line at even
-/// steps of the score. Between these it goes on as the polynomial through six neighbours, so that a quantile has no noise of cells.
+/// The distribution over items of a quantity known along lines of a standard normal score, at equal
+/// steps of the score. Interpolates by the polynomial through six neighbors, so that quantiles have
+/// no cell noise.
 class NormalLines {
  public:
-  /// `weight` of the line; `value` at the scores `first`, `first + step`, ... Beyond both ends the number stays as it is there.
+  /// `weight` of the line; `value` at the scores `first`, `first + step`, ... It is constant beyond
+  /// both ends.
   void add(double weight, double first, double step, std::span<const double> value);
 
   bool empty() const { return lines_.empty(); }
-  /// The share of items up to x; NaN where a number is NaN.
+  /// The fraction of items up to x; NaN if a value is NaN.
   double cdf(double x) const;
-  /// The x with cdf(x) = p, 0 < p < 1; infinity where so many never reach a finite number.
+  /// The x with cdf(x) = p, 0 < p < 1; infinity if that fraction never reaches a finite value.
   double quantile(double p) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace wearwell {
 namespace {
 
-// Of t = y, or log y for the lognormal family.
+// For t = y, or log y for the lognormal family.
 double density(const ObservationDistribution& distribution, double t) {
   const double z = (distribution.location - t) / distribution.scale;
   if (!(std::abs(z) < 9)) return 0;
@@ -20,12 +20,12 @@ double density(const ObservationDistribution& distribution, double t) {
   return std::exp(-0.5 * z * z) / (distribution.scale * sqrt_2_pi);
 }
 
-// Weighted measurements: each draw gives one law, or one for each of some items.
+// A mixture of measurements: each draw gives one distribution, or one for each of some items.
 struct Mixture {
   ObservationFamily family;
   std::vector<double> weight;
   std::vector<ObservationDistribution> distribution;
-  double middle = 0, width = 0;  // about where, and how wide: medians over the draws
+  double middle = 0, width = 0;  // approximate location and width: medians over the draws
 
   double cdf(double y) const {
     const bool lognormal = family == ObservationFamily::lognormal;
@@ -38,8 +38,8 @@ struct Mixture {
 
   double quantile(double p) const {
     if (!std::isfinite(middle) || !std::isfinite(width)) return std::nan("");
-    // Every look at all laws is dear: few of them say where about the quantile lies, and Halley's
-    // method is there in two steps.
+    // Evaluating all distributions is expensive: a few of them locate the quantile approximately,
+    // and Halley's method then needs two steps.
     constexpr std::size_t few = 256;
     if (weight.size() > 4 * few) {
       const double near = some(few).bracketed(p);
@@ -50,7 +50,7 @@ struct Mixture {
   }
 
  private:
-  // Evenly among all.
+  // Evenly chosen among all.
   Mixture some(std::size_t count) const {
     Mixture chosen{family, {}, {}, middle, width};
     double total = 0;
@@ -64,9 +64,9 @@ struct Mixture {
     return chosen;
   }
 
-  // Halley's method from a point near the quantile; NaN where it does not settle at once.
+  // Halley's method from a point near the quantile; NaN if it does not converge at once.
   double polished(double p, double near) const {
-    constexpr double close = 1e-4;  // the step from there is good to its third power
+    constexpr double close = 1e-4;  // the error of the next step is cubic
     const bool lognormal = family == ObservationFamily::lognormal;
     double t = lognormal ? std::log(near) : near;
     for (int step = 0; step < 8; ++step) {

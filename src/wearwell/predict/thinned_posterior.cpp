@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-// Points of a region of the posterior, round and of unit size as a whole.
+// Points of a region of the whitened posterior.
 struct Cloud {
   Points at;
   std::vector<double> weight;
@@ -26,7 +26,7 @@ Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
   const Eigen::Map<const Eigen::VectorXd> w(cloud.weight.data(), n);
   const Eigen::RowVectorXd mean = w.transpose() * cloud.at;
   cloud.at.rowwise() -= mean;
-  // By their own sizes first: parameters differ by orders of magnitude.
+  // Scales parameters first, because they span orders of magnitude.
   const Eigen::RowVectorXd size = (w.transpose() * cloud.at.cwiseAbs2()).cwiseSqrt();
   for (Index j = 0; j < d; ++j) {
     if (size[j] > 0) cloud.at.col(j) /= size[j];
@@ -38,9 +38,9 @@ Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
   return cloud;
 }
 
-// Keeps sums of 1, of each coordinate and of all their products, with no more points than there are of these: while
-// there are more, some combination of the points has no such sums at all, and of that as much may be taken away
-// until a weight is zero (Tchakaloff's theorem made with hands).
+// Reduces the points to at most the number of moments (1, coordinates, products) and preserves
+// these moments (Tchakaloff's theorem, constructive): while there are more points, it subtracts a
+// null combination until a weight is zero.
 class Region {
  public:
   Region(const Cloud& cloud, std::span<const std::size_t> points) : cloud_(cloud) {
@@ -62,7 +62,7 @@ class Region {
 
   static Index moments(Index d) { return 1 + d + d * (d + 1) / 2; }
 
-  // What is left of `points`, with weights that stand for all.
+  // The remaining `points`, with weights that represent all.
   void reduce(std::span<const std::size_t> points, std::vector<std::size_t>& kept,
               std::vector<double>& weights) const {
     const auto most = static_cast<std::size_t>(moments(cloud_.at.cols()));
@@ -100,7 +100,7 @@ class Region {
     const Eigen::MatrixXd sums = sums_of(points);
     const Index n = sums.rows(), free = n - sums.cols();
     const Eigen::MatrixXd q = sums.householderQr().householderQ();
-    Eigen::MatrixXd none = q.rightCols(free);  // combinations without any sum
+    Eigen::MatrixXd none = q.rightCols(free);  // combinations with zero moments
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
     std::vector<bool> gone(static_cast<std::size_t>(n));
     for (Index c = 0; c < free; ++c) {
@@ -134,7 +134,7 @@ class Region {
   Eigen::RowVectorXd middle_, size_;
 };
 
-// Halves of equal weight across the axis along which they spread most, until there are so many regions.
+// Splits at equal weight along the axis of largest spread until there are enough regions.
 void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t regions,
            std::vector<std::size_t>& kept, std::vector<double>& weights) {
   const auto moments = static_cast<std::size_t>(Region::moments(cloud.at.cols()));
@@ -179,7 +179,8 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
     chosen = std::move(kept);
   } else if (n > most) {
-    // Of even weights along the order of the nodes, in which neighbours are alike.
+    // Equal-weight points by systematic sampling along the order of the nodes, in which neighbors
+    // are similar.
     std::sort(chosen.begin(), chosen.end(),
               [&](std::size_t a, std::size_t b) { return dominant.rows[a] < dominant.rows[b]; });
     std::vector<std::size_t> few;

@@ -8,19 +8,19 @@
 
 namespace wearwell {
 
-/// A posterior as few of its own points. In each of many regions they are chosen, and weighted, so that means,
-/// variances and covariances are those of all points there: what changes smoothly over the posterior is summed
-/// far better by them than by as many points of even weights. Where there are too many parameters for that
-/// these are taken.
+/// A posterior thinned to few of its points. In each of many regions they are chosen and weighted
+/// to preserve means, variances and covariances, so sums of smooth quantities are far more accurate
+/// than with as many equally weighted points. With too many parameters, equally weighted points are
+/// used.
 struct ThinnedPosterior {
   ThinnedPosterior(const WeightedDraws& draws, std::size_t most);
   Points values;
   std::vector<double> weights;  ///< sum to 1
 };
 
-/// What all points come to. `make()` gives what adds up a part of them, on one thread: it has
-/// `add(const double* x, double weight)`, and `found`, which adds another `found` to itself. The parts
-/// are always the same, whatever the number of threads: sums keep their order.
+/// A parallel sum over all points. `make()` creates an accumulator for one part, used by one
+/// thread: it has `add(const double* x, double weight)`, and `found`, which can add another
+/// `found`. The parts do not depend on the number of threads, so the order of summation is fixed.
 template <class Make>
 auto sum_over(const ThinnedPosterior& few, const Make& make) {
   constexpr std::size_t parts = 16;

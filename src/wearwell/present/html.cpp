@@ -11,8 +11,8 @@
 namespace wearwell::html {
 namespace {
 
-// JSON inside a script element: no character can end the element, and no old reader takes a line
-// for ended inside of a text.
+// JSON inside a script element: escapes characters that could end the element, and line separators
+// that old parsers reject in texts.
 std::string script_safe(const std::string& json) {
   std::string out;
   out.reserve(json.size());
@@ -30,7 +30,7 @@ std::string script_safe(const std::string& json) {
   return out;
 }
 
-// The unit in brackets at the end of a name is printed softer.
+// The unit in brackets at the end of a name has a softer style.
 std::string named(const std::string& text) {
   const std::size_t bracket = text.rfind(" [");
   if (bracket == text.npos || text.back() != ']') return escape(text);
@@ -38,7 +38,7 @@ std::string named(const std::string& text) {
                      escape(text.substr(bracket + 1)));
 }
 
-// The lines of a cell after its first are what to do about it.
+// Lines of a cell after the first are advice.
 std::string cell(const std::string& text) {
   const std::size_t line = text.find('\n');
   if (line == text.npos) return named(text);
@@ -122,7 +122,7 @@ std::string callout(const std::string& kind, const std::string& word, const std:
 }
 
 std::string table(const Table& table) {
-  // A wide table scrolls by itself, with the keyboard too.
+  // A wide table scrolls separately, also by keyboard.
   std::string out = fmt::format(
       "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">\n"
       "<table{1}><caption>{0}</caption>\n<thead><tr>",
@@ -160,7 +160,7 @@ std::string plot_of(const Figure& figure) {
                          -1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
-// The title stands above the plot, what to see in it below.
+// The title is above the plot, the caption below.
 std::string figure(const Figure& figure, bool wide) {
   return fmt::format(
       "<figure id=\"{}\"{}><figcaption><h3>{}</h3></figcaption>\n{}<p>{}</p></figure>\n",
@@ -173,7 +173,7 @@ std::string panel(const Figure& figure) {
                      escape(figure.id), escape(figure.title), plot_of(figure));
 }
 
-// What takes a row for itself: what asks for it, or has no neighbour in its row.
+// Whether a figure takes a whole row: on request, or without a neighbor in its row.
 std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
   std::vector<bool> wide(figures.size(), false);
   std::size_t in_row = 0;
@@ -186,7 +186,7 @@ std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
   return wide;
 }
 
-// From one figure on, all that are panels of one: up to `end`.
+// The consecutive panels of one figure, up to `end`.
 std::string panels(const std::vector<Figure>& figures, std::size_t first, std::size_t end) {
   std::string out =
       fmt::format("<div class=\"multiples\"><h3>{}</h3><p>{}</p>\n<div class=\"panels\">\n",

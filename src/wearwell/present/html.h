@@ -4,27 +4,26 @@
 #include <string>
 #include <vector>
 
-/// The pieces of a page. Text goes in as it is, wherever it came from, and is escaped here and
-/// nowhere else; only what is called `html` is markup.
+/// The elements of a page. Text is untrusted and is escaped here; only arguments named `html` are
+/// markup.
 namespace wearwell::html {
 
-/// For `html` that is put together elsewhere. Control characters are shown as "\x1b".
+/// Escapes text for `html` that is assembled elsewhere. Control characters become "\x1b".
 std::string escape(const std::string& text);
 
-/// With a capital at the beginning.
+/// Capitalizes the first letter.
 std::string capital(std::string text);
 
-/// 4 significant digits as people write them: "0.7759", "21 600", "7.759 × 10⁻⁴"; "–" for what is
-/// not finite.
+/// 4 significant digits in readable form: "0.7759", "21 600", "7.759 × 10⁻⁴"; "–" if not finite.
 std::string number(double x, int digits = 4);
 
-/// A number that was given, not estimated: all its digits, "20 585".
+/// A given number with all digits: "20 585".
 std::string given(double x);
 
 /// Powers raised: "5 mm³" of "5 mm^3".
 std::string raised(const std::string& text);
 
-/// "mm³/(N m)" of "mm^3/(N m)", in one piece; empty for "1".
+/// "mm³/(N m)" of "mm^3/(N m)", without breaks; empty for "1".
 std::string unit(const std::string& text);
 
 /// A number and its unit.
@@ -33,17 +32,17 @@ std::string quantity(double x, const std::string& unit_text, int digits = 4);
 /// "6.25 to 9.20 × 10⁻⁴": two numbers with one power of ten.
 std::string range(double low, double high, int digits = 4);
 
-/// One key figure: what, how much, and what to know of it.
+/// A key figure: name, value and remark.
 struct Tile {
   std::string name, value, unit, note;
 };
 std::string tiles(const std::vector<Tile>& tiles);
 
-/// A paragraph that stands out; `kind` is "pass", "warn" or "fail", `word` says the same.
+/// A highlighted paragraph; `kind` is "pass", "warn" or "fail", `word` is its label.
 std::string callout(const std::string& kind, const std::string& word, const std::string& text);
 
 /// A table with its caption; the first cell of each row names the row. Headings and cells are text:
-/// "k [mm³]" has its unit in softer print, a second line is emphasized.
+/// "k [mm³]" has its unit in a softer style, a second line is emphasized.
 struct Table {
   std::string caption;
   std::vector<std::string> heading;
@@ -51,24 +50,25 @@ struct Table {
   bool words = false;                    ///< cells are sentences, not numbers
   std::vector<std::string> badges = {};  ///< "pass", "warn" or "fail" of each row, if any: its
                                          ///< second cell is painted so
-  std::vector<bool> text = {};           ///< columns of text, which begin at the left and may wrap
+  std::vector<bool> text = {};           ///< columns of text, left-aligned and wrapped
 };
 std::string table(const Table& table);
 
-/// A plot: title, what to see in it, and its Vega-Lite specification.
+/// A plot: title, caption, and Vega-Lite specification.
 struct Figure {
   std::string id, title, caption;
   nlohmann::ordered_json specification;
-  /// The title of small multiples, of which this is one; their caption is that of the first.
+  /// The title of the small multiples to which this plot belongs; their caption is that of the
+  /// first.
   std::string panel_of = {};
-  bool wide = false;  ///< takes a row for itself
+  bool wide = false;  ///< takes a whole row
 };
 
-/// Figures side by side, two in a row where there is room; one without a neighbour takes the row.
-/// Neighbours with one `panel_of` are small and stand under one title.
+/// Figures side by side, two per row if there is room; one without a neighbor takes the row.
+/// Neighbors with the same `panel_of` are small and share a title.
 std::string figures(const std::vector<Figure>& figures);
 
-/// What is shown on request.
+/// A collapsible block.
 std::string details(const std::string& summary, const std::string& html);
 
 std::string section(const std::string& id, const std::string& title, const std::string& html);

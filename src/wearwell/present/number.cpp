@@ -12,7 +12,7 @@ namespace wearwell {
 namespace {
 
 constexpr const char *narrow_space = "\u202f", *hard_space = "\u00a0";
-constexpr int least_exponent = -3, most_exponent = 6;  // without a power of ten
+constexpr int least_exponent = -3, most_exponent = 6;  // range without a power of ten
 constexpr int given_digits = 9;
 
 bool is_digit(char c) {
@@ -38,19 +38,19 @@ std::string times_power(int exponent, Script script) {
   return exponent == 0 ? "" : fmt::format("{0}×{0}{1}", hard_space, power_of_ten(exponent, script));
 }
 
-// Where the number is written with a power of ten, that power.
+// The power of ten with which the number is written, if any.
 int exponent_of(double x) {
   if (x == 0 || !std::isfinite(x)) return 0;
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
   return exponent < least_exponent || exponent > most_exponent ? exponent : 0;
 }
 
-// In two steps: the power itself is zero or infinite at the ends of what a double holds.
+// In two steps, because the power underflows or overflows at the limits of a double.
 double mantissa(double x, int exponent) {
   return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
 }
 
-// Thousands apart; on a page a true minus.
+// Groups thousands; uses a typographic minus on a page.
 std::string spaced(std::string text, Script script) {
   std::string sign;
   if (text.front() == '-') {
@@ -65,7 +65,7 @@ std::string spaced(std::string text, Script script) {
 // 9.9996 to four digits is 10.00, not 10.000.
 double rounded(double x, int digits) {
   const double near = std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr);
-  return std::isfinite(near) ? near : x;  // the largest doubles have none above them
+  return std::isfinite(near) ? near : x;  // the largest doubles overflow
 }
 
 std::string plain(double x, int digits, Script script) {
@@ -82,7 +82,7 @@ std::string not_finite(double x, Script script) {
   return std::isnan(x) ? "-" : x > 0 ? "inf" : "-inf";
 }
 
-// Where a number in a text ends, as fmt writes it: "12.5", "1e+06".
+// The end of a number in a text, in fmt's format: "12.5", "1e+06".
 struct Token {
   std::size_t end = 0;
   bool has_power = false, is_whole = true;
@@ -111,7 +111,7 @@ bool belongs_to_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80) != 0;
 }
 
-// A number in a formula, "/ 5e-05 [m^2]", is one operand, and stays.
+// A number in a formula, "/ 5e-05 [m^2]", is one operand and stays unchanged.
 bool is_operand(const std::string& before) {
   const std::size_t last = before.find_last_not_of(' ');
   return last != before.npos &&
@@ -181,7 +181,7 @@ std::string range_text(double low, double high, int digits, Script script) {
 
 namespace {
 
-// "10⁶ cycles" of "1e6 cycles"; empty of a unit that is no multiple.
+// "10⁶ cycles" of "1e6 cycles"; empty for a unit that is not a multiple.
 std::string multiple_text(const std::string& unit, Script script) {
   const std::size_t digits = unit.find_first_not_of("0123456789", 2);
   if (!unit.starts_with("1e") || digits == unit.npos || digits == 2) return {};
@@ -213,7 +213,7 @@ std::string powers_raised(const std::string& text) {
       continue;
     }
     const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
-    if (end == i + 1) {  // N^b stays as it is
+    if (end == i + 1) {  // N^b stays unchanged
       out += '^';
       continue;
     }

@@ -16,7 +16,7 @@ std::string script(std::string_view code) {
   return fmt::format("<script>{}</script>\n", code);
 }
 
-// The licences ask that their text goes with the code.
+// The licenses require that their text accompanies the code.
 std::string licence(const char* name, std::string_view text) {
   return fmt::format("<!-- {} in this page:\n{}\n-->\n", name, text);
 }
@@ -44,8 +44,8 @@ std::string base64(std::string_view digits) {
   return out;
 }
 
-// Scripts are those of this program and no others, whatever a result from elsewhere holds; none may
-// make code of text, and nothing is fetched, sent or framed.
+// Only scripts of this program run, even for a result from elsewhere; no eval, and nothing is
+// fetched, sent or framed.
 std::string content_security_policy() {
   std::string scripts;
   for (const std::string_view each : {resource::vega_sha256(), resource::vega_lite_sha256(),

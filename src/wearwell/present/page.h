@@ -7,8 +7,8 @@
 
 namespace wearwell {
 
-/// A page that opens without a network: style, plotting libraries and their licences inside. All of
-/// it is text.
+/// A self-contained page: style, plotting libraries and their licenses are embedded. All members
+/// are text.
 struct Page {
   std::string version;  ///< of the program
   std::string title;

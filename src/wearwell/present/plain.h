@@ -4,10 +4,11 @@
 
 namespace wearwell {
 
-/// A number for a terminal, to so many significant digits: "0.7759", "304 400", "7.759 × 10^-10".
+/// A number for a terminal with the given significant digits: "0.7759", "304 400", "7.759 ×
+/// 10^-10".
 std::string plain_number(double x, int digits = 4);
 
-/// One that was given, not estimated: all its digits.
+/// A given number with all digits.
 std::string plain_given(double x);
 
 /// "18 200 to 26 600".

@@ -12,8 +12,8 @@
 namespace wearwell::plot {
 namespace {
 
-// The name of a column as CSV and Vega take it whole: a comma would make two of it, a point or a
-// bracket something inside of it.
+// A column name that is safe in CSV and Vega: a comma would split it, and Vega interprets points
+// and brackets as paths.
 std::string in_heading(const std::string& text) {
   std::string name = printable(text);
   for (char& c : name) {
@@ -22,7 +22,7 @@ std::string in_heading(const std::string& text) {
   return name;
 }
 
-// Six digits are more than a plot shows; CSV is the shortest way to write many numbers.
+// Six digits suffice for a plot; CSV is the shortest format for many numbers.
 Json inline_data(const Columns& columns) {
   std::string csv;
   for (const auto& [name, values] : columns) csv += (csv.empty() ? "" : ",") + in_heading(name);
@@ -55,7 +55,7 @@ Json layer(const Columns& data, Json mark, const Look& look) {
   for (const char* second : {"x2", "y2"}) {
     if (has(data, second)) encoding[second] = {{"field", second}};
   }
-  // What is named by more than a letter is meant for people.
+  // Columns with names longer than a letter are shown to the user.
   Json tooltip = Json::array();
   for (const auto& column : data) {
     if (column.first.size() > 2 && column.first != "density") {
@@ -82,7 +82,7 @@ Json scale(const Axis& axis) {
   } else {
     json["zero"] = false;
   }
-  // An end that is not finite, or that a logarithm does not have, is left to the marks.
+  // Vega chooses an end that is not finite or not positive on a log scale.
   const auto is_end = [&](const std::optional<double>& end) {
     return end && std::isfinite(*end) && (!axis.logarithmic || *end > 0);
   };
@@ -121,12 +121,12 @@ Json ticks(const char* channel, const Axis& axis) {
   }
   if (!axis.numbers) return {{"labels", false}, {"ticks", false}, {"grid", false}};
   if (!axis.ticks.empty()) return named_ticks(axis);
-  // The page writes powers of ten as html::number does (page.js).
+  // The page formats powers of ten like html::number (page.js).
   if (axis.logarithmic) return {{"format", "~g"}, {"tickCount", 5}};
   return {{"format", ",~r"}};
 }
 
-// A point at the end of an axis is drawn whole: there is room beyond for half of it.
+// Reserves room for half a point beyond the ends of an axis.
 constexpr int room_for_points = 6;  // pixels
 
 void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_points) {
@@ -141,7 +141,7 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_po
 
 }  // namespace
 
-// Through its points in their order: Vega-Lite would sort them by x.
+// Keeps the order of points, which Vega-Lite would sort by x.
 Json line(const Columns& data, const Look& look) {
   Json json = layer(data, stroke("line", look), look);
   json["encoding"]["order"] = {{"value", nullptr}};
@@ -226,7 +226,7 @@ Json text(double x, double y, const std::string& words, const std::string& colou
 
 namespace {
 
-// One entry of the legend, as its marks look.
+// One entry of the legend, styled like its marks.
 struct Entry {
   Json label, colour;
   std::string shape = "square";
@@ -234,7 +234,7 @@ struct Entry {
 
   explicit Entry(const Json& layer) : label(layer["encoding"]["color"]["datum"]) {
     const Json& mark = layer["mark"];
-    constexpr double bar = 5;  // a stroke so wide is a bar
+    constexpr double bar = 5;  // a stroke of this width is a bar
     for (const char* paint : {"stroke", "fill", "color"}) {
       if (mark.contains(paint)) colour = mark[paint];
     }
@@ -256,7 +256,7 @@ std::vector<Entry> entries_of(const std::vector<Json>& marks) {
   return entries;
 }
 
-// Symbols that look as the marks do: lines as lines, dashed ones dashed, points in their shape.
+// Legend symbols like the marks: lines, dashed lines, point shapes.
 Json legend_of(const std::vector<Entry>& entries) {
   Json labels = Json::array(), shapes = Json::array(), dashes = Json::array(),
        widths = Json::array();
@@ -269,8 +269,8 @@ Json legend_of(const std::vector<Entry>& entries) {
   const auto signal = [](const std::string& expression) {
     return Json{{"value", {{"signal", expression}}}};
   };
-  // Vega asks for the size of the largest symbol, beside which labels stand, with the bare label as
-  // datum; where it gets no number, labels stand on their symbols.
+  // Vega evaluates the size of the largest symbol with the bare label as datum, to place the
+  // labels; without a number, labels overlap their symbols.
   const auto of_entry = [&](const Json& values) {
     return signal(fmt::format("{}[indexof({}, isObject(datum) ? datum.value : datum)]",
                               values.dump(), labels.dump()));
@@ -286,7 +286,7 @@ Json legend_of(const std::vector<Entry>& entries) {
               {"size", {{"value", 150}}}}}}}};
 }
 
-// Says that there is nothing to see, where Vega-Lite would refuse a plot without marks.
+// A text for a plot without marks, which Vega-Lite would reject.
 Json nothing_to_draw() {
   return {
       {"data", {{"values", Json::array({Json::object()})}}},
@@ -321,7 +321,7 @@ Json plot(const std::string& description, const Axis& x, const Axis& y, std::vec
                               {"scale", {{"domain", labels}, {"range", colours}}}});
     for (const char* paint : {"stroke", "fill", "color"}) each["mark"].erase(paint);
   }
-  // Of a mark with both axes: a line across the plot has but one.
+  // Uses a mark with both axes, because a line across the plot has only one.
   const auto both = std::find_if(marks.begin(), marks.end(), [](const Json& each) {
     return each["encoding"].contains("x") && each["encoding"].contains("y");
   });

@@ -6,12 +6,11 @@
 
 namespace wearwell {
 
-/// A line on a terminal that says how far long work is, how fast it goes and how long it will take,
-/// rewritten in place and wiped at the end. Nothing is shown of work that is done within `patience`
-/// seconds.
+/// A progress line on a terminal with progress, speed and remaining time, rewritten in place and
+/// erased at the end. Not shown for work that ends within `patience` seconds.
 class ProgressLine {
  public:
-  /// `terminal`: where to write; nullptr for nowhere.
+  /// `terminal`: the output; nullptr for none.
   explicit ProgressLine(std::FILE* terminal, double patience = 0.5)
       : terminal_(terminal), patience_(patience) {}
   ~ProgressLine();

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// Files that the program carries with it (cmake/resources.cmake).
+/// Files embedded in the program (cmake/resources.cmake).
 namespace wearwell::resource {
 
 std::string_view vega();         ///< JavaScript

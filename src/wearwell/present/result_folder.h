@@ -8,22 +8,22 @@
 
 namespace wearwell {
 
-/// A folder of results that appears whole or not at all (StagedFolder). Beside the results it holds
-/// `results.sha1`, the list of what wearwell wrote with a SHA-1 each, as `sha1sum` checks it: only
-/// what is listed and unchanged is ever replaced.
+/// A folder of results that is written completely or not at all (StagedFolder). It also contains
+/// `results.sha1`, a list of the written files with SHA-1 for `sha1sum`. Only listed and unchanged
+/// files are replaced.
 class ResultFolder {
  public:
-  /// Throws InputError when `target` is something else than an earlier result or an empty folder,
-  /// or cannot be written, MachineError when the machine is at fault.
+  /// Throws InputError if `target` is neither an earlier result nor an empty folder, or is not
+  /// writable; MachineError if the machine failed.
   explicit ResultFolder(const std::filesystem::path& target);
 
   const std::filesystem::path& path() const { return folder_.target(); }
 
-  /// Throws MachineError when the disk refuses.
+  /// Throws MachineError if writing fails.
   void write(const std::string& name, std::string_view content);
 
-  /// What others put into the target meanwhile stays there. Throws InputError when that has the
-  /// name of a result, MachineError when the disk refuses: the target is as it was then.
+  /// Keeps files that others put into the target in the meantime. Throws InputError if one has the
+  /// name of a result, MachineError if writing fails; the target is then unchanged.
   void commit();
 
  private:
@@ -31,11 +31,11 @@ class ResultFolder {
   std::string list_;
 };
 
-/// What a run that was killed had begun to put into place is brought to its end, or removed.
+/// Completes or removes the interrupted commit of a killed run.
 void recover_results(const std::filesystem::path& target);
 
-/// Replaces one file of a result folder and its line in the list, both or none (StagedFolder); of a
-/// folder without a list, the file alone. Throws InputError when another run wrote there meanwhile.
+/// Replaces one file of a result folder and its line in the list atomically (StagedFolder); without
+/// a list, only the file. Throws InputError if another run wrote there in the meantime.
 void replace_result(const std::filesystem::path& folder, const std::string& name,
                     std::string_view content);
 

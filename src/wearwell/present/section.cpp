@@ -56,7 +56,7 @@ bool has_content(const Table& table, std::size_t column) {
   });
 }
 
-// A column of units stands in brackets behind what is named before it.
+// A column of units is appended in brackets to the column before it.
 bool is_unit_of_name(const Table& table, std::size_t column) {
   return column > 0 && table.columns[column].name == "Unit" && is_text(table, column) &&
          is_text(table, column - 1);

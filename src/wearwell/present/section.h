@@ -8,16 +8,16 @@
 #include "wearwell/present/html.h"
 #include "wearwell/present/table.h"
 
-/// What a report is made of. All of it is text: nothing here is markup.
+/// The content of a report. All members are text, not markup.
 namespace wearwell::present {
 
-/// A paragraph; `lead` for the one that says it all.
+/// A paragraph; `lead` for the summary.
 struct Prose {
   std::string text;
   bool lead = false;
 };
 
-/// A paragraph that stands out; `kind` is "pass", "warn" or "fail", `word` says the same.
+/// A highlighted paragraph; `kind` is "pass", "warn" or "fail", `word` is its label.
 struct Callout {
   std::string kind, word, text;
 };
@@ -32,19 +32,19 @@ struct Facts {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-/// Lines as they are: a file, a command.
+/// Preformatted lines: a file, a command.
 struct Verbatim {
   std::string text;
 };
 
-/// Plots, side by side where there is room.
+/// Plots, side by side if there is room.
 struct Figures {
   std::vector<html::Figure> figures;
 };
 
 struct Block;
 
-/// What is shown on request.
+/// A collapsible block.
 struct Details {
   std::string summary;
   std::vector<Block> blocks;
@@ -56,20 +56,20 @@ struct Block {
 
 struct Section {
   std::string id;
-  std::string name;  ///< in the contents
+  std::string name;  ///< name in the table of contents
   std::vector<Block> blocks = {};
-  std::string title = {};  ///< above the section, when it says more than the name
+  std::string title = {};  ///< heading of the section, if longer than the name
 
   void add(auto&& content) { blocks.push_back({std::forward<decltype(content)>(content)}); }
 };
 
-/// All tables in the order of the sections, those in details too.
+/// All tables in the order of the sections, including those in details.
 std::vector<const Table*> tables(const std::vector<Section>& sections);
 
-/// A page folds tables of more rows, unless their cells are sentences.
+/// Longer tables are collapsed on a page, unless their cells are sentences.
 inline constexpr std::size_t most_rows_open = 12;
 
-/// The markup of its blocks. Tables have no column without content there; units stand with what they are of.
+/// The markup of its blocks. Omits empty columns of tables; appends units to their quantities.
 std::string html_of(const Section& section);
 
 }  // namespace wearwell::present

@@ -8,11 +8,11 @@
 
 namespace wearwell::present {
 
-/// report.json: what a report is made of, so that it can be made anew. A number that is not finite is
+/// report.json: the content of a report, for rendering it again. A number that is not finite is
 /// text: "NaN", "inf", "-inf".
 nlohmann::ordered_json to_json(const std::vector<Section>& sections);
 
-/// Throws InputError naming file and key of what is missing or has the wrong type.
+/// Throws InputError that names the file and the missing or mistyped key.
 std::vector<Section> sections_from_json(const JsonReader& json);
 
 }  // namespace wearwell::present

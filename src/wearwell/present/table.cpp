@@ -25,7 +25,7 @@ int digits_of_life(double x, int digits) {
   return std::min(digits, whole);
 }
 
-// A cell that begins like a formula is one to a spreadsheet.
+// Spreadsheets execute cells that begin like a formula.
 bool looks_like_formula(const std::string& text) {
   return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
 }

@@ -9,13 +9,13 @@
 
 namespace wearwell::present {
 
-/// How the numbers of a column are shown to people; files hold all their digits.
+/// The format of a column's numbers in reports; files have all digits.
 struct Format {
   enum class Kind {
-    significant,  ///< so many significant digits: "7.759 × 10⁻⁴"
-    given,        ///< as it was given, not estimated: all its digits
-    fixed,        ///< so many decimals
-    life,         ///< no fraction of a cycle; "never" where it is infinite
+    significant,  ///< significant digits: "7.759 × 10⁻⁴"
+    given,        ///< a given number with all digits
+    fixed,        ///< fixed number of decimals
+    life,         ///< whole cycles; "never" if infinite
   };
   Kind kind = Kind::significant;
   int digits = 4;
@@ -31,12 +31,12 @@ constexpr Format life(int count = 4) {
   return {Format::Kind::life, count};
 }
 
-/// Two numbers with one meaning: an interval. In a file they are two columns.
+/// An interval. In a file it becomes two columns.
 struct Range {
   double low = 0, high = 0;
 };
 
-/// "pass", "warn" or "fail", and the word for it.
+/// "pass", "warn" or "fail", with its label.
 struct Badge {
   std::string kind, word;
 };
@@ -44,41 +44,41 @@ struct Badge {
 /// Nothing, text, a number, an interval, a badge.
 using Cell = std::variant<std::monostate, std::string, double, Range, Badge>;
 
-/// How many, as a cell.
+/// A count as a cell.
 inline double count(std::size_t n) {
   return static_cast<double>(n);
 }
 
 struct Column {
   std::string name;
-  std::string unit = "1";  ///< of its numbers: "mm^3"
+  std::string unit = "1";  ///< unit of its numbers: "mm^3"
   Format format = {};
   bool is_range = false;  ///< its numbers are intervals
 };
 
-/// The heading of a column: "life [h]"; the name alone where the unit is 1.
+/// The heading of a column: "life [h]"; the name alone if the unit is 1.
 std::string heading(const std::string& name, const std::string& unit);
 std::string heading(const Column& column);
 
-/// A table as a report, a file and a terminal show it. Rows are as long as `columns`.
+/// A table for reports, files and terminals. Rows are as long as `columns`.
 struct Table {
-  std::string id;       ///< of its file, unique in a result: "predictions"
+  std::string id;       ///< file name, unique in a result: "predictions"
   std::string caption;  ///< one line
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows = {};
   bool words = false;  ///< cells are sentences, not numbers
 };
 
-/// A report and a terminal show so many rows of a table; its file has all.
+/// The maximum number of rows in a report and a terminal; the file has all.
 inline constexpr std::size_t most_rows_shown = 1000;
 
-/// A number as a column shows it: "21 600"; "–" for what is not finite.
+/// A number in a column's format: "21 600"; "–" if not finite.
 std::string description(double x, const Format& format, Script script = Script::page);
 std::string description(const Cell& cell, const Column& column);
 
-/// RFC 4180, with the units in the heading: `life [h]`. Numbers in the shortest form that reads back
-/// to the same; an interval is two columns, `, from` and `, to`; nothing is an empty cell. Text that a
-/// spreadsheet would take for a formula begins with an apostrophe.
+/// RFC 4180, with the units in the heading: `life [h]`. Numbers in the shortest form that reads
+/// back to the same; an interval is two columns, `, from` and `, to`; a missing value is an empty
+/// cell. Text that a spreadsheet would interpret as a formula begins with an apostrophe.
 std::string csv(const Table& table);
 
 /// For a terminal, aligned.

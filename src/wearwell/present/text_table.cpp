@@ -12,11 +12,11 @@ using Row = std::vector<std::string>;
 using Rows = std::vector<Row>;
 
 constexpr std::size_t gap = 2;            // before each column
-constexpr std::size_t least_words = 30;   // of a column of words that is folded
-constexpr std::size_t widest_first = 44;  // of the first column, where columns are folded
-constexpr std::size_t further = 2;        // lines of a cell after its first are moved in
+constexpr std::size_t least_words = 30;   // minimum width of a wrapped column of words
+constexpr std::size_t widest_first = 44;  // maximum width of the first column of a split table
+constexpr std::size_t further = 2;        // indent of the lines of a cell after its first
 
-// Of characters, not of bytes.
+// Counts characters, not bytes.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -27,7 +27,7 @@ std::string blanks(std::size_t count) {
   return std::string(count, ' ');
 }
 
-// Blanks that the text begins with stand before each line.
+// Leading blanks of the text indent each line.
 std::vector<std::string> lines_of(const std::string& text, std::size_t first, std::size_t others) {
   std::vector<std::string> lines(1);
   std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
@@ -62,7 +62,7 @@ std::size_t total(const std::vector<std::size_t>& widths) {
   return std::accumulate(widths.begin(), widths.end(), widths.size() * gap);
 }
 
-// A cell of words in lines, each as wide as its column; the first column begins with its gap.
+// Wraps a cell of words to the width of its column; the first column begins with its gap.
 std::string in_lines(const Row& row, const std::vector<std::size_t>& widths, bool words_last) {
   const std::size_t last = widths.size() - 1;
   const auto first_lines = lines_of(row[0], widths[0], std::max(widths[0], further + 1) - further);
@@ -87,7 +87,7 @@ std::string in_lines(const Row& row, const std::vector<std::size_t>& widths, boo
         line += blanks(widths[c] - width_of(row[c])) + row[c];
       }
     }
-    // A column that holds nothing here is not blank to its end.
+    // Does not pad an empty last column.
     out += (words ? line.substr(0, line.find_last_not_of(' ') + 1) : line) + '\n';
   }
   return out;
@@ -102,7 +102,7 @@ std::string in_lines(const Rows& rows, const std::vector<std::size_t>& widths, b
   return out;
 }
 
-// Columns that have no room beside each other, below each other.
+// Splits columns that do not fit side by side into tables below each other.
 std::string folded(const Rows& rows, std::vector<std::size_t> widths) {
   widths[0] = std::min(widths[0], widest_first);
   std::string out;

@@ -4,8 +4,9 @@
 
 namespace wearwell::families {
 
-/// The fatigue-life distribution of Birnbaum and Saunders (1969): (sqrt(y/scale) - sqrt(scale/y))/shape
-/// is standard normal; the scale is the median (Johnson, Kotz and Balakrishnan 1995, ch. 33).
+/// The fatigue-life distribution of Birnbaum and Saunders (1969): (sqrt(y/scale) -
+/// sqrt(scale/y))/shape is standard normal; the scale is the median (Johnson, Kotz and Balakrishnan
+/// 1995, ch. 33).
 struct BirnbaumSaunders : OnPositive {
   static constexpr std::string_view name = "birnbaum-saunders";
   static constexpr std::string_view title = "Birnbaum-Saunders";

@@ -15,16 +15,18 @@
 ///
 ///   name, slots       as studies have them
 ///   standard          if it has a location and a scale on some axis: the distribution there, with
-///     z(u, s)           the position on it, u the observation, or its logarithm for a positive
-///     family log_rate(u, s)    log dz/dy inverse(z, s)     the observation or else log_density(y,
-///     s), log_cdf(y, s), log_survival(y, s)    inside the support quantile(p, s)    0 < p < 1, if
-///     there is a formula mean(s)           if it exists; else the median
+///     z(u, s)           the position on it, u the observation, or its logarithm for a positive family
+///     log_rate(u, s)    log dz/dy
+///     inverse(z, s)     the observation
+///   or else
+///     log_density(y, s), log_cdf(y, s), log_survival(y, s)    inside the support
+///     quantile(p, s)    0 < p < 1, if there is a formula
+///   mean(s)           if it exists; else the median
 ///
 /// and optionally:
 ///
 ///   row<sloped>(u, s)    log density and slopes of one of many observations, optimized
-///   log_kernel(x, c), log_integral(c), tails(c)    for fixed parameters, as in a prior: the log
-///   density
+///   log_kernel(x, c), log_integral(c), tails(c)    for fixed parameters, as in a prior: the log density
 ///                     up to a constant, the log of its integral over the support of `tails`, and
 ///                     probabilities (tails.h); c = prepared(s) if defined, else s
 ///   c_density, paper, title    see ResponseForm

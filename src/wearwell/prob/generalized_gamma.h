@@ -33,8 +33,8 @@ R stirling_rest(const R& w) {
                     w2 * (1. / 1260 - w2 * (1. / 1680 - w2 * (1. / 1188 - w2 * (691. / 360360))))));
 }
 
-// Temme's expansion of the incomplete gamma functions for large a = 1/w at eta (DLMF 8.12.7 to 8.12.10):
-// their difference from the normal distribution, divided by its density and sqrt(w).
+// Temme's expansion of the incomplete gamma functions for large a = 1/w at eta (DLMF 8.12.7 to
+// 8.12.10): their difference from the normal distribution, divided by its density and sqrt(w).
 template <class R>
 R temme_sum(const R& eta, const R& w) {
   static constexpr double c[4][15] = {
@@ -63,11 +63,11 @@ R temme_sum(const R& eta, const R& w) {
 
 }  // namespace generalized
 
-/// The extended generalized gamma distribution of Meeker and Escobar (1998, sec. 5.4; Prentice 1974):
-/// of omega = log(y/scale)/sigma the density is |lambda| exp(kappa (u - e^u) + kappa log kappa)/Gamma(kappa),
-/// u = lambda omega, kappa = 1/lambda^2. lambda = 1 is the Weibull distribution of shape 1/sigma,
-/// lambda = 0 the lognormal, lambda = -1 the Frechet, lambda = sigma the gamma distribution of
-/// shape 1/sigma^2 and mean `scale`.
+/// The extended generalized gamma distribution of Meeker and Escobar (1998, sec. 5.4; Prentice
+/// 1974): of omega = log(y/scale)/sigma the density is |lambda| exp(kappa (u - e^u) + kappa log
+/// kappa)/Gamma(kappa), u = lambda omega, kappa = 1/lambda^2. lambda = 1 is the Weibull
+/// distribution of shape 1/sigma, lambda = 0 the lognormal, lambda = -1 the Frechet, lambda = sigma
+/// the gamma distribution of shape 1/sigma^2 and mean `scale`.
 struct GeneralizedGamma : OnPositive {
   static constexpr std::string_view name = "generalized-gamma";
   static constexpr std::string_view title = "generalized gamma";

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t most_headlines = 6;
 
-// The life that is left to an item that was seen: "remaining useful life", not "B10 remaining useful life".
+// The life that is left to an item that was seen: "remaining useful life", not "B10 remaining
+// useful life".
 bool is_remaining(const QuantitySummary& each) {
   return each.is_life && each.name == "remaining useful life" && !each.of.starts_with("new ");
 }

@@ -32,7 +32,8 @@ Comparison compare(std::vector<std::pair<std::string, SavedResult>> results);
 /// For the terminal, ending with a newline.
 std::string comparison_text(const Comparison& comparison);
 
-/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in docs/how-to/compare.md.
+/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in
+/// docs/how-to/compare.md.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
 /// One page: the tables, and overlaid densities of parameters of the same name.

@@ -16,7 +16,8 @@
 namespace wearwell {
 namespace {
 
-// A family with its parameters in the unit of the parameter: "lognormal, median 3, sd of the logarithm 0.5".
+// A family with its parameters in the unit of the parameter: "lognormal, median 3, sd of the
+// logarithm 0.5".
 std::string family_text(const Parameter& parameter) {
   const Family& family = parameter.prior.family;
   const ResponseForm& form = form_of(family.id);

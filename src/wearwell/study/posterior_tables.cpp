@@ -296,7 +296,7 @@ Table draws_table(const std::vector<ParameterSummary>& parameters) {
               "Draws of each parameter",
               {{"Parameter"},
                {"R-hat", "1", fixed(4)},
-               {"Effective draws, centre", "1", fixed(0)},
+               {"Effective draws, center", "1", fixed(0)},
                {"Effective draws, tails", "1", fixed(0)}}};
   for (const ParameterSummary& p : parameters)
     table.rows.push_back({p.name, p.rhat, p.ess_bulk, p.ess_tail});

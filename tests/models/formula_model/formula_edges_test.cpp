@@ -238,7 +238,9 @@ TEST_F(FormulaEdges, LocomotiveControlsHaveOneMode) {
       EXPECT_NEAR(std::log(result.mode->parameters[0].value), 5.117, 5e-4);
       EXPECT_NEAR(result.mode->parameters[1].value, 0.705, 1e-3);
     }
-    EXPECT_EQ(find(result, "computation")->detail.find("met beside"), std::string::npos) << family;
+    EXPECT_EQ(find(result, "computation")->detail.find("exists between the nodes"),
+              std::string::npos)
+        << family;
     EXPECT_THAT(find(result, "computation")->advice, Not(HasSubstr("more than one mode")));
   }
 }
