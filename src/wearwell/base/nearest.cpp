@@ -17,7 +17,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Optimal string alignment: Levenshtein edits and transposition of neighbors.
+// Optimal string alignment: Levenshtein edits and transposition of neighbours.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), 0);

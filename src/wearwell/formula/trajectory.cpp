@@ -55,7 +55,7 @@ struct Rule {
     if (k == 1) return 0.5 * (at * at - 1);
     const auto up = static_cast<double>(k + 1), down = static_cast<double>(k - 1);
     const double here = chebyshev(up, at) / up - chebyshev(down, at) / down;
-    const double sign = k % 2 == 0 ? -1 : 1;  // T(-1) of both neighbors
+    const double sign = k % 2 == 0 ? -1 : 1;  // T(-1) of both neighbours
     return 0.5 * (here - sign * (1 / up - 1 / down));
   }
 };

@@ -15,7 +15,7 @@ constexpr double farthest_on_half_line = 200, farthest_on_whole_line = 1e12;
 constexpr double least_agreement = 0.5;
 // The fraction of the tolerance allowed for a single face.
 constexpr double small_share = 0.03;
-// A box at most this much longer than its neighbor, along every axis, is fine enough.
+// A box at most this much longer than its neighbour, along every axis, is fine enough.
 constexpr double as_small = 0.75;
 
 // The number of inspection points between the nodes of a box, by dimension, and the steps of an

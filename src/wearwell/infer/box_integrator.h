@@ -40,7 +40,7 @@ class BoxIntegrator {
     double error = 0;        // estimated, of `control`
     int axis = 0;            // the worst-resolved axis
     bool inspected = false;  // inspected between its nodes
-    bool agrees = false;     // agrees with its neighbors
+    bool agrees = false;     // agrees with its neighbours
     double tail =
         0;  // the error relative to `control`, estimated from the cell's Legendre coefficients
   };
@@ -104,9 +104,9 @@ class BoxIntegrator {
   void refine();
   void halve(std::size_t i) { halve(i, cells_[i].axis); }
   void halve(std::size_t i, int a);
-  // Neighbors must agree on the density at their shared face: a ridge that disappears in the next
+  // Neighbours must agree on the density at their shared face: a ridge that disappears in the next
   // box passes between its nodes, and halving alone may not detect it. Such a box is halved to the
-  // size of its neighbor. False if all agree.
+  // size of its neighbour. False if all agree.
   bool reconcile();
   bool reconcile(std::size_t i, int axis, bool high, std::vector<double>& on_face);
   // Halves the box there until it has at most half the size of `cell` along every axis.

@@ -38,7 +38,7 @@ double median(std::vector<double> values) {
 }
 
 // Ties of the driver are ordered randomly, because tables are often sorted by the observed value,
-// which would make neighbors similar.
+// which would make neighbours similar.
 std::vector<std::size_t> order_along(const std::vector<double>& driver) {
   Rng rng(seed, 0);
   std::vector<double> lot;

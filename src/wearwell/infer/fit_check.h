@@ -69,7 +69,7 @@ struct Remedies {
 struct FitData {
   Scores scores;                ///< of the observations, then of `effects`, effect by effect
   std::vector<int> counts;      ///< repetitions of each observation; empty: 1
-  std::vector<Driver> drivers;  ///< the first one defines neighbors
+  std::vector<Driver> drivers;  ///< the first one defines neighbours
   std::optional<Rise> rise;
   std::string noun = "row";
   bool terms = true;                   ///< scores belong to single factors of the likelihood

@@ -31,7 +31,7 @@ using Z = LatticeChart::Z;
 using Steps = std::array<double, d>;  // steps between lines along each axis, and along the lines
 
 constexpr double negligible_share = 1e-9;  // nodes with less mass are omitted
-// Nodes with less mass have no cells; a sample of them represents their neighbors. In a normal
+// Nodes with less mass have no cells; a sample of them represents their neighbours. In a normal
 // posterior they are six of ten nodes with a thousandth of the mass.
 constexpr double gathered_share = 3e-7;
 // The limit of evaluations, and the error that is accepted and reported if the limit is reached.
@@ -67,7 +67,7 @@ struct Line {
 };
 
 // The content of a cell: along each axis the log mass is the parabola through the node and both
-// neighbors, in cell lengths.
+// neighbours, in cell lengths.
 class CellShape {
  public:
   explicit CellShape(double node) : node_(node) {}
@@ -349,7 +349,7 @@ class Lattice {
   }
 
   // Moves nodes with cells to the front and returns their number. Nodes with less mass than `least`
-  // are sampled in the order of the lattice; a sampled node represents its neighbors.
+  // are sampled in the order of the lattice; a sampled node represents its neighbours.
   static Eigen::Index gather(std::vector<Node>& nodes, double least) {
     const auto small = std::stable_partition(nodes.begin(), nodes.end(),
                                              [&](const Node& node) { return node.mass >= least; });
@@ -510,8 +510,8 @@ class Lattice {
   double density(const Place& there) const {
     return posterior_.value(there.z) + there.log_jacobian;
   }
-  // Half way to a neighbor, at the same position across the ridge, whose curve is the parabola
-  // through both neighbors.
+  // Half way to a neighbour, at the same position across the ridge, whose curve is the parabola
+  // through both neighbours.
   Place between(const Line& line, const Line& other, const Line& opposite, int axis, double shift,
                 int t) const {
     const auto half_way = [](double here, double there, double back) {

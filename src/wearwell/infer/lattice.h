@@ -15,7 +15,7 @@ namespace wearwell {
 /// until the error is below `tolerance`. The error is estimated from the decay of the Fourier
 /// transform of density and moments, given by sums over every second and every fourth node along
 /// every axis and diagonal, and from the mass of the outermost shells. Cells contain the parabola
-/// through the log density of their neighbors.
+/// through the log density of their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by the fourth power of the step, so
 /// that quantiles keep an error of some thousandths of a standard deviation (two hundredths on a

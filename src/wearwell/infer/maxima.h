@@ -28,7 +28,7 @@ struct Maxima {
 /// Searches for local maxima other than `known`, the maximum found from the start values, if any.
 /// Quasi-random points (an additive recurrence) cover the prior's mass (for an improper prior: the
 /// surroundings of the start value), the surroundings of the start values, and those of `known`.
-/// Searches start from points that are higher than all of their neighbors (Torn and Viitanen 1994,
+/// Searches start from points that are higher than all of their neighbours (Torn and Viitanen 1994,
 /// J. Global Optimization 5, 267-276), and from as many unselected points of the prior, until the
 /// expected number of undiscovered maxima, w (w + 1)/(n - w - 2) after n searches that found w
 /// (Boender and Rinnooy Kan 1987, Math. Programming 37, 59-80), is below a half and every point

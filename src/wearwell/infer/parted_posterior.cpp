@@ -11,7 +11,7 @@
 namespace wearwell {
 namespace {
 
-// Heavier tails reduce a part at the far end of a broad neighbor, lighter ones at the neighbor's
+// Heavier tails reduce a part at the far end of a broad neighbour, lighter ones at the neighbour's
 // maximum.
 constexpr double freedom = 8;
 

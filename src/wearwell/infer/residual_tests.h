@@ -19,7 +19,7 @@ double location_test(std::span<const double> z);
 /// Tests for correlation with `driver` (Student's t, two-sided); independent of scale.
 double trend_test(std::span<const double> z, std::span<const double> driver);
 
-/// Tests for positive correlation of neighbors: von Neumann's ratio of the mean squared successive
+/// Tests for positive correlation of neighbours: von Neumann's ratio of the mean squared successive
 /// difference to the variance. Exact up to 40 values (Imhof 1961); beyond, a symmetric beta
 /// distribution with the same range and variance. One-sided, independent of scale.
 double neighbour_test(std::span<const double> z);

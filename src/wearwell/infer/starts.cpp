@@ -12,7 +12,7 @@
 namespace wearwell {
 namespace {
 
-// With more axes neighbors are meaningless, because all points are about equally far apart.
+// With more axes neighbours are meaningless, because all points are about equally far apart.
 constexpr Eigen::Index most_for_neighbours = 8;
 
 // Low-discrepancy points of the unit cube, one per column: fractional parts of multiples of the

@@ -16,7 +16,7 @@ struct StartPoint {
 
 /// The starts of a search for maxima (maxima.h).
 struct StartPoints {
-  std::vector<StartPoint> high;   ///< higher than all of their neighbors, highest first
+  std::vector<StartPoint> high;   ///< higher than all of their neighbours, highest first
   std::vector<StartPoint> plain;  ///< unselected points of the prior's mass
 };
 

@@ -83,7 +83,7 @@ struct Walk {
 
   std::size_t stations() const { return log_density.size(); }
 
-  // From the far half, the median of slopes between neighbors, which is robust against a bad
+  // From the far half, the median of slopes between neighbours, which is robust against a bad
   // station. `may_slow`: for a tail towards infinity under improper priors.
   double index(bool may_slow) const {
     return index_from(std::max<std::size_t>(1, stations() / 2), may_slow);

@@ -19,7 +19,7 @@ double between(std::span<const double> share, std::size_t i) {
   return std::max(mass, 0.0);
 }
 
-// The derivative at equally spaced nodes by the step, of fourth order where neighbors exist; uses
+// The derivative at equally spaced nodes by the step, of fourth order where neighbours exist; uses
 // only nodes from `first` to `last`.
 double derivative(std::span<const double> value, std::size_t i, std::size_t first,
                   std::size_t last) {

@@ -47,7 +47,7 @@ double NormalLines::score_at(const Line& line, std::size_t i, double x) const {
     const double part = std::isfinite(end) && x > 0 && end > 0 ? 1 - end / x : 0.5;
     return score + line.step * (up ? part : 1 - part);
   }
-  // Neighboring finite nodes.
+  // Neighbouring finite nodes.
   std::size_t first = i, last = i + 1;
   while (last - first + 1 < neighbours) {
     const bool before = first > 0 && std::isfinite(y[first - 1]),

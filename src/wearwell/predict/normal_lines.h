@@ -8,7 +8,7 @@
 namespace wearwell {
 
 /// The distribution over items of a quantity known along lines of a standard normal score, at equal
-/// steps of the score. Interpolates by the polynomial through six neighbors, so that quantiles have
+/// steps of the score. Interpolates by the polynomial through six neighbours, so that quantiles have
 /// no cell noise.
 class NormalLines {
  public:

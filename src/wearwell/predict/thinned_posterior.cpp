@@ -179,7 +179,7 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
     chosen = std::move(kept);
   } else if (n > most) {
-    // Equal-weight points by systematic sampling along the order of the nodes, in which neighbors
+    // Equal-weight points by systematic sampling along the order of the nodes, in which neighbours
     // are similar.
     std::sort(chosen.begin(), chosen.end(),
               [&](std::size_t a, std::size_t b) { return dominant.rows[a] < dominant.rows[b]; });

@@ -173,7 +173,7 @@ std::string panel(const Figure& figure) {
                      escape(figure.id), escape(figure.title), plot_of(figure));
 }
 
-// Whether a figure takes a whole row: on request, or without a neighbor in its row.
+// Whether a figure takes a whole row: on request, or without a neighbour in its row.
 std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
   std::vector<bool> wide(figures.size(), false);
   std::size_t in_row = 0;

@@ -64,8 +64,8 @@ struct Figure {
   bool wide = false;  ///< takes a whole row
 };
 
-/// Figures side by side, two per row if there is room; one without a neighbor takes the row.
-/// Neighbors with the same `panel_of` are small and share a title.
+/// Figures side by side, two per row if there is room; one without a neighbour takes the row.
+/// Neighbours with the same `panel_of` are small and share a title.
 std::string figures(const std::vector<Figure>& figures);
 
 /// A collapsible block.
