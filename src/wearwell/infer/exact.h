@@ -19,7 +19,7 @@ struct ExactSettings {
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   bool cells = true;           ///< false: nodes for sums alone, not for distributions (lattice.h)
   long max_evaluations = 20'000'000;  ///< of the density; more is a failure
-  /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
+  /// The coordinates of a lattice in which the posterior is rounder, if a similar posterior has shown it.
   std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
   /// Other local maxima than that of the whitening (maxima.h), on the real line; the region must

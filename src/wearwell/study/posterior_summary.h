@@ -39,7 +39,7 @@ struct ParameterSummary {
   double ess_bulk = 0, ess_tail = 0, rhat = 0;
   std::optional<ExactSummary> exact;
   std::string meaning = {};  ///< "wear coefficient"
-  std::string prior = {};    ///< in words
+  std::string prior = {};    ///< as text
   bool prior_is_default = false;
   bool drawn = true;
 

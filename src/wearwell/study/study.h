@@ -31,7 +31,7 @@ class Study {
  public:
   virtual ~Study() = default;
 
-  /// Describes the fit in words and units. Throws InputError where `run` would.
+  /// Describes the fit and its units. Throws InputError where `run` would.
   virtual std::string description() const = 0;
 
   /// Fits, checks and predicts. One seed gives identical numbers for any number of threads. Throws

@@ -41,7 +41,7 @@ struct Solution {
   double wear_number = 0;  ///< p_a k n
 };
 
-/// The wanted quantity of a bearing, from the others. Throws InputError, naming the offender, when an input is missing, given twice, not used, not
+/// The wanted quantity of a bearing, from the others. Throws InputError, naming the input, when an input is missing, given twice, not used, not
 /// positive, or impossible together with the others (a depth beyond the geometry, a wear number
 /// that no depth reaches).
 Solution solve(Quantity wanted, const Bearing& bearing);

@@ -17,7 +17,7 @@ struct StairFit {
 };
 
 /// A p value is the share of tests simulated from the posterior, by the rule of the same sequence, that have as large a
-/// statistic (posterior predictive p value, Gelman et al. 2013, section 6.3). Median and scale are estimated anew from each
+/// statistic (posterior predictive p value, Gelman et al. 2013, section 6.3). Median and scale are estimated again from each
 /// of them, so that the statistic hardly depends on their true values and p is nearly uniform under a right model. Equal
 /// outcomes under equal stresses are natural: copies are not looked for.
 FitOutcome judge_staircase(const StairFit& data, const WeightedDraws& posterior);
