@@ -54,7 +54,7 @@ void take(benchmark::State& state) {
   for (auto _ : state) {
     const auto unit = tracker().begin("new");
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto result = unit->take(all[i], [&](const auto& visit) {
+      const auto result = unit->update(all[i], [&](const auto& visit) {
         for (std::size_t k = 0; k < i; ++k) visit(all[k]);
       });
       benchmark::DoNotOptimize(result.counted);
@@ -72,7 +72,7 @@ void multiply(benchmark::State& state) {
   const auto all = readings(60);
   const auto unit = tracker().begin("new");
   for (std::size_t i = 0; i < 59; ++i) {
-    unit->take(all[i], [&](const auto& visit) {
+    unit->update(all[i], [&](const auto& visit) {
       for (std::size_t k = 0; k < i; ++k) visit(all[k]);
     });
   }
@@ -84,7 +84,7 @@ void multiply(benchmark::State& state) {
       for (int i = 0; i < 100; ++i) units.push_back(tracker().restore(bytes));
     }
     state.ResumeTiming();
-    benchmark::DoNotOptimize(units.back()->take(all.back(), [](const auto&) {}));
+    benchmark::DoNotOptimize(units.back()->update(all.back(), [](const auto&) {}));
     state.PauseTiming();
     units.pop_back();
     state.ResumeTiming();
@@ -96,7 +96,7 @@ void forecast(benchmark::State& state) {
   const auto all = readings(10);
   const auto unit = tracker().begin("new");
   for (std::size_t i = 0; i < all.size(); ++i) {
-    unit->take(all[i], [&](const auto& visit) {
+    unit->update(all[i], [&](const auto& visit) {
       for (std::size_t k = 0; k < i; ++k) visit(all[k]);
     });
   }

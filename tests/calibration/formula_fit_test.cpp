@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t units = 6, readings = 6;
 
-std::string study(const std::string& family, const std::string& slots, bool random_effects) {
+std::string study(const std::string& family, const std::string& family_parameters,
+                  bool random_effects) {
   std::string text = R"(
 [data.columns]
 y = "y"
@@ -26,7 +27,7 @@ t = "t"
 unit = "unit"
 [likelihood.y]
 family = ")" + family +
-                     "\"\nmean = \"b*t\"\n" + slots + R"(
+                     "\"\nmean = \"b*t\"\n" + family_parameters + R"(
 [prior]
 b = { distribution = "lognormal", median = 1, log_sd = 0.5 }
 sigma = { distribution = "half-normal", scale = 0.5 }

@@ -80,7 +80,7 @@ inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed,
     all.push_back({NAN, NAN, NAN});
     for (int i = 1; i <= TrackedCoverage::shown.back(); ++i) {
       const double t = 0.5 * i * h;
-      followed.take({b * t + x[2] * rng.normal(), t});
+      followed.update({b * t + x[2] * rng.normal(), t});
       for (std::size_t s = 0; s < TrackedCoverage::shown.size(); ++s) {
         if (TrackedCoverage::shown[s] != i || b * t >= limit) continue;
         all.back()[s] = followed.unit->forecast().remaining.cdf(limit / b - t);

@@ -20,7 +20,7 @@ class Families : public ScratchTest {
  protected:
   // Lives beyond `limit` are taken for run-outs there.
   void expect_golden(const std::string& family, const std::string& file, double limit,
-                     const std::string& slots, const std::string& priors) {
+                     const std::string& family_parameters, const std::string& priors) {
     std::ifstream lives(PROJECT_SOURCE_DIR "/" + file);
     std::string line, rows = "t,status\n";
     std::getline(lives, line);
@@ -44,7 +44,7 @@ family = "{}"
 [predict]
 b_lives = [10]
 )toml",
-                                    family, slots, priors));
+                                    family, family_parameters, priors));
     const CommandResult run = run_wearwell(fmt::format(
         "fit '{0}/study.toml' --method exact --warmup 200 --draws 200 --json -o '{0}/out'",
         folder().string()));

@@ -76,7 +76,7 @@ TEST(Distribution, FlatUniformAndJeffreys) {
 // By name, with as many parameters as it has.
 Family of(const std::string& name, const std::vector<double>& parameters) {
   for (const ResponseForm& form : prior_forms()) {
-    if (form.name != name || form.slots.size() != parameters.size()) continue;
+    if (form.name != name || form.family_parameters.size() != parameters.size()) continue;
     Family family{form.family};
     std::copy(parameters.begin(), parameters.end(), family.parameter.begin());
     return family;
@@ -202,15 +202,16 @@ TEST(Distribution, EveryFamilyIsAPrior) {
   for (const ResponseForm& form : prior_forms()) {
     if (form.prior_only) continue;
     Family family{form.family};
-    for (std::size_t i = 0; i < form.slots.size(); ++i)
-      family.parameter[i] = form.slots[i].name == "threshold" ? 0.1 : 1.3 - 0.4 * double(i);
+    for (std::size_t i = 0; i < form.family_parameters.size(); ++i)
+      family.parameter[i] =
+          form.family_parameters[i].name == "threshold" ? 0.1 : 1.3 - 0.4 * double(i);
     const double* s = family.parameter.data();
     const double at[] = {quantile(form.family, 1e-9, s), quantile(form.family, 0.3, s),
                          quantile(form.family, 0.6, s), quantile(form.family, 1 - 1e-6, s)};
     for (const auto& [lower, upper] :
          {std::pair{-infinity, infinity}, {-infinity, at[1]}, {at[1], at[2]}, {at[3], infinity}}) {
-      SCOPED_TRACE(testing::Message()
-                   << form.name << " " << form.slots.size() << ": " << lower << " to " << upper);
+      SCOPED_TRACE(testing::Message() << form.name << " " << form.family_parameters.size() << ": "
+                                      << lower << " to " << upper);
       const Distribution distribution = make_distribution(family, lower, upper);
       const auto mass = [&](double x) {
         const Response y{Censoring::interval, std::max(lower, -1e300), x};

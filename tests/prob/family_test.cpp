@@ -14,23 +14,23 @@ namespace wearwell {
 namespace {
 
 // The form of so many parameters.
-const ResponseForm& form(const std::string& name, std::size_t slots) {
+const ResponseForm& form(const std::string& name, std::size_t family_parameters) {
   for (const ResponseForm& each : response_forms()) {
-    if (each.name == name && each.slots.size() == slots) return each;
+    if (each.name == name && each.family_parameters.size() == family_parameters) return each;
   }
   throw std::logic_error("no family " + name);
 }
 
-using Slots = std::vector<double>;
+using FamilyParameters = std::vector<double>;
 
 struct Member {
   ResponseFamily family;
-  Slots slots;
+  FamilyParameters family_parameters;
 
-  Member(const std::string& name, const Slots& values)
+  Member(const std::string& name, const FamilyParameters& values)
       : family(form(name, values.size()).family), slots(values) {}
   double term(Censoring seen, double y, double until = 0) const {
-    return log_response_value(family, {seen, y, until}, slots.data());
+    return log_response_value(family, {seen, y, until}, family_parameters.data());
   }
 };
 
@@ -45,10 +45,13 @@ void expect_same(const Member& a, const Member& b, double tolerance = 1e-11) {
     EXPECT_NEAR(a.term(Censoring::interval, y, 1.4 * y), b.term(Censoring::interval, y, 1.4 * y),
                 tolerance * (1 + std::abs(b.term(Censoring::interval, y, 1.4 * y))));
   }
-  EXPECT_NEAR(center(a.family, a.slots.data()) / center(b.family, b.slots.data()), 1, 1e-9);
+  EXPECT_NEAR(
+      center(a.family, a.family_parameters.data()) / center(b.family, b.family_parameters.data()),
+      1, 1e-9);
   for (const double p : {1e-6, 0.1, 0.5, 0.99}) {
-    EXPECT_NEAR(quantile(a.family, p, a.slots.data()) / quantile(b.family, p, b.slots.data()), 1,
-                1e-9);
+    EXPECT_NEAR(quantile(a.family, p, a.family_parameters.data()) /
+                    quantile(b.family, p, b.family_parameters.data()),
+                1, 1e-9);
   }
 }
 
@@ -69,11 +72,12 @@ TEST(Family, GeneralizedGammaIsSmoothInLambda) {
   for (const double at : {-0.05, 0.0, 0.05}) {
     for (const double y : {0.2, 0.9, 1.6, 2.5, 7.0}) {
       for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
-        const double slots[][3] = {{1.5, 0.5, at - near}, {1.5, 0.5, at}, {1.5, 0.5, at + near}};
+        const double family_parameters[][3] = {
+            {1.5, 0.5, at - near}, {1.5, 0.5, at}, {1.5, 0.5, at + near}};
         const ResponseFamily family = form("generalized-gamma", 3).family;
-        const ResponseTerm below = log_response(family, {seen, y}, slots[0]),
-                           here = log_response(family, {seen, y}, slots[1]),
-                           above = log_response(family, {seen, y}, slots[2]);
+        const ResponseTerm below = log_response(family, {seen, y}, family_parameters[0]),
+                           here = log_response(family, {seen, y}, family_parameters[1]),
+                           above = log_response(family, {seen, y}, family_parameters[2]);
         const double size = 1 + std::abs(here.value);
         EXPECT_NEAR(above.value - below.value, 2 * near * here.slope[2], 2e-12 * size) << at << y;
         for (int s = 0; s < 3; ++s)
@@ -99,8 +103,8 @@ TEST(Family, ReciprocalsStayInTheFamily) {
     const double z = (std::sqrt(at / 3) - std::sqrt(3 / at)) / 0.7;
     EXPECT_NEAR(std::exp(y.term(Censoring::left, at)), 0.5 * std::erfc(-z / std::sqrt(2.0)), 1e-14);
   }
-  EXPECT_DOUBLE_EQ(quantile(y.family, 0.5, y.slots.data()), 3);
-  EXPECT_DOUBLE_EQ(center(y.family, y.slots.data()), 3 * (1 + 0.5 * 0.7 * 0.7));
+  EXPECT_DOUBLE_EQ(quantile(y.family, 0.5, y.family_parameters.data()), 3);
+  EXPECT_DOUBLE_EQ(center(y.family, y.family_parameters.data()), 3 * (1 + 0.5 * 0.7 * 0.7));
 }
 
 // The last of so many Weibull lives; the first keeps the shape.
@@ -117,54 +121,58 @@ TEST(Family, ExponentiatedWeibullIsTheLastOfSeveral) {
 }
 
 // Parameters of each kind that suit every family.
-Slots plausible(const ResponseForm& form) {
-  Slots slots;
-  for (const ParameterForm& slot : form.slots) {
-    if (slot.name == "threshold") {
-      slots.push_back(0.3);
+FamilyParameters plausible(const ResponseForm& form) {
+  FamilyParameters family_parameters;
+  for (const ParameterForm& family_parameter : form.family_parameters) {
+    if (family_parameter.name == "threshold") {
+      family_parameters.push_back(0.3);
     } else {
-      slots.push_back(slot.kind == ParameterKind::real   ? 0.4
-                      : slot.kind == ParameterKind::size ? 1.4
-                      : slot.name == "log10_sd"          ? 0.3
-                                                         : 2.6 - 0.7 * double(slots.size()));
+      family_parameters.push_back(family_parameter.kind == ParameterKind::real    ? 0.4
+                                  : family_parameter.kind == ParameterKind::scale ? 1.4
+                                  : family_parameter.name == "log10_sd"
+                                      ? 0.3
+                                      : 2.6 - 0.7 * double(family_parameters.size()));
     }
   }
-  return slots;
+  return family_parameters;
 }
 
 TEST(Family, AThresholdMovesIt) {
   int tried = 0;
   for (const ResponseForm& each : response_forms()) {
-    if (each.slots.back().name != "threshold") continue;
+    if (each.family_parameters.back().name != "threshold") continue;
     ++tried;
     SCOPED_TRACE(each.name);
-    EXPECT_TRUE(each.slots.back().optional);
-    const Slots slots = plausible(each);
-    Slots without = slots;
+    EXPECT_TRUE(each.family_parameters.back().optional);
+    const FamilyParameters family_parameters = plausible(each);
+    FamilyParameters without = family_parameters;
     without.pop_back();
     std::vector<ResponseFamily> plain;
     for (const ResponseForm& other : response_forms()) {
-      if (other.name == each.name && other.slots.size() == without.size() &&
-          other.slots.front().name == each.slots.front().name)
+      if (other.name == each.name && other.family_parameters.size() == without.size() &&
+          other.family_parameters.front().name == each.family_parameters.front().name)
         plain.push_back(other.family);
     }
     ASSERT_EQ(plain.size(), 1u);
-    const double moved = slots.back();
+    const double moved = family_parameters.back();
     for (const double y : {0.2, 1.0, 2.5}) {
       for (const Censoring seen :
            {Censoring::none, Censoring::right, Censoring::left, Censoring::interval}) {
         const Response at{seen, y + moved, 1.3 * y + moved}, less{seen, y, 1.3 * y};
-        const ResponseTerm here = log_response(each.family, at, slots.data()),
+        const ResponseTerm here = log_response(each.family, at, family_parameters.data()),
                            there = log_response(plain[0], less, without.data());
         EXPECT_NEAR(here.value, there.value, 1e-12 * (1 + std::abs(there.value)));
         for (std::size_t s = 0; s < without.size(); ++s)
           EXPECT_NEAR(here.slope[s], there.slope[s], 1e-9 * (1 + std::abs(there.slope[s])));
       }
     }
-    EXPECT_EQ(log_response_value(each.family, {Censoring::none, 0.5 * moved}, slots.data()),
-              -infinity);
-    EXPECT_EQ(log_response_value(each.family, {Censoring::right, 0.5 * moved}, slots.data()), 0);
-    EXPECT_NEAR(quantile(each.family, 0.3, slots.data()),
+    EXPECT_EQ(
+        log_response_value(each.family, {Censoring::none, 0.5 * moved}, family_parameters.data()),
+        -infinity);
+    EXPECT_EQ(
+        log_response_value(each.family, {Censoring::right, 0.5 * moved}, family_parameters.data()),
+        0);
+    EXPECT_NEAR(quantile(each.family, 0.3, family_parameters.data()),
                 moved + quantile(plain[0], 0.3, without.data()), 1e-11);
   }
   EXPECT_EQ(tried, 11);
@@ -173,20 +181,22 @@ TEST(Family, AThresholdMovesIt) {
 // By the integral of y times its density; of the loglogistic law `center` is the median.
 TEST(Family, CentersAreMeans) {
   using boost::math::quadrature::gauss_kronrod;
-  const auto expect_mean = [](const ResponseForm& of, const Slots& slots) {
-    SCOPED_TRACE(testing::Message() << of.name << " " << slots.size());
-    const double from = of.slots.back().name == "threshold" ? slots.back() : 0;
-    const double low = quantile(of.family, 1e-15, slots.data()),
-                 high = quantile(of.family, 1 - 1e-13, slots.data());
+  const auto expect_mean = [](const ResponseForm& of, const FamilyParameters& family_parameters) {
+    SCOPED_TRACE(testing::Message() << of.name << " " << family_parameters.size());
+    const double from =
+        of.family_parameters.back().name == "threshold" ? family_parameters.back() : 0;
+    const double low = quantile(of.family, 1e-15, family_parameters.data()),
+                 high = quantile(of.family, 1 - 1e-13, family_parameters.data());
     const auto moment = [&](double y) {
-      return y * std::exp(log_response_value(of.family, {Censoring::none, y}, slots.data()));
+      return y * std::exp(
+                     log_response_value(of.family, {Censoring::none, y}, family_parameters.data()));
     };
     const double mean =
         of.positive ? gauss_kronrod<double, 61>::integrate(
                           [&](double u) { return moment(from + std::exp(u)) * std::exp(u); },
                           std::log(low - from), std::log(high - from), 15, 1e-10)
                     : gauss_kronrod<double, 61>::integrate(moment, low, high, 15, 1e-10);
-    EXPECT_NEAR(center(of.family, slots.data()), mean, 1e-7 * mean);
+    EXPECT_NEAR(center(of.family, family_parameters.data()), mean, 1e-7 * mean);
   };
   for (const ResponseForm& each : response_forms()) {
     if (!each.counted && each.name != "loglogistic") expect_mean(each, plausible(each));
@@ -226,16 +236,17 @@ TEST(Family, TheListIsWhatCodeNames) {
     EXPECT_EQ(form_of(family).name, name);
     EXPECT_EQ(form_of(family).family, family);
   }
-  EXPECT_EQ(form_of(lognormal).slots[0].name, "median");
-  EXPECT_EQ(form_of(lognormal_by_moments).slots[0].name, "mean");
+  EXPECT_EQ(form_of(lognormal).family_parameters[0].name, "median");
+  EXPECT_EQ(form_of(lognormal_by_moments).family_parameters[0].name, "mean");
 }
 
 TEST(Family, TheFormIsThatWhoseParametersAreGiven) {
   const auto chosen = [](const std::string& name, const std::vector<std::string>& given) {
-    const ResponseForm* found = given_form(response_forms(), name, [&](std::string_view slot) {
-      return std::find(given.begin(), given.end(), slot) != given.end();
-    });
-    return found ? found->slots.size() : 0;
+    const ResponseForm* found =
+        given_form(response_forms(), name, [&](std::string_view family_parameter) {
+          return std::find(given.begin(), given.end(), family_parameter) != given.end();
+        });
+    return found ? found->family_parameters.size() : 0;
   };
   EXPECT_EQ(chosen("weibull", {"scale", "shape"}), 2u);
   EXPECT_EQ(chosen("weibull", {"scale", "shape", "threshold"}), 3u);

@@ -50,22 +50,23 @@ TEST(GatheredResponses, HaveTheSumOfAllUnderEveryFamily) {
     EXPECT_LT(few.size(), 3000u) << form.name;
     // Each slot as its kind may be for such lives, and at half and twice that.
     for (const double factor : {0.5, 1.0, 2.0}) {
-      double slots[most_response_parameters] = {};
-      for (std::size_t s = 0; s < form.slots.size(); ++s) {
-        const ParameterKind kind = form.slots[s].kind;
-        slots[s] = factor * (kind == ParameterKind::place  ? 800
-                             : kind == ParameterKind::size ? (form.positive ? 900 : 400)
-                                                           : 1.5);
+      double family_parameters[most_response_parameters] = {};
+      for (std::size_t s = 0; s < form.family_parameters.size(); ++s) {
+        const ParameterKind kind = form.family_parameters[s].kind;
+        family_parameters[s] =
+            factor * (kind == ParameterKind::location ? 800
+                      : kind == ParameterKind::scale  ? (form.positive ? 900 : 400)
+                                                      : 1.5);
       }
       double sum = 0, size = 0, gathered = 0;
       for (std::size_t i = 0; i < all.responses.size(); ++i) {
-        const double each = log_response_value(form.family, all.responses[i], slots);
+        const double each = log_response_value(form.family, all.responses[i], family_parameters);
         sum += all.counts[i] * each;
         size += all.counts[i] * std::abs(each);
       }
       if (!std::isfinite(sum)) continue;
       for (const WeightedResponse& each : few)
-        gathered += each.weight * log_response_value(form.family, each.response, slots);
+        gathered += each.weight * log_response_value(form.family, each.response, family_parameters);
       EXPECT_NEAR(gathered, sum, 1e-10 * size) << form.name << " " << factor;
       ++tried;
     }
@@ -93,8 +94,9 @@ TEST(GatheredResponses, KeepWhatHasNoPlace) {
 
 TEST(GatheredResponses, AreNotOfCountsNorOfThresholds) {
   for (const ResponseForm& form : response_forms()) {
-    const bool has_threshold = std::any_of(form.slots.begin(), form.slots.end(),
-                                           [](const auto& s) { return s.name == "threshold"; });
+    const bool has_threshold =
+        std::any_of(form.family_parameters.begin(), form.family_parameters.end(),
+                    [](const auto& s) { return s.name == "threshold"; });
     EXPECT_EQ(can_be_gathered(form), !form.counted && !has_threshold) << form.name;
   }
 }

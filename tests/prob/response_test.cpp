@@ -16,7 +16,7 @@ namespace {
 // Of the lognormal family the first, by median.
 ResponseFamily family_of(const std::string& name, bool beyond_threshold = false) {
   for (const ResponseForm& form : response_forms()) {
-    const bool shifted = form.slots.back().name == "threshold";
+    const bool shifted = form.family_parameters.back().name == "threshold";
     if (form.name == name && shifted == beyond_threshold) return form.family;
   }
   throw std::logic_error("no family " + name);
@@ -24,7 +24,7 @@ ResponseFamily family_of(const std::string& name, bool beyond_threshold = false)
 
 struct Case {
   ResponseFamily family;
-  double slots[4];
+  double family_parameters[4];
   double at[3];  // low, middle, high
 };
 
@@ -102,16 +102,16 @@ TEST(Response, SlopesAreTheDerivatives) {
                                        {Censoring::none, at[1], 0, at[0]},
                                        {Censoring::right, at[2], 0, at[1]}};
     for (const Response& y : all) {
-      const ResponseTerm term = log_response(each.family, y, each.slots);
+      const ResponseTerm term = log_response(each.family, y, each.family_parameters);
       ASSERT_TRUE(std::isfinite(term.value));
       for (int s = 0; s < 4; ++s) {
-        if (each.slots[s] == 0) continue;
+        if (each.family_parameters[s] == 0) continue;
         double moved[4];
-        std::copy(each.slots, each.slots + 4, moved);
-        const double step = 1e-5 * std::abs(each.slots[s]);
-        moved[s] = each.slots[s] + step;
+        std::copy(each.family_parameters, each.family_parameters + 4, moved);
+        const double step = 1e-5 * std::abs(each.family_parameters[s]);
+        moved[s] = each.family_parameters[s] + step;
         const double above = log_response_value(each.family, y, moved);
-        moved[s] = each.slots[s] - step;
+        moved[s] = each.family_parameters[s] - step;
         const double below = log_response_value(each.family, y, moved);
         EXPECT_NEAR(term.slope[s], (above - below) / (2 * step),
                     2e-6 * (std::abs(term.slope[s]) + std::abs(term.value)) + 1e-8)
@@ -126,16 +126,19 @@ TEST(Response, SlopesAreTheDerivatives) {
 TEST(Response, DistributionFunctionsBelongTogether) {
   for (const Case& each : cases()) {
     for (const double y : each.at) {
-      const double below = log_cdf(each.family, y, each.slots);
-      EXPECT_NEAR(std::exp(below) + std::exp(log_survival(each.family, y, each.slots)), 1, 1e-13);
-      EXPECT_NEAR(quantile(each.family, std::exp(below), each.slots), y, 1e-8 * std::abs(y))
+      const double below = log_cdf(each.family, y, each.family_parameters);
+      EXPECT_NEAR(std::exp(below) + std::exp(log_survival(each.family, y, each.family_parameters)),
+                  1, 1e-13);
+      EXPECT_NEAR(quantile(each.family, std::exp(below), each.family_parameters), y,
+                  1e-8 * std::abs(y))
           << static_cast<int>(each.family);
       const double step = 1e-5 * std::abs(y);
-      const double slope = (std::exp(log_cdf(each.family, y + step, each.slots)) -
-                            std::exp(log_cdf(each.family, y - step, each.slots))) /
+      const double slope = (std::exp(log_cdf(each.family, y + step, each.family_parameters)) -
+                            std::exp(log_cdf(each.family, y - step, each.family_parameters))) /
                            (2 * step);
-      EXPECT_NEAR(std::exp(log_response_value(each.family, {Censoring::none, y}, each.slots)),
-                  slope, 1e-7 * slope);
+      EXPECT_NEAR(
+          std::exp(log_response_value(each.family, {Censoring::none, y}, each.family_parameters)),
+          slope, 1e-7 * slope);
     }
   }
 }
@@ -160,10 +163,11 @@ TEST(Response, ExtremeParametersAreNoExceptions) {
   for (const Case& each : cases()) {
     for (const double a : extremes) {
       for (const double b : extremes) {
-        const double slots[] = {a, b, each.slots[2], each.slots[3]};
+        const double family_parameters[] = {a, b, each.family_parameters[2],
+                                            each.family_parameters[3]};
         for (const double y : {1e-300, each.at[1], 1e300}) {
           for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
-            ASSERT_NO_THROW(log_response(each.family, {seen, y}, slots))
+            ASSERT_NO_THROW(log_response(each.family, {seen, y}, family_parameters))
                 << static_cast<int>(each.family) << " " << a << " " << b << " " << y;
           }
         }
@@ -193,13 +197,15 @@ TEST(ResponseBlock, AgreesWithSingleRows) {
       if (censored) rows[2].seen = Censoring::right;
       const ResponseColumn column(rows);
       EXPECT_EQ(column.plain, !censored);
-      const double first[] = {each.slots[0], each.slots[0]};
-      const std::vector<ParameterValues> slots = {
-          {first, false}, {&each.slots[1], true}, {&each.slots[2], true}, {&each.slots[3], true}};
+      const double first[] = {each.family_parameters[0], each.family_parameters[0]};
+      const std::vector<ParameterValues> family_parameters = {{first, false},
+                                                              {&each.family_parameters[1], true},
+                                                              {&each.family_parameters[2], true},
+                                                              {&each.family_parameters[3], true}};
       double value[2], slope[8];
-      log_responses(each.family, column, 1, slots, value, slope);
+      log_responses(each.family, column, 1, family_parameters, value, slope);
       for (std::size_t i = 0; i < 2; ++i) {
-        const ResponseTerm term = log_response(each.family, rows[i + 1], each.slots);
+        const ResponseTerm term = log_response(each.family, rows[i + 1], each.family_parameters);
         EXPECT_NEAR(value[i], term.value, 1e-13 * std::abs(term.value) + 1e-13);
         for (std::size_t s = 0; s < 2; ++s) {
           EXPECT_NEAR(slope[s * 2 + i], term.slope[s], 1e-11 * std::abs(term.slope[s]) + 1e-13);

@@ -295,7 +295,7 @@ limit = "100 mm^3"
                  "\nsigma = { distribution = \"flat\", unit = \"mm^3\" }\n");
   };
   // One family after the other, of depths that grow with time; what a law does not use is refused.
-  const auto formula_model = [](const std::string& family, const std::string& slots,
+  const auto formula_model = [](const std::string& family, const std::string& family_parameters,
                                 const std::string& more) {
     std::string priors;
     const std::pair<const char*, const char*> all_priors[] = {
@@ -306,8 +306,9 @@ limit = "100 mm^3"
         {"r", "{ distribution = \"half-normal\", scale = \"5 um\" }"},
         {"u", "{ distribution = \"uniform\", lower = -1, upper = 1 }"}};
     for (const auto& [name, prior] : all_priors) {
-      const bool used = std::string("ab").find(name) != std::string::npos ||
-                        (slots + more).find(fmt::format("\"{}\"", name)) != std::string::npos;
+      const bool used =
+          std::string("ab").find(name) != std::string::npos ||
+          (family_parameters + more).find(fmt::format("\"{}\"", name)) != std::string::npos;
       if (used) priors += fmt::format("{} = {}\n", name, prior);
     }
     return fmt::format(R"toml(model = "formula"
@@ -322,7 +323,7 @@ family = "{}"
 {}
 [prior]
 {}{})toml",
-                       family, slots, priors, more);
+                       family, family_parameters, priors, more);
   };
   static const std::vector<std::pair<const char*, std::string>> all = {
       {"archard-joint", joint("[prior]\nk = { distribution = \"flat\", unit = \"mm^3/(N m)\" "

@@ -58,10 +58,10 @@ class PriorReader {
     const ResponseForm& form = stated_form(distribution);
     refuse_form(form);
     Family family{form.family};
-    for (std::size_t i = 0; i < form.slots.size(); ++i) {
-      const std::string key(form.slots[i].name);
-      if (form.slots[i].optional && !table_.has(key)) continue;
-      family.parameter[i] = parameter(key.c_str(), form.slots[i].kind);
+    for (std::size_t i = 0; i < form.family_parameters.size(); ++i) {
+      const std::string key(form.family_parameters[i].name);
+      if (form.family_parameters[i].optional && !table_.has(key)) continue;
+      family.parameter[i] = parameter(key.c_str(), form.family_parameters[i].kind);
     }
     return family;
   }
@@ -88,9 +88,9 @@ class PriorReader {
     std::ptrdiff_t most = -1;
     for (const ResponseForm& form : prior_forms()) {
       if (form.name != distribution) continue;
-      const std::ptrdiff_t given =
-          std::count_if(form.slots.begin(), form.slots.end(),
-                        [&](const ParameterForm& slot) { return has(slot.name); });
+      const std::ptrdiff_t given = std::count_if(
+          form.family_parameters.begin(), form.family_parameters.end(),
+          [&](const ParameterForm& family_parameter) { return has(family_parameter.name); });
       if (given >= most) nearest = &form;
       most = std::max(most, given);
     }
@@ -116,11 +116,11 @@ class PriorReader {
 
   // For a logarithm, scale parameters are plain numbers.
   double parameter(const char* key, ParameterKind kind) {
-    const bool dimensional =
-        kind == ParameterKind::place || (kind == ParameterKind::size && !is_logarithm(spec_.si));
+    const bool dimensional = kind == ParameterKind::location ||
+                             (kind == ParameterKind::scale && !is_logarithm(spec_.si));
     const double value = dimensional ? keep(key, table_.required_quantity(key, spec_.si))
                                      : table_.required_quantity(key, "1").si();
-    const bool positive = kind == ParameterKind::size || kind == ParameterKind::number;
+    const bool positive = kind == ParameterKind::scale || kind == ParameterKind::number;
     if (positive && !(value > 0)) table_.fail(key, "must be positive");
     return value;
   }
@@ -260,7 +260,8 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   PriorReader reader(*table, spec);
   const Family family = reader.family(*distribution);
   const ResponseForm& form = form_of(family.id);
-  const bool shifted = form.slots.size() > 0 && form.slots.back().name == "threshold";
+  const bool shifted =
+      form.family_parameters.size() > 0 && form.family_parameters.back().name == "threshold";
   const double least = form.positive && !shifted ? 0 : -std::numeric_limits<double>::infinity();
   const double lower = std::max(least, reader.bound("lower", least));
   const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());

@@ -15,15 +15,15 @@ namespace {
 std::vector<const ResponseForm*> forms_of(std::string_view name) {
   std::vector<const ResponseForm*> found;
   for (const ResponseForm& form : prior_forms()) {
-    const bool shifted = !form.slots.empty() && form.slots.back().optional;
+    const bool shifted = !form.family_parameters.empty() && form.family_parameters.back().optional;
     if (form.name == name && !shifted) found.push_back(&form);
   }
   return found;
 }
 
-bool has_slot(const ResponseForm& form, std::string_view slot) {
-  return std::any_of(form.slots.begin(), form.slots.end(),
-                     [&](const ParameterForm& each) { return each.name == slot; });
+bool has_parameter(const ResponseForm& form, std::string_view family_parameter) {
+  return std::any_of(form.family_parameters.begin(), form.family_parameters.end(),
+                     [&](const ParameterForm& each) { return each.name == family_parameter; });
 }
 
 void add_new(std::vector<std::string>& conditions, const std::string& each) {
@@ -33,27 +33,29 @@ void add_new(std::vector<std::string>& conditions, const std::string& each) {
 
 // When a distribution needs the parameter: for the first of two parameter forms if another of its
 // parameters is given, else for the last.
-void add_conditions(std::string_view distribution, const ParameterForm& slot, StudyKey& key) {
+void add_conditions(std::string_view distribution, const ParameterForm& family_parameter,
+                    StudyKey& key) {
   const std::vector<const ResponseForm*> forms = forms_of(distribution);
   const ResponseForm &first = *forms.front(), &last = *forms.back();
-  if (has_slot(last, slot.name)) {
+  if (has_parameter(last, family_parameter.name)) {
     add_new(key.when, fmt::format(".distribution={}", distribution));
     if (forms.size() == 1) return;
-    for (const ParameterForm& each : first.slots)
+    for (const ParameterForm& each : first.family_parameters)
       add_new(key.unless, fmt::format(".{}", each.name));
     return;
   }
-  for (const ParameterForm& each : first.slots) {
-    if (each.name == slot.name) continue;
+  for (const ParameterForm& each : first.family_parameters) {
+    if (each.name == family_parameter.name) continue;
     add_new(key.when, fmt::format(".{}", each.name));
     for (const ResponseForm& other : prior_forms()) {
-      if (other.name != distribution && has_slot(other, each.name) && !has_slot(other, slot.name))
+      if (other.name != distribution && has_parameter(other, each.name) &&
+          !has_parameter(other, family_parameter.name))
         add_new(key.unless, fmt::format(".distribution={}", other.name));
     }
   }
 }
 
-StudyKey key_of(const ParameterForm& slot) {
+StudyKey key_of(const ParameterForm& family_parameter) {
   static const std::map<std::string_view, const char*> examples = {{"sd", "\"2 mm^3\""},
                                                                    {"threshold", "\"1 mm^3\""},
                                                                    {"log_sd", "0.5"},
@@ -67,22 +69,24 @@ StudyKey key_of(const ParameterForm& slot) {
       {"alpha", "first shape"},
       {"beta", "second shape"},
       {"threshold", "value at which the distribution begins"}};
-  const auto given = examples.find(slot.name);
-  const bool dimensional = slot.kind == ParameterKind::place || slot.kind == ParameterKind::size;
-  const auto meaning = meanings.find(slot.name);
+  const auto given = examples.find(family_parameter.name);
+  const bool dimensional = family_parameter.kind == ParameterKind::location ||
+                           family_parameter.kind == ParameterKind::scale;
+  const auto meaning = meanings.find(family_parameter.name);
   std::vector<std::string> distributions;
   StudyKey key;
   for (const ResponseForm& form : prior_forms()) {
-    if (!has_slot(form, slot.name)) continue;
+    if (!has_parameter(form, family_parameter.name)) continue;
     add_new(distributions, std::string(form.name));
-    if (!slot.optional) add_conditions(form.name, slot, key);
+    if (!family_parameter.optional) add_conditions(form.name, family_parameter, key);
   }
-  key.path = fmt::format("prior.*.{}", slot.name);
+  key.path = fmt::format("prior.*.{}", family_parameter.name);
   key.example = given != examples.end() ? given->second : dimensional ? "\"5 mm^3\"" : "2";
   key.meaning = fmt::format(
-      "{}, of {}", meaning != meanings.end() ? std::string_view(meaning->second) : slot.name,
+      "{}, of {}",
+      meaning != meanings.end() ? std::string_view(meaning->second) : family_parameter.name,
       fmt::join(distributions, ", "));
-  key.needed = !slot.optional;
+  key.needed = !family_parameter.optional;
   return key;
 }
 
@@ -98,8 +102,8 @@ StudyKeys prior_keys() {
                  {".distribution=uniform"})};
   std::set<std::string_view> done;
   for (const ResponseForm& form : prior_forms()) {
-    for (const ParameterForm& slot : form.slots) {
-      if (done.insert(slot.name).second) keys.push_back(key_of(slot));
+    for (const ParameterForm& family_parameter : form.family_parameters) {
+      if (done.insert(family_parameter.name).second) keys.push_back(key_of(family_parameter));
     }
   }
   return keys;

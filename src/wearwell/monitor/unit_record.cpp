@@ -111,7 +111,7 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
     });
   };
   const prognosis::UpdateResult taken =
-      record.state->take({reading.numbers, reading.labels}, history);
+      record.state->update({reading.numbers, reading.labels}, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
   if (taken.problem.empty() && reading.time_ms > reading.received_ms + hour_ms)

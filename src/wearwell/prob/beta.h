@@ -13,7 +13,8 @@ namespace wearwell::families {
 struct Beta : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "beta";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"alpha", number}, {"beta", number}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"alpha", number}, {"beta", number}});
   static constexpr double upper = 1;
 
   template <class X>

@@ -10,7 +10,8 @@ namespace wearwell::families {
 struct Binomial : OnLine {
   static constexpr bool counted = true;
   static constexpr std::string_view name = "binomial";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"probability", probability}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"probability", probability}});
 
   template <class T>
   static T log_density(double y, const T* s, double trials) {

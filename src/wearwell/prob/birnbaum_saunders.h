@@ -10,7 +10,8 @@ namespace wearwell::families {
 struct BirnbaumSaunders : OnPositive {
   static constexpr std::string_view name = "birnbaum-saunders";
   static constexpr std::string_view title = "Birnbaum-Saunders";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"scale", scale}, {"shape", number}});
   static constexpr StandardDistribution standard = StandardDistribution::normal;
 
   template <class U, class T>

@@ -27,11 +27,12 @@ concept WithTails = requires(const double* c) {
 };
 
 void require(const ResponseForm& form, std::size_t i, double value) {
-  const ParameterForm& slot = form.slots[i];
-  if (families::holds(slot.kind, value)) return;
-  const bool positive = slot.kind == ParameterKind::size || slot.kind == ParameterKind::number;
-  throw InputError(fmt::format("{} distribution: {} is {}, but must be {}", form.name, slot.name,
-                               value, positive ? "positive" : "finite"));
+  const ParameterForm& family_parameter = form.family_parameters[i];
+  if (families::holds(family_parameter.kind, value)) return;
+  const bool positive = family_parameter.kind == ParameterKind::scale ||
+                        family_parameter.kind == ParameterKind::number;
+  throw InputError(fmt::format("{} distribution: {} is {}, but must be {}", form.name,
+                               family_parameter.name, value, positive ? "positive" : "finite"));
 }
 
 // P(lower < X < upper), from the tail without cancellation.
@@ -147,7 +148,8 @@ const Functions& functions(const Distribution& distribution) {
 
 Distribution make_distribution(const Family& family, double lower, double upper) {
   const ResponseForm& form = form_of(family.id);
-  for (std::size_t i = 0; i < form.slots.size(); ++i) require(form, i, family.parameter[i]);
+  for (std::size_t i = 0; i < form.family_parameters.size(); ++i)
+    require(form, i, family.parameter[i]);
   if (!(lower < upper)) {
     throw InputError(fmt::format("lower bound {} is not below upper bound {} (SI)", lower, upper));
   }

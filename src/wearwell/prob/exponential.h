@@ -7,7 +7,7 @@ namespace wearwell::families {
 /// The Weibull distribution of shape 1, and the gamma distribution of shape 1.
 struct Exponential : OnPositive {
   static constexpr std::string_view name = "exponential";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>({{"mean", scale}});
   static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
   static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value};
 

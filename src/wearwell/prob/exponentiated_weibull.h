@@ -12,8 +12,8 @@ namespace wearwell::families {
 struct ExponentiatedWeibull : OnPositive {
   static constexpr std::string_view name = "exponentiated-weibull";
   static constexpr std::string_view title = "exponentiated Weibull";
-  static constexpr auto slots =
-      std::to_array<ParameterForm>({{"scale", size}, {"shape", number}, {"exponent", number}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"scale", scale}, {"shape", number}, {"exponent", number}});
   static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value, false};
 
   template <class Y, class T>

@@ -10,7 +10,7 @@
 #include "wearwell/prob/standard_distribution.h"
 
 /// The definition of a family: a struct with static members in its own file, and a line in
-/// families.h. `s` are its parameters, in the order of `slots`; functions are templates over the
+/// families.h. `s` are its parameters, in the order of `family_parameters`; functions are templates over the
 /// scalars of the observation and of the parameters (double or Dual).
 ///
 ///   name, slots       as studies have them

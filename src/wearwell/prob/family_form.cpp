@@ -19,10 +19,10 @@ ResponseForm make_form(std::size_t i) {
                     Own::title,
                     Own::paper,
                     Own::c_density};
-  form.slots.assign(Own::slots.begin(), Own::slots.end());
+  form.family_parameters.assign(Own::family_parameters.begin(), Own::family_parameters.end());
   if (form.title.empty()) form.title = form.name;
   if constexpr (families::Thresholded<F>) {
-    form.slots.push_back({"threshold", ParameterKind::place, true});
+    form.family_parameters.push_back({"threshold", ParameterKind::location, true});
     form.paper.straight = false;
     form.c_density = nullptr;
   }

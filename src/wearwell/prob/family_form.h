@@ -35,10 +35,10 @@ enum class ResponseFamily {
   jeffreys,
 };
 
-/// The kind of a family's parameter (slot).
+/// The kind of a family's parameter.
 enum class ParameterKind {
-  place,        ///< a value of the observed quantity
-  size,         ///< a positive scale of the same dimension
+  location,     ///< a value of the observed quantity
+  scale,        ///< a positive scale of the same dimension
   number,       ///< a pure number, positive
   real,         ///< a pure number of either sign
   probability,  ///< a pure number, 0 to 1
@@ -64,7 +64,7 @@ struct Paper {
 struct ResponseForm {
   std::string_view name;
   ResponseFamily family;
-  std::vector<ParameterForm> slots;
+  std::vector<ParameterForm> family_parameters;
   bool positive = false;  ///< observations are positive
   bool counted = false;   ///< a count; no censoring, not a prior
   bool prior_only = false;
@@ -95,10 +95,10 @@ const ResponseForm* given_form(std::span<const ResponseForm> forms, std::string_
     if (form.name != name) continue;
     std::size_t given = 0;
     bool lacks = false;
-    for (const ParameterForm& slot : form.slots) {
-      const bool is_given = has(slot.name);
+    for (const ParameterForm& family_parameter : form.family_parameters) {
+      const bool is_given = has(family_parameter.name);
       given += is_given ? 1 : 0;
-      lacks = lacks || !(is_given || slot.optional);
+      lacks = lacks || !(is_given || family_parameter.optional);
     }
     if (lacks || (found && given <= most)) continue;
     found = &form;

@@ -14,7 +14,7 @@ namespace wearwell::families {
 template <class F>
 struct WithThreshold {
   using Base = F;
-  static constexpr std::size_t threshold = F::slots.size();
+  static constexpr std::size_t threshold = F::family_parameters.size();
 };
 
 template <class F>
@@ -38,17 +38,17 @@ template <class F>
 using Base = typename BaseOf<F>::type;
 
 template <class F>
-constexpr std::size_t slot_count() {
+constexpr std::size_t parameter_count() {
   if constexpr (Thresholded<F>) {
     return F::threshold + 1;
   } else {
-    return F::slots.size();
+    return F::family_parameters.size();
   }
 }
 
 inline bool holds(ParameterKind kind, double x) {
   switch (kind) {
-    case ParameterKind::size:
+    case ParameterKind::scale:
     case ParameterKind::number:
       return x > 0 && x < infinity;
     case ParameterKind::probability:
@@ -66,8 +66,8 @@ bool allowed(const T* s) {
   } else if constexpr (Thresholded<F>) {
     return allowed<typename F::Base>(s) && std::isfinite(scalar(s[F::threshold]));
   } else {
-    for (std::size_t i = 0; i < F::slots.size(); ++i)
-      if (!holds(F::slots[i].kind, scalar(s[i]))) return false;
+    for (std::size_t i = 0; i < F::family_parameters.size(); ++i)
+      if (!holds(F::family_parameters[i].kind, scalar(s[i]))) return false;
     return true;
   }
 }

@@ -10,7 +10,7 @@ struct Flat : OnLine {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "flat";
   static constexpr std::string_view title = "flat (no prior knowledge)";
-  static constexpr std::array<ParameterForm, 0> slots = {};
+  static constexpr std::array<ParameterForm, 0> family_parameters = {};
 
   template <class X>
   static X log_kernel(const X&, const double*) {

@@ -13,7 +13,8 @@ namespace wearwell::families {
 /// Density proportional to y^(shape-1) exp(-y/scale).
 struct Gamma : OnPositive {
   static constexpr std::string_view name = "gamma";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"shape", number}, {"scale", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"shape", number}, {"scale", scale}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {

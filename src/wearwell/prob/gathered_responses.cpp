@@ -89,9 +89,10 @@ std::vector<WeightedResponse> gathered_responses(std::span<const Response> respo
 
 bool can_be_gathered(const ResponseForm& form) {
   if (form.counted) return false;
-  return std::none_of(form.slots.begin(), form.slots.end(), [&](const ParameterForm& slot) {
-    return form.positive && slot.kind == ParameterKind::place;
-  });
+  return std::none_of(form.family_parameters.begin(), form.family_parameters.end(),
+                      [&](const ParameterForm& family_parameter) {
+                        return form.positive && family_parameter.kind == ParameterKind::location;
+                      });
 }
 
 }  // namespace wearwell

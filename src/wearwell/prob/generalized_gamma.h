@@ -71,8 +71,8 @@ R temme_sum(const R& eta, const R& w) {
 struct GeneralizedGamma : OnPositive {
   static constexpr std::string_view name = "generalized-gamma";
   static constexpr std::string_view title = "generalized gamma";
-  static constexpr auto slots =
-      std::to_array<ParameterForm>({{"scale", size}, {"sigma", number}, {"lambda", real}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"scale", scale}, {"sigma", number}, {"lambda", real}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {

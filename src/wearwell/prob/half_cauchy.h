@@ -9,7 +9,7 @@ struct HalfCauchy : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "half-cauchy";
   static constexpr std::string_view title = "half-Cauchy";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>({{"scale", scale}});
 
   static std::array<double, most_response_parameters> prepared(const double* s) {
     return {1, 0, s[0]};

@@ -8,7 +8,7 @@ namespace wearwell::families {
 struct HalfNormal : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "half-normal";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>({{"scale", scale}});
 
   template <class X>
   static X log_kernel(const X& x, const double* s) {

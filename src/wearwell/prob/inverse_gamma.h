@@ -14,7 +14,8 @@ struct InverseGamma : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "inverse-gamma";
   static constexpr std::string_view title = "inverse gamma";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"shape", number}, {"scale", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"shape", number}, {"scale", scale}});
 
   template <class X>
   static X log_kernel(const X& x, const double* s) {

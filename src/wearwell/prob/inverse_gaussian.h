@@ -10,7 +10,8 @@ namespace wearwell::families {
 struct InverseGaussian : OnPositive {
   static constexpr std::string_view name = "inverse-gaussian";
   static constexpr std::string_view title = "inverse Gaussian";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}, {"shape", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"mean", scale}, {"shape", scale}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {

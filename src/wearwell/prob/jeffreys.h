@@ -10,7 +10,7 @@ struct Jeffreys : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "jeffreys";
   static constexpr std::string_view title = "1/x (unknown order of magnitude)";
-  static constexpr std::array<ParameterForm, 0> slots = {};
+  static constexpr std::array<ParameterForm, 0> family_parameters = {};
 
   template <class X>
   static X log_kernel(const X& x, const double*) {

@@ -7,7 +7,8 @@ namespace wearwell::families {
 /// The logarithm has the logistic distribution; the scale is the median.
 struct Loglogistic : OnPositive {
   static constexpr std::string_view name = "loglogistic";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"scale", scale}, {"shape", number}});
   static constexpr StandardDistribution standard = StandardDistribution::logistic;
   static constexpr Paper paper = {"loglogistic", StandardDistribution::logistic};
 

@@ -59,8 +59,8 @@ struct OfNormalLogarithm : OnPositive {
 };
 
 struct Lognormal : OfNormalLogarithm {
-  static constexpr auto slots = std::to_array<ParameterForm>(
-      {{"median", size}, {"log_sd", number, false, "sd of the logarithm {}"}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>(
+      {{"median", scale}, {"log_sd", number, false, "sd of the logarithm {}"}});
   static constexpr const char* c_density =
       "    const double z = (log(y) - log(a)) / b;\n"
       "    value = a > 0 && b > 0 && y > 0\n"
@@ -90,7 +90,8 @@ struct Lognormal : OfNormalLogarithm {
 
 /// By mean and standard deviation of the quantity itself.
 struct LognormalOfMoments : OfNormalLogarithm {
-  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}, {"sd", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"mean", scale}, {"sd", scale}});
   static constexpr const char* c_density =
       "    const double s2 = log1p((b / a) * (b / a)), s = sqrt(s2);\n"
       "    const double z = (log(y) - log(a) + 0.5 * s2) / s;\n"
@@ -125,8 +126,8 @@ struct LognormalOfMoments : OfNormalLogarithm {
 /// By the median and the standard deviation of the decimal logarithm.
 struct Log10Normal : OfNormalLogarithm {
   static constexpr std::string_view name = "log10-normal";
-  static constexpr auto slots = std::to_array<ParameterForm>(
-      {{"median", size}, {"log10_sd", number, false, "sd of the decimal logarithm {}"}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>(
+      {{"median", scale}, {"log10_sd", number, false, "sd of the decimal logarithm {}"}});
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {

@@ -20,7 +20,8 @@ namespace families {
 
 struct Normal : OnLine {
   static constexpr std::string_view name = "normal";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", place}, {"sd", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"mean", location}, {"sd", scale}});
   static constexpr StandardDistribution standard = StandardDistribution::normal;
   static constexpr Paper paper = {"normal", StandardDistribution::normal};
   static constexpr const char* c_density =

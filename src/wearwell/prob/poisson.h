@@ -10,7 +10,7 @@ namespace wearwell::families {
 struct Poisson : OnLine {
   static constexpr bool counted = true;
   static constexpr std::string_view name = "poisson";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>({{"mean", scale}});
 
   static bool allows(double mean) { return mean >= 0 && std::isfinite(mean); }
   template <class T>

@@ -73,42 +73,43 @@ double counted_cdf(double y, const double* s, double trials) {
 // The functions of a family, with uniform signatures.
 template <class F>
 struct Of {
-  static ResponseTerm term(const Response& response, const double* slots) {
-    constexpr int n = static_cast<int>(slot_count<F>());
+  static ResponseTerm term(const Response& response, const double* family_parameters) {
+    constexpr int n = static_cast<int>(parameter_count<F>());
     Dual<n> seeded[n];
-    for (int i = 0; i < n; ++i) seeded[i] = Dual<n>(slots[i], i);
+    for (int i = 0; i < n; ++i) seeded[i] = Dual<n>(family_parameters[i], i);
     const Dual<n> y = log_response_of<F>(response, static_cast<const Dual<n>*>(seeded));
     ResponseTerm term{y.a, {}};
     for (int i = 0; i < n; ++i) term.slope[i] = y.v[i];
     return term;
   }
-  static double value(const Response& response, const double* slots) {
-    return log_response_of<F>(response, slots);
+  static double value(const Response& response, const double* family_parameters) {
+    return log_response_of<F>(response, family_parameters);
   }
-  static double log_cdf(double y, const double* slots, double trials) {
-    if (!allowed<F>(slots)) return std::nan("");
+  static double log_cdf(double y, const double* family_parameters, double trials) {
+    if (!allowed<F>(family_parameters)) return std::nan("");
     if constexpr (Base<F>::counted) {
-      return std::log(counted_cdf<F>(y, slots, trials));
+      return std::log(counted_cdf<F>(y, family_parameters, trials));
     } else {
-      return log_cdf_anywhere<F>(y, slots);
+      return log_cdf_anywhere<F>(y, family_parameters);
     }
   }
-  static double log_survival(double y, const double* slots, double trials) {
-    if (!allowed<F>(slots)) return std::nan("");
+  static double log_survival(double y, const double* family_parameters, double trials) {
+    if (!allowed<F>(family_parameters)) return std::nan("");
     if constexpr (Base<F>::counted) {
-      return std::log1p(-counted_cdf<F>(y, slots, trials));
+      return std::log1p(-counted_cdf<F>(y, family_parameters, trials));
     } else {
-      return log_survival_anywhere<F>(y, slots);
+      return log_survival_anywhere<F>(y, family_parameters);
     }
   }
-  static double quantile(double p, const double* slots) {
+  static double quantile(double p, const double* family_parameters) {
     if constexpr (Base<F>::counted) {
       return std::nan("");
     } else {
-      return allowed<F>(slots) ? families::quantile<F>(p, slots) : std::nan("");
+      return allowed<F>(family_parameters) ? families::quantile<F>(p, family_parameters)
+                                           : std::nan("");
     }
   }
-  static double center(const double* slots) { return mean<F>(slots); }
+  static double center(const double* family_parameters) { return mean<F>(family_parameters); }
 };
 
 struct Functions {
@@ -137,28 +138,31 @@ const Functions& functions(ResponseFamily family) {
 
 }  // namespace
 
-ResponseTerm log_response(ResponseFamily family, const Response& response, const double* slots) {
-  return functions(family).term(response, slots);
+ResponseTerm log_response(ResponseFamily family, const Response& response,
+                          const double* family_parameters) {
+  return functions(family).term(response, family_parameters);
 }
 
-double log_response_value(ResponseFamily family, const Response& response, const double* slots) {
-  return functions(family).value(response, slots);
+double log_response_value(ResponseFamily family, const Response& response,
+                          const double* family_parameters) {
+  return functions(family).value(response, family_parameters);
 }
 
-double log_cdf(ResponseFamily family, double y, const double* slots, double trials) {
-  return functions(family).log_cdf(y, slots, trials);
+double log_cdf(ResponseFamily family, double y, const double* family_parameters, double trials) {
+  return functions(family).log_cdf(y, family_parameters, trials);
 }
 
-double log_survival(ResponseFamily family, double y, const double* slots, double trials) {
-  return functions(family).log_survival(y, slots, trials);
+double log_survival(ResponseFamily family, double y, const double* family_parameters,
+                    double trials) {
+  return functions(family).log_survival(y, family_parameters, trials);
 }
 
-double quantile(ResponseFamily family, double p, const double* slots) {
-  return functions(family).quantile(p, slots);
+double quantile(ResponseFamily family, double p, const double* family_parameters) {
+  return functions(family).quantile(p, family_parameters);
 }
 
-double center(ResponseFamily family, const double* slots) {
-  return functions(family).center(slots);
+double center(ResponseFamily family, const double* family_parameters) {
+  return functions(family).center(family_parameters);
 }
 
 }  // namespace wearwell

@@ -8,27 +8,28 @@ namespace wearwell {
 namespace {
 
 using Rows = void (*)(const ResponseColumn&, std::size_t begin,
-                      std::span<const ParameterValues> slots, std::span<double> value,
+                      std::span<const ParameterValues> family_parameters, std::span<double> value,
                       std::span<double> slope);
 
 // For a row with an invalid slot.
-void refuse(std::size_t i, std::size_t slots, std::span<double> value, std::span<double> slope) {
+void refuse(std::size_t i, std::size_t family_parameters, std::span<double> value,
+            std::span<double> slope) {
   const std::size_t n = value.size();
   value[i] = -infinity;
-  for (std::size_t s = 0; s < (slope.empty() ? 0 : slots); ++s) slope[s * n + i] = 0;
+  for (std::size_t s = 0; s < (slope.empty() ? 0 : family_parameters); ++s) slope[s * n + i] = 0;
 }
 
 // Exact observations of a family of two slots, by its row formula.
 template <class F, bool sloped>
 void exact_rows(const ResponseColumn& column, std::size_t begin,
-                std::span<const ParameterValues> slots, std::span<double> value,
+                std::span<const ParameterValues> family_parameters, std::span<double> value,
                 std::span<double> slope) {
   const std::size_t n = value.size();
   const double* at = (F::positive ? column.log_at : column.at).data() + begin;
   for (std::size_t i = 0; i < n; ++i) {
-    const double s[] = {slots[0][i], slots[1][i]};
+    const double s[] = {family_parameters[0][i], family_parameters[1][i]};
     if (!families::allowed<F>(s)) {
-      refuse(i, slots.size(), value, slope);
+      refuse(i, family_parameters.size(), value, slope);
       continue;
     }
     const families::Row row = F::template row<sloped>(at[i], s);
@@ -70,29 +71,29 @@ ResponseColumn::ResponseColumn(std::vector<Response> responses) : rows(std::move
 }
 
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
-                   std::span<const ParameterValues> slots, std::span<double> value,
+                   std::span<const ParameterValues> family_parameters, std::span<double> value,
                    std::span<double> slope) {
   const std::size_t n = value.size();
   const bool sloped = !slope.empty();
   const Exact& exact = table[static_cast<std::size_t>(family)];
   const bool logs = column.log_at.size() == column.rows.size();
   if (exact.value && column.plain && (logs || !form_of(family).positive)) {
-    return (sloped ? exact.sloped : exact.value)(column, begin, slots, value, slope);
+    return (sloped ? exact.sloped : exact.value)(column, begin, family_parameters, value, slope);
   }
   double s[most_response_parameters] = {};
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < slots.size(); ++k) s[k] = slots[k][i];
+    for (std::size_t k = 0; k < family_parameters.size(); ++k) s[k] = family_parameters[k][i];
     if (!sloped) {
       value[i] = log_response_value(family, column.rows[begin + i], s);
       continue;
     }
     const ResponseTerm term = log_response(family, column.rows[begin + i], s);
     if (!(term.value > -infinity)) {
-      refuse(i, slots.size(), value, slope);
+      refuse(i, family_parameters.size(), value, slope);
       continue;
     }
     value[i] = term.value;
-    for (std::size_t k = 0; k < slots.size(); ++k) slope[k * n + i] = term.slope[k];
+    for (std::size_t k = 0; k < family_parameters.size(); ++k) slope[k * n + i] = term.slope[k];
   }
 }
 

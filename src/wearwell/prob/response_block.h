@@ -26,10 +26,10 @@ struct ResponseColumn {
 };
 
 /// `log_response` of rows begin .. begin + value.size() - 1 under the slots of these rows; with
-/// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. `slots` has at least those of
+/// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. `family_parameters` has at least those of
 /// the family; further entries are ignored.
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
-                   std::span<const ParameterValues> slots, std::span<double> value,
+                   std::span<const ParameterValues> family_parameters, std::span<double> value,
                    std::span<double> slope);
 
 }  // namespace wearwell

@@ -8,8 +8,8 @@ namespace wearwell::families {
 struct SmallestExtremeValue : OnLine {
   static constexpr std::string_view name = "smallest-extreme-value";
   static constexpr std::string_view title = "smallest extreme value";
-  static constexpr auto slots =
-      std::to_array<ParameterForm>({{"location", place}, {"scale", size}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"location", location}, {"scale", scale}});
   static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
   static constexpr Paper paper = {"smallest-extreme-value",
                                   StandardDistribution::smallest_extreme_value};

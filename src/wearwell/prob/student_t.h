@@ -62,8 +62,8 @@ Dual<N> log_survival(const Dual<N>& df, const Dual<N>& t) {
 struct StudentT : OnLine {
   static constexpr std::string_view name = "student-t";
   static constexpr std::string_view title = "Student t";
-  static constexpr auto slots = std::to_array<ParameterForm>(
-      {{"df", number, false, "{} degrees of freedom"}, {"location", place}, {"scale", size}});
+  static constexpr auto family_parameters = std::to_array<ParameterForm>(
+      {{"df", number, false, "{} degrees of freedom"}, {"location", location}, {"scale", scale}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {

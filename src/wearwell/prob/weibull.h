@@ -7,7 +7,8 @@ namespace wearwell::families {
 /// P(Y > y) = exp(-(y/scale)^shape): the logarithm has the smallest extreme value distribution.
 struct Weibull : OnPositive {
   static constexpr std::string_view name = "weibull";
-  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr auto family_parameters =
+      std::to_array<ParameterForm>({{"scale", scale}, {"shape", number}});
   static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
   static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value};
 

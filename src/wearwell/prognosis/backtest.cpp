@@ -153,7 +153,7 @@ Backtest backtest(const Tracker& tracker, const Table& readings,
       ++result.repeated;
       continue;
     }
-    const UpdateResult taken = followed.unit->take(reading, [&](const auto& visit) {
+    const UpdateResult taken = followed.unit->update(reading, [&](const auto& visit) {
       for (const Reading& each : followed.history) visit(each);
     });
     if (!taken.counted) {

@@ -38,7 +38,7 @@ class Asked {
     auto unit = tracker_.restore(saved_);
     Reading reading = reading_;
     reading.numbers[column_] = value;
-    const UpdateResult taken = unit->take(reading, history_);
+    const UpdateResult taken = unit->update(reading, history_);
     if (!taken.problem.empty() || !taken.counted)
       throw InputError(
           fmt::format("this unit does not accept the next reading: {}",

@@ -39,11 +39,11 @@ class NodeUnit final : public TrackedUnit {
     unit_ = unit;
     refusal_ = model_->refusal(unit_);
   }
-  bool lay(std::vector<Reading> all);
+  bool rebuild(std::vector<Reading> all);
   bool is_refused() const { return !refusal_.empty(); }
   Eigen::Index columns() const { return nodes_.values.cols(); }
 
-  UpdateResult take(const Reading& reading, const History& history) override;
+  UpdateResult update(const Reading& reading, const History& history) override;
   Forecast forecast() const override;
   std::vector<ForecastBand> ahead(std::span<const double> places) const override;
   std::size_t readings() const override { return readings_; }
@@ -58,7 +58,7 @@ class NodeUnit final : public TrackedUnit {
   std::optional<DegradationPath> degradation_path() const {
     return model_->degradation_path(unit_, last_.numbers.empty() ? nullptr : &last_);
   }
-  bool lay_with(const Reading& reading, const History& history);
+  bool rebuild_with(const Reading& reading, const History& history);
   void weigh();
   double p_value(const NodeReading& reading_at) const;
 
@@ -90,13 +90,13 @@ void NodeUnit::weigh() {
 }
 
 // False, with nothing changed, if no node passes through all of them.
-bool NodeUnit::lay(std::vector<Reading> all) {
+bool NodeUnit::rebuild(std::vector<Reading> all) {
   const auto before = [&](const Reading& a, const Reading& b) {
     return std::pair(place(a), std::tie(a.numbers, a.labels)) <
            std::pair(place(b), std::tie(b.numbers, b.labels));
   };
   std::sort(all.begin(), all.end(), before);
-  NodeCloud laid = model_->lay(unit_, all);
+  NodeCloud laid = model_->rebuild(unit_, all);
   if (!std::any_of(laid.log_weight.begin(), laid.log_weight.end(), carries)) return false;
   // Single precision, as states are saved.
   nodes_.values = laid.values.cast<float>().cast<double>();
@@ -108,13 +108,13 @@ bool NodeUnit::lay(std::vector<Reading> all) {
   return true;
 }
 
-bool NodeUnit::lay_with(const Reading& reading, const History& history) {
+bool NodeUnit::rebuild_with(const Reading& reading, const History& history) {
   std::vector<Reading> all;
   history([&](const Reading& each) {
     if (model_->problem(each).empty()) all.push_back(each);
   });
   all.push_back(reading);
-  return lay(std::move(all));
+  return rebuild(std::move(all));
 }
 
 // Two-sided, from a subset of representative nodes where that is accurate enough.
@@ -142,7 +142,7 @@ double NodeUnit::p_value(const NodeReading& reading_at) const {
   return std::clamp(2 * std::min(lower, upper), 0.0, 1.0);
 }
 
-UpdateResult NodeUnit::take(const Reading& reading, const History& history) {
+UpdateResult NodeUnit::update(const Reading& reading, const History& history) {
   UpdateResult taken;
   if (reading.numbers.size() != model_->columns.size() ||
       reading.labels.size() != model_->labels.size())
@@ -165,8 +165,8 @@ UpdateResult NodeUnit::take(const Reading& reading, const History& history) {
     std::swap(nodes_.log_weight, after);
     weigh();
     if (last_.numbers.empty() || place(reading) >= place(last_)) last_ = reading;
-    if (effective_ < least_effective * laid_effective_) lay_with(reading, history);
-  } else if (!lay_with(reading, history)) {
+    if (effective_ < least_effective * laid_effective_) rebuild_with(reading, history);
+  } else if (!rebuild_with(reading, history)) {
     taken.problem = "no unit of the population can show this after its earlier readings";
     return taken;
   }
@@ -282,7 +282,7 @@ class NodeTracker final : public Tracker {
   explicit NodeTracker(NodeModel model)
       : model_(std::make_shared<const NodeModel>(std::move(model))), fresh_(model_, "") {
     NodeUnit first(model_, model_->seen.empty() ? "" : model_->seen.front());
-    if (!first.lay({}) || (!fresh_.is_refused() && !fresh_.lay({})))
+    if (!first.rebuild({}) || (!fresh_.is_refused() && !fresh_.rebuild({})))
       throw InputError(
           "the saved posterior gives the units of its study weight zero: it is damaged");
     columns_ = first.columns();
@@ -304,7 +304,7 @@ class NodeTracker final : public Tracker {
     const bool own = fresh_.is_refused() || std::ranges::find(seen(), unit) != seen().end();
     auto begun = std::make_unique<NodeUnit>(own ? NodeUnit(model_, unit) : fresh_);
     begun->rename(unit);
-    if (own && !begun->is_refused()) begun->lay({});
+    if (own && !begun->is_refused()) begun->rebuild({});
     return begun;
   }
 

@@ -52,7 +52,7 @@ struct NodeModel {
   /// Nodes of a unit with these `readings` since the study, along the axis; their weights include
   /// the study's rows and these readings. Empty if no unit can show that. A unit that is not in the
   /// study gets the same nodes for any name.
-  std::function<NodeCloud(const std::string& unit, std::span<const Reading> readings)> lay;
+  std::function<NodeCloud(const std::string& unit, std::span<const Reading> readings)> rebuild;
   /// `last`: its farthest reading since the study; null if there is none. Empty if neither a
   /// reading nor the study determines how the unit continues.
   std::function<std::optional<DegradationPath>(const std::string& unit, const Reading* last)>

@@ -57,7 +57,7 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
     for (std::size_t c = 0; c < reading.numbers.size(); ++c)
       if (tracker.columns()[c].name == tracker.axis().name)
         reading.numbers[c] = to_si(reported, survived);
-    const UpdateResult taken = unit->take(reading, [](const auto&) {});
+    const UpdateResult taken = unit->update(reading, [](const auto&) {});
     if (!taken.problem.empty())
       throw InputError(fmt::format("--survived: {}: {}", printable(life.of), taken.problem));
     life.passed = 1 - taken.p_value;

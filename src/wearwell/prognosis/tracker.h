@@ -86,7 +86,7 @@ class TrackedUnit {
   virtual ~TrackedUnit() = default;
   /// Processes a new reading; the caller detects repeated ones. `history` has all readings taken
   /// before this one.
-  virtual UpdateResult take(const Reading& reading, const History& history) = 0;
+  virtual UpdateResult update(const Reading& reading, const History& history) = 0;
   virtual Forecast forecast() const = 0;
   /// The forecast band at these positions, ascending, none before the unit's present position; a
   /// path that passes the threshold continues. More expensive than a forecast.

@@ -22,16 +22,18 @@ std::string family_text(const Parameter& parameter) {
   const Family& family = parameter.prior.family;
   const ResponseForm& form = form_of(family.id);
   std::string words(form.title);
-  for (std::size_t i = 0; i < form.slots.size(); ++i) {
-    const ParameterForm& slot = form.slots[i];
+  for (std::size_t i = 0; i < form.family_parameters.size(); ++i) {
+    const ParameterForm& family_parameter = form.family_parameters[i];
     const double si = family.parameter[i];
-    const std::string number =
-        slot.kind == ParameterKind::place  ? fmt::format("{:.6g}", from_si(parameter.unit, si))
-        : slot.kind == ParameterKind::size ? fmt::format("{:.6g}", si / parameter.unit.scale)
-                                           : fmt::format("{:.4g}", si);
+    const std::string number = family_parameter.kind == ParameterKind::location
+                                   ? fmt::format("{:.6g}", from_si(parameter.unit, si))
+                               : family_parameter.kind == ParameterKind::scale
+                                   ? fmt::format("{:.6g}", si / parameter.unit.scale)
+                                   : fmt::format("{:.4g}", si);
     words += ", ";
-    words += slot.phrase.empty() ? fmt::format("{} {}", slot.name, number)
-                                 : fmt::format(fmt::runtime(slot.phrase), number);
+    words += family_parameter.phrase.empty()
+                 ? fmt::format("{} {}", family_parameter.name, number)
+                 : fmt::format(fmt::runtime(family_parameter.phrase), number);
   }
   return words;
 }

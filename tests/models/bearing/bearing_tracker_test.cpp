@@ -101,7 +101,7 @@ TEST_P(OfBearing, ReadingsOneByOneAreTheFitOfAll) {
   const std::vector<std::pair<double, double>> shown = {
       {40'000, 15.1}, {80'000, 27.3}, {120'000, 36.0}};
   for (const auto& [revolutions, depth] : shown) {
-    ASSERT_TRUE(bearing.take(numbers(28, revolutions, depth)).counted);
+    ASSERT_TRUE(bearing.update(numbers(28, revolutions, depth)).counted);
     all.push_back({"Z", "28", std::to_string(revolutions), std::to_string(depth)});
     const bool expensive = GetParam() == 1 || GetParam() == 2;
     if (expensive && all.size() < rows.size() + shown.size()) continue;
@@ -123,8 +123,8 @@ TEST(BearingTracker, ALateReadingOfASeenBearing) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
   const TrackedPreset known(study, headings, rows);
   FollowedUnit bearing(*known.tracker, "B");
-  ASSERT_TRUE(bearing.take(numbers(35, 300'000, 60.5)).counted);
-  ASSERT_TRUE(bearing.take(numbers(35, 250'000, 50.2)).counted);
+  ASSERT_TRUE(bearing.update(numbers(35, 300'000, 60.5)).counted);
+  ASSERT_TRUE(bearing.update(numbers(35, 250'000, 50.2)).counted);
   Rows all = rows;
   all.push_back({"B", "35", "250000", "50.2"});
   all.push_back({"B", "35", "300000", "60.5"});
@@ -156,12 +156,13 @@ TEST(BearingTracker, RefusesWhatIsNoReading) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
   const TrackedPreset known(study, headings, rows);
   FollowedUnit bearing(*known.tracker, "Z");
-  EXPECT_THAT(bearing.take({std::nan(""), 1e5, 1e-5}).problem, HasSubstr("clearance is missing"));
-  EXPECT_THAT(bearing.take(numbers(30, -5, 20)).problem, HasSubstr("revolutions must be positive"));
-  EXPECT_THAT(bearing.take(numbers(30, 5e4, 3e4)).problem, HasSubstr("diameter"));
-  EXPECT_THROW(bearing.take({1, 2}), InputError);
-  ASSERT_TRUE(bearing.take(numbers(30, 5e4, 20)).counted);
-  EXPECT_TRUE(bearing.take(numbers(30, 1e5, 400)).contradicts);
+  EXPECT_THAT(bearing.update({std::nan(""), 1e5, 1e-5}).problem, HasSubstr("clearance is missing"));
+  EXPECT_THAT(bearing.update(numbers(30, -5, 20)).problem,
+              HasSubstr("revolutions must be positive"));
+  EXPECT_THAT(bearing.update(numbers(30, 5e4, 3e4)).problem, HasSubstr("diameter"));
+  EXPECT_THROW(bearing.update({1, 2}), InputError);
+  ASSERT_TRUE(bearing.update(numbers(30, 5e4, 20)).counted);
+  EXPECT_TRUE(bearing.update(numbers(30, 1e5, 400)).contradicts);
   EXPECT_THROW(known.tracker->restore("nonsense"), InputError);
   std::string bytes = bearing.unit->save();
   bytes[bytes.size() / 2] ^= 1;

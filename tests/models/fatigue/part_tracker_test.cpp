@@ -117,16 +117,16 @@ TEST(PartTracker, IsTheSumOverAllNodes) {
         seen.unit->forecast(),
         [&](double r) { return ended(law, preset.state.posterior, under(350), 2e6, 2e6, r); },
         2e-3);
-    EXPECT_TRUE(seen.take({3.5e6, none}).counted);
+    EXPECT_TRUE(seen.update({3.5e6, none}).counted);
     expect_same(
         seen.unit->forecast(),
         [&](double r) { return ended(law, preset.state.posterior, under(350), 2e6, 3.5e6, r); },
         2e-3);
     FollowedUnit fresh(*preset.tracker, "new");
     EXPECT_TRUE(std::isnan(fresh.unit->forecast().passed));  // its stress is not known
-    EXPECT_THAT(fresh.take({1e5, none}).problem, HasSubstr("alternating_stress is missing"));
+    EXPECT_THAT(fresh.update({1e5, none}).problem, HasSubstr("alternating_stress is missing"));
     const double chance = 1 - ended(law, preset.state.posterior, under(400), 0, 0, 4e5);
-    EXPECT_NEAR(fresh.take({4e5, 400e6}).p_value, chance, 2e-3);
+    EXPECT_NEAR(fresh.update({4e5, 400e6}).p_value, chance, 2e-3);
     expect_same(
         fresh.unit->forecast(),
         [&](double r) { return ended(law, preset.state.posterior, under(400), 0, 4e5, r); }, 2e-3);
@@ -141,10 +141,10 @@ TEST(PartTracker, ARunoutCountsOnce) {
   others.erase(others.begin() + 7);
   const TrackedPreset without(study, headings, others);
   FollowedUnit known(*whole.tracker, "h"), fresh(*without.tracker, "h");
-  EXPECT_TRUE(fresh.take({2e6, 350e6}).counted);
+  EXPECT_TRUE(fresh.update({2e6, 350e6}).counted);
   for (const double n : {2e6, 3e6, 6e6}) {
-    EXPECT_TRUE(known.take({n, none}).counted);
-    EXPECT_TRUE(fresh.take({n, none}).counted);
+    EXPECT_TRUE(known.update({n, none}).counted);
+    EXPECT_TRUE(fresh.update({n, none}).counted);
     const Forecast a = known.unit->forecast(), b = fresh.unit->forecast();
     for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99})
       EXPECT_NEAR(a.remaining.cdf(b.remaining.quantile(p)), p, 4e-3) << n;
@@ -242,8 +242,8 @@ TEST(StressLives, OfCurvesThatBend) {
 TEST(PartTracker, OrderAndStatesChangeNoBit) {
   const TrackedPreset preset(part_study("", "weibull", line), headings, part_rows);
   FollowedUnit in_order(*preset.tracker, "x"), late(*preset.tracker, "x");
-  for (const double n : {1e5, 2e5, 3e5}) in_order.take({n, 420e6});
-  for (const double n : {3e5, 1e5, 2e5}) EXPECT_TRUE(late.take({n, 420e6}).counted);
+  for (const double n : {1e5, 2e5, 3e5}) in_order.update({n, 420e6});
+  for (const double n : {3e5, 1e5, 2e5}) EXPECT_TRUE(late.update({n, 420e6}).counted);
   const auto restored = preset.tracker->restore(in_order.unit->save());
   for (const auto* other : {late.unit.get(), restored.get()}) {
     EXPECT_EQ(other->save(), in_order.unit->save());
@@ -259,7 +259,7 @@ TEST(PartTracker, OrderAndStatesChangeNoBit) {
 TEST(PartTracker, PopulationsTogetherAreTheForecast) {
   const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
   FollowedUnit seen(*preset.tracker, "i");
-  seen.take({5e6, none});
+  seen.update({5e6, none});
   const Forecast forecast = seen.unit->forecast();
   const auto apart = seen.unit->in_populations([](const auto&) {});
   ASSERT_TRUE(apart);
@@ -280,11 +280,11 @@ TEST(PartTracker, SaysWhatCannotBe) {
   const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
   EXPECT_THAT(preset.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
   FollowedUnit seen(*preset.tracker, "h");
-  EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("but earlier under 350 MPa"));
-  EXPECT_THAT(seen.take({none, 350e6}).problem, HasSubstr("life is missing"));
-  EXPECT_THAT(seen.take({-1, 350e6}).problem, HasSubstr("0 or more"));
+  EXPECT_THAT(seen.update({3e6, 360e6}).problem, HasSubstr("but earlier under 350 MPa"));
+  EXPECT_THAT(seen.update({none, 350e6}).problem, HasSubstr("life is missing"));
+  EXPECT_THAT(seen.update({-1, 350e6}).problem, HasSubstr("0 or more"));
   FollowedUnit fresh(*preset.tracker, "z");
-  EXPECT_TRUE(fresh.take({3e6, 500e6}).contradicts);
+  EXPECT_TRUE(fresh.update({3e6, 500e6}).contradicts);
   const auto life = [&](const std::string& survived) {
     return prognosis::tracked_life(*preset.tracker, "h", {.unit = "h", .survived = survived});
   };

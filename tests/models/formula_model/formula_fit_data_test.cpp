@@ -40,7 +40,8 @@ class FormulaFit : public ScratchTest {
     write("d.csv", text);
   }
 
-  Check fit(const std::string& family = "normal", const std::string& slots = "sd = \"sigma\"",
+  Check fit(const std::string& family = "normal",
+            const std::string& family_parameters = "sd = \"sigma\"",
             bool random_effects = true) const {
     std::string text = fmt::format(R"(
 model = "formula"
@@ -60,7 +61,7 @@ sigma = {{ distribution = "half-normal", scale = 1 }}
 [predict]
 along = "t"
 )",
-                                   family, slots);
+                                   family, family_parameters);
     if (random_effects) {
       text.replace(text.find("[predict]"), 0,
                    R"(scatter = { distribution = "half-normal", scale = 0.5 }

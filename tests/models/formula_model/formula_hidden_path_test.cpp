@@ -155,14 +155,14 @@ TEST_P(HiddenPaths, DerivativesAreThoseOfTheValue) {
   std::vector<double> value(n), slope(most_response_parameters * n);
   process_terms(form_of(GetParam()), unit.rows(), value, slope);
   std::size_t at = 0;
-  for (std::vector<double>* slot : {&unit.mean, &unit.spread, &unit.noise}) {
+  for (std::vector<double>* family_parameter : {&unit.mean, &unit.spread, &unit.noise}) {
     for (std::size_t i = 0; i < n; ++i, ++at) {
-      const double x = (*slot)[i], step = 1e-4 * x;
-      (*slot)[i] = x + step;
+      const double x = (*family_parameter)[i], step = 1e-4 * x;
+      (*family_parameter)[i] = x + step;
       const double above = unit.sum(GetParam());
-      (*slot)[i] = x - step;
+      (*family_parameter)[i] = x - step;
       const double below = unit.sum(GetParam());
-      (*slot)[i] = x;
+      (*family_parameter)[i] = x;
       const double by_difference = (above - below) / (2 * step);
       EXPECT_NEAR(slope[at], by_difference, 1e-5 * std::max(1.0, std::abs(by_difference))) << at;
     }

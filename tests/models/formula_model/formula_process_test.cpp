@@ -19,10 +19,11 @@ namespace wearwell::formula_model {
 namespace {
 
 double sum_at(const ProcessForm& form, const std::vector<double>& y,
-              const std::vector<std::vector<double>>& slots, std::vector<double>* slope = nullptr) {
+              const std::vector<std::vector<double>>& family_parameters,
+              std::vector<double>* slope = nullptr) {
   std::vector<double> value(y.size());
   if (slope) slope->resize(3 * y.size());
-  process_terms(form, {y, slots[0], slots[1], slots[2]}, value,
+  process_terms(form, {y, family_parameters[0], family_parameters[1], family_parameters[2]}, value,
                 slope ? std::span<double>(*slope) : std::span<double>());
   double sum = 0;
   for (const double each : value) sum += each;
@@ -43,19 +44,19 @@ TEST(FormulaProcess, SlopesAreThoseOfTheSum) {
         Case{form_of(Process::wiener, true), true, true},
         Case{form_of(Process::gamma), false, false},
         Case{form_of(Process::inverse_gaussian), false, false}}) {
-    std::vector<std::vector<double>> slots = {mean, each.by_sd ? sd : scale,
-                                              each.noisy ? noise : std::vector<double>()};
+    std::vector<std::vector<double>> family_parameters = {
+        mean, each.by_sd ? sd : scale, each.noisy ? noise : std::vector<double>()};
     std::vector<double> slope;
-    const double at = sum_at(each.form, y, slots, &slope);
-    EXPECT_DOUBLE_EQ(at, sum_at(each.form, y, slots));
+    const double at = sum_at(each.form, y, family_parameters, &slope);
+    EXPECT_DOUBLE_EQ(at, sum_at(each.form, y, family_parameters));
     for (std::size_t s = 0; s < (each.noisy ? 3u : 2u); ++s) {
       for (std::size_t i = 0; i < y.size(); ++i) {
-        const double kept = slots[s][i], h = 1e-5;
-        slots[s][i] = kept + h;
-        const double above = sum_at(each.form, y, slots);
-        slots[s][i] = kept - h;
-        const double by_difference = (above - sum_at(each.form, y, slots)) / (2 * h);
-        slots[s][i] = kept;
+        const double kept = family_parameters[s][i], h = 1e-5;
+        family_parameters[s][i] = kept + h;
+        const double above = sum_at(each.form, y, family_parameters);
+        family_parameters[s][i] = kept - h;
+        const double by_difference = (above - sum_at(each.form, y, family_parameters)) / (2 * h);
+        family_parameters[s][i] = kept;
         EXPECT_NEAR(slope[s * y.size() + i], by_difference, 1e-6 * (1 + std::abs(by_difference)))
             << each.form.form.name << s << i;
       }

@@ -66,7 +66,7 @@ given = { )toml" + given + " }\n");
     UnitRows& units = rows.mine().rows;
     units.move_to(x_.data());
     const std::vector<double> effects = {-0.3, z};
-    return units.each_slot(
+    return units.each_family_parameter(
         effects)[0][(study.model->data.table.rows - 1) * most_response_parameters];
   }
   std::shared_ptr<const Path> path(const Study& study, const std::string& wanted,

@@ -16,8 +16,9 @@ namespace {
 class FormulaSteps : public ScratchTest {
  protected:
   // Steps that are alike (unit a) and not (unit b). Readings have errors `e` where the slots say so.
-  std::shared_ptr<FormulaModel> read(const std::string& family, const std::string& slots,
-                                     const std::string& mean, bool lognormal) const {
+  std::shared_ptr<FormulaModel> read(const std::string& family,
+                                     const std::string& family_parameters, const std::string& mean,
+                                     bool lognormal) const {
     write("d.csv", "m,t,y\na,1,1.1\na,2,1.9\na,3,3.3\na,4,4.2\nb,0.5,0.8\nb,2,1.7\nb,2.7,2.1\n");
     const Source source = source_of(write(
         "study.toml", R"(
@@ -30,14 +31,14 @@ t = "t"
 m = "m"
 [likelihood.y]
 family = ")" + family + "\"\nmean = \"" +
-                          mean + "\"\n" + slots + R"(
+                          mean + "\"\n" + family_parameters + R"(
 [prior]
 k = { distribution = "lognormal", median = 1, log_sd = 1 }
 p = { distribution = "lognormal", median = 1, log_sd = 0.5 }
 u = { distribution = "half-normal", scale = 1 }
 s = { distribution = "half-normal", scale = 1 }
 )" +
-                          (slots.find("noise") < slots.size()
+                          (family_parameters.find("noise") < family_parameters.size()
                                ? "e = { distribution = \"half-normal\", scale = 1 }\n"
                                : "") +
                           "[random_effects.m]\n" +
@@ -95,13 +96,13 @@ TEST_F(FormulaSteps, AreWhatTheRowsSay) {
       {"wiener-process", "scale = \"u\"\nnoise = \"e\"\n"},
       {"wiener-process", "scale = \"u\"\nnoise = \"e*t\"\n"},
       {"wiener-process", "sd = \"u*t^p\"\nnoise = \"e\"\n"}};
-  for (const auto& [family, slots] : processes) {
+  for (const auto& [family, family_parameters] : processes) {
     std::vector<double> x = {1.2, 1.1, 0.13, 0.4};
-    if (slots.find("noise") < slots.size()) x.push_back(0.2);
+    if (family_parameters.find("noise") < family_parameters.size()) x.push_back(0.2);
     for (const bool lognormal : {true, false}) {
-      const auto model = read(family, slots, "k*t^p", lognormal);
+      const auto model = read(family, family_parameters, "k*t^p", lognormal);
       const auto columns = bind_columns(*model, model->data.table.rows);
-      ASSERT_TRUE(is_proportional(*model, columns)) << family << slots;
+      ASSERT_TRUE(is_proportional(*model, columns)) << family << family_parameters;
       UnitRows rows(*model, columns);
       rows.move_to(x.data());
       StepUnits steps(rows);
@@ -114,9 +115,9 @@ TEST_F(FormulaSteps, AreWhatTheRowsSay) {
         rows.evaluate(at, all, expected, expected_slope);
         for (int u = 0; u < 2; ++u) {
           EXPECT_NEAR(value[u], expected[u], 1e-10 * (1 + std::abs(expected[u])))
-              << family << slots << lognormal << z;
+              << family << family_parameters << lognormal << z;
           EXPECT_NEAR(slope[u], expected_slope[u], 1e-8 * (1 + std::abs(expected_slope[u])))
-              << family << slots << lognormal << z;
+              << family << family_parameters << lognormal << z;
         }
       }
       const auto likelihood = formula_likelihood(std::make_shared<const FormulaRows>(model, 7));
@@ -129,20 +130,20 @@ TEST_F(FormulaSteps, AreWhatTheRowsSay) {
       for (const latent::Sweep& sweep : whole.sweeps) {
         rows.add_gradient(sweep.z, sweep.weight, expected);
       }
-      EXPECT_NEAR(sum, whole.sum(), 1e-6) << family << slots << lognormal;
+      EXPECT_NEAR(sum, whole.sum(), 1e-6) << family << family_parameters << lognormal;
       const FormulaRows own(model, 7);
       const latent::UnitIntegrals& nodes = own.integrate(x.data());
-      EXPECT_NEAR(nodes.sum(), whole.sum(), 1e-6) << family << slots << lognormal;
+      EXPECT_NEAR(nodes.sum(), whole.sum(), 1e-6) << family << family_parameters << lognormal;
       for (std::size_t i = 0; i < x.size(); ++i) {
         EXPECT_NEAR(gradient[i], expected[i], 2e-6 * (1 + std::abs(expected[i])))
-            << family << slots << lognormal << i;
+            << family << family_parameters << lognormal << i;
         const double h = 1e-4 * x[i];
         moved[i] = x[i] + h;
         const double above = likelihood->value(moved);
         moved[i] = x[i] - h;
         EXPECT_NEAR(gradient[i], (above - likelihood->value(moved)) / (2 * h),
                     1e-4 * (1 + std::abs(gradient[i])))
-            << family << slots << lognormal << i;
+            << family << family_parameters << lognormal << i;
         moved[i] = x[i];
       }
     }

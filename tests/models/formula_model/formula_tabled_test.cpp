@@ -18,7 +18,7 @@ constexpr double steps[] = {0.3, -0.7, 1.1, 0.2, -1.4, 0.6, -0.1, 0.9};  // erro
 class FormulaTabled : public ScratchTest {
  protected:
   struct Distribution {
-    std::string model, family = "normal", slots = "mean = \"a\"\nsd = \"sigma\"\n";
+    std::string model, family = "normal", family_parameters = "mean = \"a\"\nsd = \"sigma\"\n";
     std::string priors, random_effects;
   };
   // Cracks by Paris' law with m = 3, of which the length is known: 1/sqrt(a) falls evenly.
@@ -40,8 +40,8 @@ class FormulaTabled : public ScratchTest {
         "study.toml",
         "model = \"formula\"\n[data]\nfile = \"d.csv\"\n[data.columns]\n"
         "a = { column = \"a_mm\", unit = \"mm\" }\nn = \"n\"\nplate = \"plate\"\n[formula]\n" +
-            of.model + "[likelihood.a]\nfamily = \"" + of.family + "\"\n" + of.slots + "[prior]\n" +
-            of.priors + "[random_effects.plate]\n" + of.random_effects +
+            of.model + "[likelihood.a]\nfamily = \"" + of.family + "\"\n" + of.family_parameters +
+            "[prior]\n" + of.priors + "[random_effects.plate]\n" + of.random_effects +
             "[predict]\nalong = \"n\"\n"));
     return read_formula_model(TomlReader::parse(source.study), source);
   }
@@ -108,8 +108,8 @@ TEST_F(FormulaTabled, OtherFormsToo) {
   for (const char* family : {"lognormal", "log10-normal"}) {
     form = paris();
     form.family = family;
-    form.slots = form.family == "lognormal" ? "median = \"a\"\nlog_sd = \"2*w\"\n"
-                                            : "median = \"a\"\nlog10_sd = \"w\"\n";
+    form.family_parameters = form.family == "lognormal" ? "median = \"a\"\nlog_sd = \"2*w\"\n"
+                                                        : "median = \"a\"\nlog10_sd = \"w\"\n";
     form.priors.replace(form.priors.find("sigma ="), std::string::npos,
                         "w = { distribution = \"half-normal\", scale = 0.1 }\n");
     model = read(form);
@@ -120,7 +120,7 @@ TEST_F(FormulaTabled, OtherFormsToo) {
   // A curve without a state, its exponent normal about one of all.
   form = paris();
   form.model = "";
-  form.slots = "mean = \"9 [mm] + b*(n/1e5)^q\"\nsd = \"sigma\"\n";
+  form.family_parameters = "mean = \"9 [mm] + b*(n/1e5)^q\"\nsd = \"sigma\"\n";
   form.priors =
       "b = { distribution = \"normal\", mean = \"15 mm\", sd = \"10 mm\" }\n"
       "q = { distribution = \"normal\", mean = 1.2, sd = 0.5 }\n"
@@ -138,7 +138,7 @@ TEST_F(FormulaTabled, WhatHasNone) {
   form.priors += "start = { distribution = \"normal\", mean = \"9 mm\", sd = \"0.1 mm\" }\n";
   EXPECT_FALSE(has_table(*read(form)));
   form = paris();  // errors that differ
-  form.slots = "mean = \"a\"\nsd = \"sigma*(1 + n/1e5)\"\n";
+  form.family_parameters = "mean = \"a\"\nsd = \"sigma*(1 + n/1e5)\"\n";
   EXPECT_FALSE(has_table(*read(form)));
   form = paris();  // a corner
   form.model = "\"d(a)/d(n)\" = \"C * max(a/10 [mm], 1)^(m/2)\"\n\"a(0)\" = \"9 [mm]\"\n";

@@ -42,7 +42,7 @@ TEST(FormulaTracker, ASmallCaseByBruteForce) {
       {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {5.0 * um, 3 * h}};
   for (std::size_t shown = 0; shown <= readings.size(); ++shown) {
     if (shown > 0) {
-      EXPECT_TRUE(unit.take({readings[shown - 1].first, readings[shown - 1].second}).counted);
+      EXPECT_TRUE(unit.update({readings[shown - 1].first, readings[shown - 1].second}).counted);
     }
     const Forecast forecast = unit.unit->forecast();
     std::vector<std::pair<double, double>> lives;
@@ -87,7 +87,7 @@ TEST(FormulaTracker, ThePathAheadByBruteForce) {
                         points(std::vector<std::vector<double>>(40, x)));
   FollowedUnit unit(*watched.tracker, "new");
   const std::vector<std::pair<double, double>> readings = {{1.9 * um, 1 * h}, {3.4 * um, 2 * h}};
-  for (const auto& [depth, time] : readings) unit.take({depth, time});
+  for (const auto& [depth, time] : readings) unit.update({depth, time});
   std::vector<std::pair<double, double>> rate;
   double sum = 0;
   for (double z = -8; z <= 8; z += 0.001) {
@@ -135,7 +135,7 @@ TEST(FormulaTracker, ThePathAheadOfAProcess) {
     const Watched watched(study, lines(rates, 5, 0.1),
                           points(std::vector<std::vector<double>>(200, {b, 1e-6, s})));
     FollowedUnit unit(*watched.tracker, "new");
-    ASSERT_TRUE(unit.take({3 * um, 3 * h}).counted);
+    ASSERT_TRUE(unit.update({3 * um, 3 * h}).counted);
     const double places[] = {3 * h, 4 * h, 9 * h};
     const std::vector<prognosis::ForecastBand> path = unit.unit->ahead(places);
     EXPECT_NEAR(path[0].level05, 3 * um, 1e-9 * um);
@@ -166,7 +166,7 @@ TEST(FormulaTracker, BandsAheadHold) {
     const double own = b * std::exp(scatter * rng.normal());
     FollowedUnit unit(*watched.tracker, "new");
     for (int i = 1; i <= 3; ++i) {
-      ASSERT_TRUE(unit.take({own * i * 0.5 * h + sigma * rng.normal(), i * 0.5 * h}).counted);
+      ASSERT_TRUE(unit.update({own * i * 0.5 * h + sigma * rng.normal(), i * 0.5 * h}).counted);
     }
     const double places[] = {3 * h, 10 * h};
     const std::vector<prognosis::ForecastBand> path = unit.unit->ahead(places);
@@ -199,7 +199,7 @@ TEST(FormulaTracker, FollowingAUnitIsFittingItsRowsToo) {
   const Watched whole(straight, all), part(straight, known);
   FollowedUnit unit(*part.tracker, "u5");
   for (std::size_t i = 25; i < 30; ++i) {
-    const UpdateResult taken = unit.take({all[0].numbers[i] * um, all[1].numbers[i] * h});
+    const UpdateResult taken = unit.update({all[0].numbers[i] * um, all[1].numbers[i] * h});
     EXPECT_TRUE(taken.counted);
     EXPECT_FALSE(taken.contradicts);
   }
@@ -212,8 +212,8 @@ TEST(FormulaTracker, SavedStatesGoOnWithTheSameBits) {
   FollowedUnit unit(*watched.tracker, "new"), other(*watched.tracker, "new");
   for (int i = 1; i <= 12; ++i) {
     const std::vector<double> reading = {(0.9 * i + 0.2 * std::sin(i)) * um, i * h};
-    unit.take(reading);
-    other.take(reading);
+    unit.update(reading);
+    other.update(reading);
     const std::string bytes = unit.unit->save();
     EXPECT_EQ(bytes, other.unit->save());
     other.unit = watched.tracker->restore(bytes);
@@ -235,9 +235,9 @@ TEST(FormulaTracker, TheOrderOfReadingsDoesNotMatter) {
   for (int i = 1; i <= 20; ++i)
     readings.push_back({(0.36 * i + 0.3 * std::sin(7.0 * i)) * um, 0.4 * i * h});
   FollowedUnit in_order(*watched.tracker, "new"), reversed(*watched.tracker, "new");
-  for (const auto& each : readings) in_order.take(each);
+  for (const auto& each : readings) in_order.update(each);
   std::reverse(readings.begin(), readings.end());
-  for (const auto& each : readings) reversed.take(each);
+  for (const auto& each : readings) reversed.update(each);
   const Forecast a = in_order.unit->forecast(), b = reversed.unit->forecast();
   EXPECT_EQ(a.now, b.now);
   for (const double p : {0.05, 0.5, 0.95}) {
@@ -252,7 +252,7 @@ TEST(FormulaTracker, ManyReadingsOfOneUnit) {
   Rng rng(3, 0);
   for (int i = 1; i <= 400; ++i) {
     const double t = 0.025 * i;
-    const UpdateResult taken = unit.take({(1.05 * t + 0.25 * rng.normal()) * um, t * h});
+    const UpdateResult taken = unit.update({(1.05 * t + 0.25 * rng.normal()) * um, t * h});
     ASSERT_TRUE(taken.counted) << taken.problem;
     ASSERT_FALSE(taken.contradicts) << taken.p_value;
   }
@@ -277,14 +277,14 @@ TEST(FormulaTracker, IntervalsHoldTheTruth) {
 TEST(FormulaTracker, WhatCannotBeTaken) {
   const Watched watched(straight, lines(rates, 5, 0.3));
   FollowedUnit unit(*watched.tracker, "new");
-  EXPECT_EQ(unit.take({NAN, 1 * h}).problem, "depth is missing");
-  EXPECT_EQ(unit.take({1 * um, NAN}).problem, "time is missing");
-  EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
-  EXPECT_THROW(unit.take({1 * um}), InputError);
-  EXPECT_EQ(unit.take({1 * um, -0.5 * h}).problem,
+  EXPECT_EQ(unit.update({NAN, 1 * h}).problem, "depth is missing");
+  EXPECT_EQ(unit.update({1 * um, NAN}).problem, "time is missing");
+  EXPECT_EQ(unit.update({INFINITY, 1 * h}).problem, "depth is not finite");
+  EXPECT_THROW(unit.update({1 * um}), InputError);
+  EXPECT_EQ(unit.update({1 * um, -0.5 * h}).problem,
             "time = -0.5 h lies before 0, the start of paths");
-  EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
-  const UpdateResult far = unit.take({40 * um, 2 * h});
+  EXPECT_TRUE(unit.update({1 * um, 1 * h}).counted);
+  const UpdateResult far = unit.update({40 * um, 2 * h});
   EXPECT_TRUE(far.counted);
   EXPECT_TRUE(far.contradicts);
   EXPECT_LT(far.p_value, 1e-4);
@@ -303,16 +303,16 @@ TEST(FormulaTracker, AProcessThatOnlyRises) {
   const Watched watched(study, lines(rates, 5, 0.1),
                         points({{1 * um / h, 0.3, 0.05 * um}, {1.1 * um / h, 0.4, 0.1 * um}}));
   FollowedUnit unit(*watched.tracker, "new");
-  EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
-  EXPECT_TRUE(unit.take({3 * um, 3 * h}).counted);
+  EXPECT_TRUE(unit.update({1 * um, 1 * h}).counted);
+  EXPECT_TRUE(unit.update({3 * um, 3 * h}).counted);
   const std::string before = unit.unit->save();
   for (const auto& [depth, time] : {std::pair{2.5, 4.0}, {3.5, 2.0}, {2.0, 3.0}}) {
-    const UpdateResult taken = unit.take({depth * um, time * h});
+    const UpdateResult taken = unit.update({depth * um, time * h});
     EXPECT_FALSE(taken.counted);
     EXPECT_FALSE(taken.problem.empty());
     EXPECT_EQ(unit.unit->save(), before);
   }
-  EXPECT_TRUE(unit.take({2 * um, 2 * h}).counted);
+  EXPECT_TRUE(unit.update({2 * um, 2 * h}).counted);
   EXPECT_EQ(unit.unit->readings(), 3u);
 }
 

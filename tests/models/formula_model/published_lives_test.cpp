@@ -106,12 +106,12 @@ gamma = { distribution = "flat" }
 }
 
 std::string lives(const std::string& column, const std::string& family,
-                  const std::vector<std::pair<std::string, std::string>>& slots) {
+                  const std::vector<std::pair<std::string, std::string>>& family_parameters) {
   std::string text = "[data.columns]\nlife = \"" + column + "\"\n[likelihood.life]\nfamily = \"" +
                      family + "\"\n",
               priors = "[prior]\n";
-  for (const auto& [slot, name] : slots) {
-    text += slot + " = \"" + name + "\"\n";
+  for (const auto& [family_parameter, name] : family_parameters) {
+    text += family_parameter + " = \"" + name + "\"\n";
     priors += name + " = { distribution = \"flat\" }\n";
   }
   return text + priors;

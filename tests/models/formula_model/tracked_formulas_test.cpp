@@ -119,7 +119,7 @@ void expect_followed(const Kind& kind) {
     if (late) std::swap(order[0], order[2]);
     FollowedUnit followed(*part.tracker, unit);
     for (const std::size_t i : order) {
-      const UpdateResult taken = followed.take(readings[i]);
+      const UpdateResult taken = followed.update(readings[i]);
       EXPECT_TRUE(taken.counted) << taken.problem;
       EXPECT_FALSE(taken.contradicts) << taken.p_value;
       const std::string bytes = followed.unit->save();

@@ -67,8 +67,8 @@ inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& po
   ProcessLimit limit;
   const bool process = watched.design.model->has_process();
   if (process) {
-    const auto& slots = watched.design.model->measured[0].wanted;
-    wanted.assign(slots.begin(), slots.begin() + 2);
+    const auto& family_parameters = watched.design.model->measured[0].wanted;
+    wanted.assign(family_parameters.begin(), family_parameters.begin() + 2);
   }
   LimitedPath& path = limit.path;
   path.next = make_path(asked.model, limits, name, wanted, true, asked.common);

@@ -61,7 +61,7 @@ TEST_P(OfJoint, InspectionsOneByOneAreTheFitOfAll) {
   const TrackedPreset known(study, {"cycles", "volume"}, first(2));
   FollowedUnit joint(*known.tracker, "joint");
   for (std::size_t i = 2; i < 5; ++i) {
-    ASSERT_TRUE(joint.take(numbers(i)).counted) << i;
+    ASSERT_TRUE(joint.update(numbers(i)).counted) << i;
     const TrackedPreset all(study, {"cycles", "volume"}, first(i + 1));
     SCOPED_TRACE(i);
     const Forecast forecast = joint.unit->forecast();
@@ -75,7 +75,7 @@ TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
   const TrackedPreset known(study, {"cycles", "volume"}, first(2));
   FollowedUnit late(*known.tracker, "joint");
   for (const std::size_t i : {4, 2, 3}) {
-    ASSERT_TRUE(late.take(numbers(i)).counted) << i;
+    ASSERT_TRUE(late.update(numbers(i)).counted) << i;
     const std::string bytes = late.unit->save();
     late.unit = known.tracker->restore(bytes);
     EXPECT_EQ(late.unit->save(), bytes);
@@ -93,8 +93,8 @@ TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {
       "normal", "V0 = { distribution = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
   const TrackedPreset known(study, {"cycles", "volume"}, first(3));
   FollowedUnit joint(*known.tracker, "joint");
-  ASSERT_TRUE(joint.take(numbers(3)).counted);
-  ASSERT_TRUE(joint.take(numbers(4)).counted);
+  ASSERT_TRUE(joint.update(numbers(3)).counted);
+  ASSERT_TRUE(joint.update(numbers(4)).counted);
   const TrackedPreset all(study, {"cycles", "volume"}, first(5));
   expect_life(joint.unit->forecast(), all.life({}), 1, 0.01);
   const double places[] = {10'000, 20'585};
@@ -102,7 +102,7 @@ TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {
   EXPECT_EQ(path[0].at, 10'000);
   EXPECT_LT(path[0].level50, path[1].level50);
   EXPECT_THROW(joint.unit->ahead(std::vector<double>{9'000}), std::invalid_argument);
-  const prognosis::UpdateResult sixth = joint.take(numbers(5));
+  const prognosis::UpdateResult sixth = joint.update(numbers(5));
   EXPECT_FALSE(sixth.contradicts);
   EXPECT_GT(sixth.p_value, 0.01);
 }
@@ -112,18 +112,18 @@ TEST(JointTracker, RefusesOtherJointsAndWhatIsNoReading) {
   EXPECT_THAT(known.tracker->refusal("J7"), HasSubstr("one joint, called 'joint'"));
   EXPECT_EQ(known.tracker->refusal("joint"), "");
   FollowedUnit other(*known.tracker, "J7");
-  EXPECT_THAT(other.take(numbers(4)).problem, HasSubstr("one joint"));
+  EXPECT_THAT(other.update(numbers(4)).problem, HasSubstr("one joint"));
   EXPECT_TRUE(other.unit->forecast().remaining.points().empty());
   EXPECT_TRUE(std::isnan(other.unit->forecast().passed));
   const std::string bytes = other.unit->save();
   EXPECT_EQ(known.tracker->restore(bytes)->save(), bytes);
   FollowedUnit joint(*known.tracker, "joint");
-  EXPECT_THAT(joint.take({8000, std::nan("")}).problem, HasSubstr("volume is missing"));
-  EXPECT_THAT(joint.take({-1, 1e-9}).problem, HasSubstr("cycles must be 0 or more"));
-  EXPECT_THAT(joint.take({8000, -1e-9}).problem, HasSubstr("must be positive"));
+  EXPECT_THAT(joint.update({8000, std::nan("")}).problem, HasSubstr("volume is missing"));
+  EXPECT_THAT(joint.update({-1, 1e-9}).problem, HasSubstr("cycles must be 0 or more"));
+  EXPECT_THAT(joint.update({8000, -1e-9}).problem, HasSubstr("must be positive"));
   EXPECT_EQ(joint.unit->readings(), 0u);
   // Tenfold of what all inspections say.
-  EXPECT_TRUE(joint.take({8000, 400e-9}).contradicts);
+  EXPECT_TRUE(joint.update({8000, 400e-9}).contradicts);
 }
 
 }  // namespace

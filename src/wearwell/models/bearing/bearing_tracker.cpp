@@ -127,8 +127,8 @@ std::optional<Inspected> inspected(const Population& population, const Inspectio
   return Inspected(population.model.family, std::move(curves), rows.duty, rows.depth);
 }
 
-prognosis::NodeCloud lay(const Population& population, const std::string& unit,
-                         std::span<const Reading> readings) {
+prognosis::NodeCloud rebuild(const Population& population, const std::string& unit,
+                             std::span<const Reading> readings) {
   Inspections rows = population.seen(unit);
   BearingRows own;
   own.seen = inspected(population, rows);
@@ -233,8 +233,8 @@ std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::Carrie
   model.reading = [population](const Reading& reading) {
     return reading_distribution(*population, reading);
   };
-  model.lay = [population](const std::string& unit, std::span<const Reading> readings) {
-    return lay(*population, unit, readings);
+  model.rebuild = [population](const std::string& unit, std::span<const Reading> readings) {
+    return rebuild(*population, unit, readings);
   };
   model.degradation_path = [population](const std::string& unit, const Reading* last) {
     return degradation_path(population, unit, last);

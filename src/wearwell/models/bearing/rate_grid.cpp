@@ -111,8 +111,8 @@ struct Nodes {
 };
 
 // Points of nearly equal sigma.
-void lay_class(const std::span<const PointOf> points, const BearingRows& rows, double step,
-               double most_nodes, double shift, Nodes& nodes) {
+void place_class(const std::span<const PointOf> points, const BearingRows& rows, double step,
+                 double most_nodes, double shift, Nodes& nodes) {
   double top = -infinity, sum = 0, sigma = 0, from = infinity, to = -infinity;
   for (const PointOf& each : points) top = std::max(top, each.total());
   for (const PointOf& each : points) {
@@ -204,8 +204,8 @@ RateGrid rate_grid(const WearModel& model, const ThinnedPosterior& points,
     while (end < all.size() && (before < until || c + 1 == classes))
       before += std::exp(all[end++].total() - top);
     if (end > begin)
-      lay_class(std::span(all).subspan(begin, end - begin), rows, step, most_nodes, fraction(c),
-                nodes);
+      place_class(std::span(all).subspan(begin, end - begin), rows, step, most_nodes, fraction(c),
+                  nodes);
     begin = end;
   }
   grid.nodes = cloud_of(nodes, !model.depth_error);

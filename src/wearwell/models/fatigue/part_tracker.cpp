@@ -112,7 +112,8 @@ class PartUnit final : public prognosis::TrackedUnit {
     known_ = now_ = test.life;
   }
 
-  prognosis::UpdateResult take(const Reading& reading, const prognosis::History& history) override;
+  prognosis::UpdateResult update(const Reading& reading,
+                                 const prognosis::History& history) override;
   Forecast forecast() const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
@@ -166,7 +167,7 @@ std::vector<double> PartUnit::weights(const StressLives& lives, double n, double
   return weight;
 }
 
-prognosis::UpdateResult PartUnit::take(const Reading& reading, const prognosis::History&) {
+prognosis::UpdateResult PartUnit::update(const Reading& reading, const prognosis::History&) {
   prognosis::UpdateResult taken;
   double cycles = 0;
   std::optional<Stress> stress;

@@ -57,7 +57,7 @@ struct Exported {
     if (choice.lines > 0)
       population.few = PopulationPoints(ThinnedPosterior(state.posterior, choice.lines));
     if (!choice.unit.empty()) see(choice.unit);
-    laid = lay_nodes(population, seen, seen, {});
+    laid = place_nodes(population, seen, seen, {});
     log_weight = laid.log_before;
     for (const UnitReading& each : seen) take(each);
   }

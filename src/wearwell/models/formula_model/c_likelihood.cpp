@@ -37,19 +37,20 @@ void add_likelihood(const FormulaModel& model, std::string& functions, std::stri
                     std::string& measured) {
   for (std::size_t m = 0; m < model.measured.size(); ++m) {
     const Measured& each = model.measured[m];
-    std::string slot[most_response_parameters] = {"0", "0", "0"};
+    std::string family_parameter[most_response_parameters] = {"0", "0", "0"};
     for (std::size_t o = 0; o < each.wanted.size(); ++o) {
-      const std::string name =
-          fmt::format("measured_{}_{}", m, each.form->slots[each.slot[o]].name);
+      const std::string name = fmt::format(
+          "measured_{}_{}", m, each.form->family_parameters[each.family_parameter[o]].name);
       functions += formula::c_function(model.lines, each.wanted[o], model.row_symbols, name);
-      slot[each.slot[o]] = name + "(number, label, parameter, effect)";
+      family_parameter[each.family_parameter[o]] = name + "(number, label, parameter, effect)";
     }
     const std::size_t column = measured_column(model, m);
     sum += fmt::format(
         "  if (!isnan(number[{}])) {{ /* {} */\n    const double y = number[{}];\n"
         "    const double a = {};\n    const double b = {};\n    double value;\n    {{\n{}    }}\n"
         "    sum += isfinite(value) ? value : -INFINITY;\n  }}\n",
-        column, each.column, column, slot[0], slot[1], each.form->c_density);
+        column, each.column, column, family_parameter[0], family_parameter[1],
+        each.form->c_density);
     measured += fmt::format("{}!isnan(at->number[{}])", m == 0 ? "" : " || ", column);
   }
 }

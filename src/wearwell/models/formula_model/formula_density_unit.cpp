@@ -14,7 +14,8 @@ std::vector<bool> has_density(const FormulaModel& model, const Measured& measure
   if (measured.form->counted || measured.trials) return has;
   for (std::size_t i = 0; i < has.size(); ++i)
     has[i] = observed.responses[i].seen == Censoring::none;
-  const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+  const bool noisy =
+      std::count(measured.family_parameter.begin(), measured.family_parameter.end(), 2) > 0;
   if (!measured.process || measured.process->process == Process::wiener || noisy) return has;
   // Where the mean of an increasing process does not grow, the path is constant with certainty.
   std::vector<std::size_t> of_row(model.data.table.rows, has.size());

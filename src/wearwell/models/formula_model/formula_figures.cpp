@@ -182,7 +182,7 @@ std::vector<html::Figure> Drawing::draw(const WeightedDraws& draws) const {
 }
 
 // The path; for a process with the scatter of its increments.
-std::vector<formula::Wanted> path_slots(const Measured& measured) {
+std::vector<formula::Wanted> path_parameters(const Measured& measured) {
   return {measured.wanted.begin(), measured.wanted.begin() + (measured.process ? 2 : 1)};
 }
 
@@ -205,7 +205,7 @@ double horizon(const Asked& asked, const LimitedPath& path, bool limited) {
 
 void add_unit(const Asked& asked, const Measured& measured, const LimitedPath& axis, double far,
               std::optional<std::size_t> unit, Drawing& drawing) {
-  const std::vector<formula::Wanted> wanted = path_slots(measured);
+  const std::vector<formula::Wanted> wanted = path_parameters(measured);
   SpreadPath path{{axis.next, {}, 0}, unit, {}};
   Numbers traced;
   double from = axis.begin;
@@ -283,7 +283,7 @@ std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& me
   drawing->unit = measured.unit;
   LimitedPath path;
   path.next =
-      make_path(asked.model, asked.predict, "along", path_slots(measured), true, asked.common);
+      make_path(asked.model, asked.predict, "along", path_parameters(measured), true, asked.common);
   set_reach(asked, path);
   drawing->limit = limit_of(asked, measured, *path.next);
   path.limit = drawing->limit.value_or(0);

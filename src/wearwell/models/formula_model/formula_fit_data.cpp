@@ -12,28 +12,31 @@ namespace wearwell::formula_model {
 namespace {
 
 // For one value; for normal distributions without the cdf.
-double place(ResponseFamily family, double value, const double* slots, double trials) {
+double place(ResponseFamily family, double value, const double* family_parameters, double trials) {
   constexpr double log_half = -0.693147180559945309;
-  const bool sized = slots[1] > 0 && std::isfinite(slots[0]) && std::isfinite(slots[1]);
-  if (family == ResponseFamily::normal && sized) return (value - slots[0]) / slots[1];
-  if (family == ResponseFamily::lognormal && sized && slots[0] > 0 && value > 0) {
-    return (std::log(value) - std::log(slots[0])) / slots[1];
+  const bool sized = family_parameters[1] > 0 && std::isfinite(family_parameters[0]) &&
+                     std::isfinite(family_parameters[1]);
+  if (family == ResponseFamily::normal && sized)
+    return (value - family_parameters[0]) / family_parameters[1];
+  if (family == ResponseFamily::lognormal && sized && family_parameters[0] > 0 && value > 0) {
+    return (std::log(value) - std::log(family_parameters[0])) / family_parameters[1];
   }
-  const double below = log_cdf(family, value, slots, trials);
+  const double below = log_cdf(family, value, family_parameters, trials);
   // From the smaller tail, to avoid cancellation.
   if (below < log_half) return normal_score(below, 0);
-  return normal_score(below, log_survival(family, value, slots, trials));
+  return normal_score(below, log_survival(family, value, family_parameters, trials));
 }
 
 // Normal scores of observations; for a count those of its ends.
-NormalScore score(const Measured& measured, const Response& y, const double* slots) {
+NormalScore score(const Measured& measured, const Response& y, const double* family_parameters) {
   const ResponseFamily family = measured.form->family;
   // Given that it was not truncated at its entry: log P(Y > value | Y > entry).
-  const double entered = y.entry > -infinity ? log_survival(family, y.entry, slots, y.trials) : 0;
+  const double entered =
+      y.entry > -infinity ? log_survival(family, y.entry, family_parameters, y.trials) : 0;
   const auto at = [&](double value) {
-    if (!(y.entry > -infinity)) return place(family, value, slots, y.trials);
+    if (!(y.entry > -infinity)) return place(family, value, family_parameters, y.trials);
     const double above =
-        value > y.entry ? log_survival(family, value, slots, y.trials) - entered : 0;
+        value > y.entry ? log_survival(family, value, family_parameters, y.trials) - entered : 0;
     return normal_score(std::log(-std::expm1(above)), above);
   };
   if (measured.form->counted) {
@@ -87,7 +90,7 @@ std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
 
 // Of the observations of column c.
 void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
-                const std::vector<double>& slots, std::vector<NormalScore>& scores) {
+                const std::vector<double>& family_parameters, std::vector<NormalScore>& scores) {
   const Measured& column = units.model().measured[c];
   if (column.process) {
     const std::vector<NormalScore> steps = units.step_scores(z, c);
@@ -95,8 +98,8 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     return;
   }
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-    scores.push_back(
-        score(column, column.observed.responses[i], &slots[i * most_response_parameters]));
+    scores.push_back(score(column, column.observed.responses[i],
+                           &family_parameters[i * most_response_parameters]));
   }
 }
 
@@ -151,10 +154,10 @@ MeasuredValues measured_values(const FormulaModel& model) {
 }
 
 // The location parameter of a family, or else its scale.
-std::size_t place_slot(const ResponseForm& form) {
-  for (const ParameterKind kind : {ParameterKind::place, ParameterKind::size}) {
-    for (std::size_t s = 0; s < form.slots.size(); ++s) {
-      if (form.slots[s].kind == kind && !form.slots[s].optional) return s;
+std::size_t location_parameter(const ResponseForm& form) {
+  for (const ParameterKind kind : {ParameterKind::location, ParameterKind::scale}) {
+    for (std::size_t s = 0; s < form.family_parameters.size(); ++s) {
+      if (form.family_parameters[s].kind == kind && !form.family_parameters[s].optional) return s;
     }
   }
   return 0;
@@ -171,13 +174,14 @@ std::vector<double> fitted_places(const FormulaRows& rows, const double* x) {
   const std::vector<double> z = drawn_effects(rows, x);
   UnitRows& units = rows.mine().rows;
   units.move_to(x);
-  const std::vector<std::vector<double>> slots = units.each_slot(z);
+  const std::vector<std::vector<double>> family_parameters = units.each_family_parameter(z);
   std::vector<double> places;
-  for (std::size_t c = 0; c < slots.size(); ++c) {
+  for (std::size_t c = 0; c < family_parameters.size(); ++c) {
     const Measured& measured = rows.model().measured[c];
-    const std::size_t slot = place_slot(*measured.form);
-    for (std::size_t i = slot; i < slots[c].size(); i += most_response_parameters)
-      places.push_back(measured.process ? NAN : slots[c][i]);
+    const std::size_t family_parameter = location_parameter(*measured.form);
+    for (std::size_t i = family_parameter; i < family_parameters[c].size();
+         i += most_response_parameters)
+      places.push_back(measured.process ? NAN : family_parameters[c][i]);
   }
   return places;
 }
@@ -228,8 +232,9 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
     UnitRows& units = rows->mine().rows;
     units.move_to(x);
     std::vector<NormalScore> scores;
-    const std::vector<std::vector<double>> slots = units.each_slot(z);
-    for (std::size_t c = 0; c < slots.size(); ++c) add_scores(units, z, c, slots[c], scores);
+    const std::vector<std::vector<double>> family_parameters = units.each_family_parameter(z);
+    for (std::size_t c = 0; c < family_parameters.size(); ++c)
+      add_scores(units, z, c, family_parameters[c], scores);
     const std::size_t d = rows->model().effects.size();
     for (std::size_t e = 0; e < d; ++e) {
       for (std::size_t i = e; i < z.size(); i += d) scores.push_back({z[i], z[i]});

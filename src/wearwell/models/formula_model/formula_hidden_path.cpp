@@ -53,11 +53,11 @@ class HiddenPath {
   // After `filter`.
   void slopes(std::span<double> slope);
 
-  void lay_step(Row& row, int least, int most) const {
+  void place_step(Row& row, int least, int most) const {
     if (row.step_mean > 0) {
-      row.step.lay(process_, row.step_mean, row.scale, h_, least, most);
+      row.step.rebuild(process_, row.step_mean, row.scale, h_, least, most);
     } else {
-      row.step.lay_nothing();
+      row.step.place_nothing();
     }
   }
   const Row* row_before(std::size_t i) const { return i > 0 ? &rows_[i - 1] : nullptr; }
@@ -216,7 +216,7 @@ bool HiddenPath::pass() {
     const Row& earlier = or_start(row_before(i));
     // Polynomials at positions near 0 extend below it.
     if (row.low < 0) row.low = std::min(row.low, earlier.begin - HiddenStep::before);
-    lay_step(row, row.low - earlier.end + 1, row.high - earlier.begin);
+    place_step(row, row.low - earlier.end + 1, row.high - earlier.begin);
     row.predicted.assign(static_cast<std::size_t>(row.size()), 0.0);
     for (int j = earlier.begin; j < earlier.end; ++j) {
       const Reached to(row, j);
@@ -336,7 +336,7 @@ void hidden_scores(const ProcessForm& form, const ProcessRows& rows,
     Row& row = path.rows_[i];
     const Row& earlier = or_start(path.row_before(i));
     // All steps that do not end far beyond the reading.
-    path.lay_step(row, 0, row.high - earlier.begin);
+    path.place_step(row, 0, row.high - earlier.begin);
     double below = 0;
     for (int j = earlier.begin; j < earlier.end; ++j) {
       const double share = earlier.share(j);

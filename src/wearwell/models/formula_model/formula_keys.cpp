@@ -13,21 +13,22 @@ namespace wearwell::formula_model {
 namespace {
 
 // One entry per name, with the families that have such a parameter.
-StudyKeys slot_keys() {
-  std::vector<std::pair<std::string, std::vector<std::string>>> slots;
+StudyKeys parameter_keys() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> family_parameters;
   const auto add = [&](const ResponseForm& form) {
-    for (const ParameterForm& slot : form.slots) {
-      const std::string name(slot.name), family(form.name);
-      auto at = std::find_if(slots.begin(), slots.end(),
+    for (const ParameterForm& family_parameter : form.family_parameters) {
+      const std::string name(family_parameter.name), family(form.name);
+      auto at = std::find_if(family_parameters.begin(), family_parameters.end(),
                              [&](const auto& each) { return each.first == name; });
-      if (at == slots.end()) at = slots.insert(slots.end(), {name, {}});
+      if (at == family_parameters.end())
+        at = family_parameters.insert(family_parameters.end(), {name, {}});
       if (at->second.empty() || at->second.back() != family) at->second.push_back(family);
     }
   };
   for (const ResponseForm& each : response_forms()) add(each);
   for (const ProcessForm& each : process_forms()) add(each.form);
   StudyKeys keys;
-  for (const auto& [name, families] : slots) {
+  for (const auto& [name, families] : family_parameters) {
     keys.push_back({"likelihood.*." + name, fmt::format("\"{}\"", name == "mean" ? "wear" : name),
                     fmt::format("expression or number, of {}", fmt::join(families, ", "))});
   }
@@ -54,7 +55,7 @@ StudyKeys formula_keys() {
                   {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
                    "one table per measured column"},
                   needed_key("likelihood.*.family", "\"normal\"", "distribution of its scatter")});
-  add_keys(keys, slot_keys());
+  add_keys(keys, parameter_keys());
   add_keys(
       keys,
       {needed_key("likelihood.*.trials", "\"trials\"", "column of their numbers", {},

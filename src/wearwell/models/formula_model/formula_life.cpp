@@ -22,8 +22,8 @@ std::size_t some(std::size_t most, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(most));
 }
 
-double probability(ResponseFamily family, double life, const double* slots) {
-  return std::exp(log_cdf(family, life, slots));
+double probability(ResponseFamily family, double life, const double* family_parameters) {
+  return std::exp(log_cdf(family, life, family_parameters));
 }
 
 // The quantile p of a cdf; in the logarithm for positive values.
@@ -45,14 +45,14 @@ class LifeDistribution::AtPoint {
  public:
   explicit AtPoint(const LifeDistribution& life)
       : life_(life),
-        nodes_(life.slots_->model->effects.size(), 6.5),
-        new_units_(*life.slots_->model),
-        path_(*life.slots_) {
-    slots_.resize(most_response_parameters * size());
+        nodes_(life.family_parameters_->model->effects.size(), 6.5),
+        new_units_(*life.family_parameters_->model),
+        path_(*life.family_parameters_) {
+    family_parameters_.resize(most_response_parameters * size());
   }
 
   void move_to(const double* x) {
-    const FormulaModel& model = *life_.slots_->model;
+    const FormulaModel& model = *life_.family_parameters_->model;
     const std::size_t d = model.effects.size(), count = nodes_.weight.size();
     for (std::size_t k = 0; k < new_units_.count(); ++k) {
       path_.move_to(new_units_.at(k, x, model.parameters.size()));
@@ -60,9 +60,9 @@ class LifeDistribution::AtPoint {
         const std::size_t n = std::min(Path::most, count - at);
         path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
         for (std::size_t i = 0; i < n; ++i) {
-          for (std::size_t o = 0; o < life_.slot_.size(); ++o) {
-            slots_[(k * count + at + i) * most_response_parameters + life_.slot_[o]] =
-                path_.output(o, i);
+          for (std::size_t o = 0; o < life_.family_parameter_.size(); ++o) {
+            family_parameters_[(k * count + at + i) * most_response_parameters +
+                               life_.family_parameter_[o]] = path_.output(o, i);
           }
         }
       }
@@ -74,7 +74,9 @@ class LifeDistribution::AtPoint {
     const std::size_t count = nodes_.weight.size();
     return nodes_.weight[i % count] * new_units_.share(i / count);
   }
-  const double* slots(std::size_t i) const { return &slots_[i * most_response_parameters]; }
+  const double* slots(std::size_t i) const {
+    return &family_parameters_[i * most_response_parameters];
+  }
 
   double cdf(double life) const {
     double sum = 0;
@@ -109,7 +111,7 @@ class LifeDistribution::AtPoint {
   NormalNodes nodes_;
   NewUnits new_units_;
   PathAt path_;
-  std::vector<double> slots_;
+  std::vector<double> family_parameters_;
 };
 
 std::string per_unit(const Unit& unit) {
@@ -118,16 +120,17 @@ std::string per_unit(const Unit& unit) {
   return one ? "1/" + unit.text : "1/(" + unit.text + ")";
 }
 
-LifeDistribution::LifeDistribution(std::shared_ptr<const Path> slots, const Measured& measured)
-    : slots_(std::move(slots)),
+LifeDistribution::LifeDistribution(std::shared_ptr<const Path> family_parameters,
+                                   const Measured& measured)
+    : family_parameters_(std::move(family_parameters)),
       family_(measured.form->family),
       positive_(measured.form->positive),
-      slot_(measured.slot) {}
+      family_parameter_(measured.family_parameter) {}
 
 double LifeDistribution::Next::cdf(double life) const {
   double sum = 0;
   for (const Component& each : components_) {
-    sum += each.weight * probability(family_, life, each.slot);
+    sum += each.weight * probability(family_, life, each.family_parameter);
   }
   return sum;
 }
@@ -143,7 +146,7 @@ double LifeDistribution::Next::quantile(double p, double from) const {
 }
 
 bool LifeDistribution::over_all() const {
-  return slots_->model->effects.empty();
+  return family_parameters_->model->effects.empty();
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
@@ -159,7 +162,7 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
     for (std::size_t j = 0; j < at.size(); ++j) {
       if (at.weight(j) < 1e-9) continue;
       Next::Component component{few.weights[i] * at.weight(j), {}};
-      std::copy_n(at.slots(j), most_response_parameters, component.slot);
+      std::copy_n(at.slots(j), most_response_parameters, component.family_parameter);
       next.components_.push_back(component);
     }
   }

@@ -17,8 +17,8 @@ std::string per_unit(const Unit& unit);
 /// posterior.
 class LifeDistribution {
  public:
-  /// `slots` has the outputs of the measured column.
-  LifeDistribution(std::shared_ptr<const Path> slots, const Measured& measured);
+  /// `family_parameters` has the outputs of the measured column.
+  LifeDistribution(std::shared_ptr<const Path> family_parameters, const Measured& measured);
 
   /// The predictive distribution: averaged over all uncertainty.
   class Next {
@@ -31,7 +31,7 @@ class LifeDistribution {
    private:
     friend class LifeDistribution;
     struct Component {
-      double weight, slot[most_response_parameters];
+      double weight, family_parameter[most_response_parameters];
     };
     ResponseFamily family_;
     bool positive_ = true;
@@ -68,10 +68,10 @@ class LifeDistribution {
   template <class Value>
   Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
 
-  std::shared_ptr<const Path> slots_;
+  std::shared_ptr<const Path> family_parameters_;
   ResponseFamily family_;
   bool positive_;
-  std::vector<std::size_t> slot_;
+  std::vector<std::size_t> family_parameter_;
 };
 
 }  // namespace wearwell::formula_model

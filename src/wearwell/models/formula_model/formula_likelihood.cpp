@@ -66,7 +66,8 @@ BoundColumn bind_column(const FormulaModel& model, const Measured& measured, std
   }
   bound.data = measured.program.bind(columns.rows);
   bound.responses = ResponseColumn(std::move(responses));
-  const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+  const bool noisy =
+      std::count(measured.family_parameter.begin(), measured.family_parameter.end(), 2) > 0;
   if (measured.process && measured.process->process != Process::wiener && !noisy) {
     note_growth(bound);
   }
@@ -151,10 +152,11 @@ void UnitRows::run(const Chunk& chunk, std::span<const double> z) {
   formula::Workspace& workspace = workspaces_[chunk.index];
   column.measured->program.forward(column.data, chunk.begin, chunk.end, {inner_, {effect_at_, d}},
                                    workspace);
-  slots_.assign(most_response_parameters, {&zero_, true});
+  family_parameters_.assign(most_response_parameters, {&zero_, true});
   const auto& outputs = column.measured->program.outputs();
   for (std::size_t o = 0; o < outputs.size(); ++o) {
-    slots_[column.measured->slot[o]] = {workspace.values(o).data(), outputs[o].uniform};
+    family_parameters_[column.measured->family_parameter[o]] = {workspace.values(o).data(),
+                                                                outputs[o].uniform};
   }
 }
 
@@ -164,7 +166,8 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
   const std::size_t n = chunk.end - chunk.begin;
   if (column.measured->process) return forward_process(chunk, sloped);
   log_responses(
-      column.measured->form->family, column.responses, chunk.begin, slots_, {value_.data(), n},
+      column.measured->form->family, column.responses, chunk.begin, family_parameters_,
+      {value_.data(), n},
       sloped ? std::span(slope_.data(), most_response_parameters * n) : std::span<double>());
 }
 
@@ -173,7 +176,7 @@ template <class Visit>
 void UnitRows::visit_processes(const Chunk& chunk, const Visit& visit) {
   const BoundColumn& column = *chunk.column;
   const std::size_t n = chunk.end - chunk.begin;
-  const bool noisy = !(slots_[2].uniform && slots_[2].at == &zero_);
+  const bool noisy = !(family_parameters_[2].uniform && family_parameters_[2].at == &zero_);
   const bool growing = !column.log_growth.empty();
   static thread_local std::vector<std::size_t> rows;
   static thread_local std::vector<double> reading, mean, spread, noise, log_growth;
@@ -186,9 +189,9 @@ void UnitRows::visit_processes(const Chunk& chunk, const Visit& visit) {
       if (!(column.count[chunk.begin + i] > 0)) continue;
       rows[m] = i;
       reading[m] = column.responses.rows[chunk.begin + i].at;
-      mean[m] = slots_[0][i];
-      spread[m] = slots_[1][i];
-      if (noisy) noise[m] = slots_[2][i];
+      mean[m] = family_parameters_[0][i];
+      spread[m] = family_parameters_[1][i];
+      if (noisy) noise[m] = family_parameters_[2][i];
       if (growing) log_growth[m] = column.log_growth[chunk.begin + i];
       ++m;
     }
@@ -273,7 +276,7 @@ void UnitRows::fill_adjoints(const Chunk& chunk, const double* weight) {
   const std::size_t n = chunk.end - chunk.begin;
   formula::Workspace& workspace = workspaces_[chunk.index];
   for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
-    const double* slope = slope_.data() + measured.slot[o] * n;
+    const double* slope = slope_.data() + measured.family_parameter[o] * n;
     const std::span<double> adjoints = workspace.adjoints(o);
     if (measured.program.outputs()[o].uniform) {
       double sum = 0;
@@ -366,9 +369,9 @@ void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> 
     if (chunk.index != c) return;
     run(chunk, {});
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      mean[i] = slots_[0][i - chunk.begin];
-      sd[i] = slots_[1][i - chunk.begin];
-      if (!noise.empty()) noise[i] = slots_[2][i - chunk.begin];
+      mean[i] = family_parameters_[0][i - chunk.begin];
+      sd[i] = family_parameters_[1][i - chunk.begin];
+      if (!noise.empty()) noise[i] = family_parameters_[2][i - chunk.begin];
     }
   });
   held_ = nullptr;
@@ -381,7 +384,8 @@ void UnitRows::means_of_units(std::span<const double> effects, std::size_t c,
   visit(std::vector<std::uint8_t>(model_.units.size(), 1), [&](const Chunk& chunk) {
     if (chunk.index != c) return;
     run(chunk, {});
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) mean[i] = slots_[0][i - chunk.begin];
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i)
+      mean[i] = family_parameters_[0][i - chunk.begin];
   });
   held_ = nullptr;
   held_by_unit_ = false;
@@ -397,13 +401,13 @@ void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
     run(chunk, {});
     const std::size_t n = chunk.end - chunk.begin;
     std::fill_n(slope_.begin(), most_response_parameters * n, 0.0);
-    std::size_t slot = 0;
+    std::size_t family_parameter = 0;
     for (const std::span<const double> by : {by_mean, by_sd, by_noise}) {
       if (!by.empty()) {
         std::copy_n(by.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n,
-                    slope_.begin() + static_cast<std::ptrdiff_t>(slot * n));
+                    slope_.begin() + static_cast<std::ptrdiff_t>(family_parameter * n));
       }
-      ++slot;
+      ++family_parameter;
     }
     fill_adjoints(chunk, nullptr);
     chunk.column->measured->program.reverse(
@@ -430,7 +434,7 @@ std::vector<std::vector<double>> UnitRows::each_term(std::span<const double> z) 
   return all;
 }
 
-std::vector<std::vector<double>> UnitRows::each_slot(std::span<const double> z) {
+std::vector<std::vector<double>> UnitRows::each_family_parameter(std::span<const double> z) {
   std::vector<std::vector<double>> all;
   for (const BoundColumn& column : columns_) {
     all.emplace_back(most_response_parameters * column.measured->observed.rows.size());
@@ -441,7 +445,7 @@ std::vector<std::vector<double>> UnitRows::each_slot(std::span<const double> z) 
       if (!(chunk.column->count[i] > 0)) continue;
       for (std::size_t s = 0; s < most_response_parameters; ++s) {
         all[chunk.index][chunk.column->term[i] * most_response_parameters + s] =
-            slots_[s][i - chunk.begin];
+            family_parameters_[s][i - chunk.begin];
       }
     }
   });

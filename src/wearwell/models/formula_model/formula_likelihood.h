@@ -88,7 +88,7 @@ class UnitRows final : public latent::UnitTerms {
 
   /// The distribution parameters of each observation at z, three each, by column in the order of
   /// `Observed`.
-  std::vector<std::vector<double>> each_slot(std::span<const double> z);
+  std::vector<std::vector<double>> each_family_parameter(std::span<const double> z);
 
  private:
   struct Chunk {
@@ -117,7 +117,7 @@ class UnitRows final : public latent::UnitTerms {
   std::vector<double> effect_[2], by_effect_[2];  // of the rows of a chunk
   const double* effect_at_[2] = {};
   double* by_effect_at_[2] = {};
-  std::vector<ParameterValues> slots_;
+  std::vector<ParameterValues> family_parameters_;
   double zero_ = 0;
   const double* held_ = nullptr;  // effects, if they are fixed: the same for all units, or by unit
   bool held_by_unit_ = false;

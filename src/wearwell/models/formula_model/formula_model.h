@@ -46,9 +46,9 @@ struct Measured {
   const ProcessForm* process =
       nullptr;                        ///< set if its increments are random; `form` is then its form
   std::optional<std::string> trials;  ///< the column of their numbers
-  std::vector<formula::Wanted> wanted;  ///< the given distribution parameters, as expressions
-  std::vector<std::size_t> slot;        ///< of the form, for each of `wanted`
-  formula::Program program;             ///< outputs as `wanted`
+  std::vector<formula::Wanted> wanted;        ///< the given distribution parameters, as expressions
+  std::vector<std::size_t> family_parameter;  ///< of the form, for each of `wanted`
+  formula::Program program;                   ///< outputs as `wanted`
   Observed observed;
 };
 

@@ -192,28 +192,28 @@ void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<d
 }  // namespace
 
 std::span<const ProcessForm> process_forms() {
-  constexpr ParameterKind place = ParameterKind::place, size = ParameterKind::size;
+  constexpr ParameterKind place = ParameterKind::location, size = ParameterKind::scale;
   static const std::vector<ProcessForm> forms = {
       {Process::wiener,
        false,
        {"wiener-process",
         ResponseFamily::normal,
-        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
+        {{"mean", location}, {"scale", scale}, {"noise", scale, true}}}},
       {Process::wiener,
        true,
        {"wiener-process",
         ResponseFamily::normal,
-        {{"mean", place}, {"sd", size}, {"noise", size, true}}}},
+        {{"mean", location}, {"sd", scale}, {"noise", scale, true}}}},
       {Process::gamma,
        false,
        {"gamma-process",
         ResponseFamily::normal,
-        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
+        {{"mean", location}, {"scale", scale}, {"noise", scale, true}}}},
       {Process::inverse_gaussian,
        false,
        {"inverse-gaussian-process",
         ResponseFamily::normal,
-        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
+        {{"mean", location}, {"scale", scale}, {"noise", scale, true}}}},
   };
   return forms;
 }
@@ -273,9 +273,10 @@ void process_scores(const ProcessForm& form, const ProcessRows& rows,
     }
     const bool gamma = form.process == Process::gamma;
     const ResponseFamily family = gamma ? ResponseFamily::gamma : ResponseFamily::inverse_gaussian;
-    const double slots[most_response_parameters] = {gamma ? step.mean / u : step.mean,
-                                                    gamma ? u : step.mean * step.mean / u};
-    const double z = normal_score(log_cdf(family, dy, slots), log_survival(family, dy, slots));
+    const double family_parameters[most_response_parameters] = {
+        gamma ? step.mean / u : step.mean, gamma ? u : step.mean * step.mean / u};
+    const double z = normal_score(log_cdf(family, dy, family_parameters),
+                                  log_survival(family, dy, family_parameters));
     scores.push_back({z, z});
   }
 }

@@ -47,23 +47,25 @@ struct WrittenLikelihood {
   const ResponseForm* form;
   const ProcessForm* process;
   std::optional<std::string> trials;
-  std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
+  std::vector<std::pair<std::size_t, std::string>>
+      family_parameters;  // of the form, and the expression
 };
 
 // Keys of a prior whose values have the dimension of its parameter, for every distribution.
 const std::vector<std::string>& dimensional_keys() {
   static const auto all = [] {
-    std::map<std::string, bool> slots;
+    std::map<std::string, bool> family_parameters;
     for (const ResponseForm& form : prior_forms()) {
-      for (const ParameterForm& slot : form.slots) {
-        const bool dimensional =
-            slot.kind == ParameterKind::place || slot.kind == ParameterKind::size;
-        bool& always = slots.try_emplace(std::string(slot.name), true).first->second;
+      for (const ParameterForm& family_parameter : form.family_parameters) {
+        const bool dimensional = family_parameter.kind == ParameterKind::location ||
+                                 family_parameter.kind == ParameterKind::scale;
+        bool& always =
+            family_parameters.try_emplace(std::string(family_parameter.name), true).first->second;
         always = always && dimensional;
       }
     }
     std::vector<std::string> keys = {"unit"};
-    for (const auto& [name, always] : slots)
+    for (const auto& [name, always] : family_parameters)
       if (always) keys.push_back(name);
     keys.insert(keys.end(), {"lower", "upper"});
     return keys;
@@ -72,13 +74,13 @@ const std::vector<std::string>& dimensional_keys() {
 }
 
 // "mean and sd", for each parameterization of a name.
-std::vector<std::string> needed_slots(const std::string& family) {
+std::vector<std::string> needed_parameters(const std::string& family) {
   std::vector<std::string> ways;
   const auto add = [&](const ResponseForm& form) {
     if (form.name != family) return;
     std::vector<std::string_view> needed;
-    for (const ParameterForm& slot : form.slots) {
-      if (!slot.optional) needed.push_back(slot.name);
+    for (const ParameterForm& family_parameter : form.family_parameters) {
+      if (!family_parameter.optional) needed.push_back(family_parameter.name);
     }
     std::string way = fmt::format("{}", fmt::join(needed, " and "));
     if (ways.empty() || ways.back() != way) ways.push_back(std::move(way));
@@ -171,15 +173,15 @@ class Reader {
     }
     if (process) form = &process->form;
     if (!form) {
-      table.fail("family",
-                 fmt::format("{} needs {}", *family, fmt::join(needed_slots(*family), ", or ")));
+      table.fail("family", fmt::format("{} needs {}", *family,
+                                       fmt::join(needed_parameters(*family), ", or ")));
     }
     WrittenLikelihood result{column, form, process, {}, {}};
-    for (std::size_t s = 0; s < form->slots.size(); ++s) {
-      const std::string name(form->slots[s].name);
+    for (std::size_t s = 0; s < form->family_parameters.size(); ++s) {
+      const std::string name(form->family_parameters[s].name);
       if (!table.has(name)) continue;
-      result.slots.emplace_back(s, expression(table, name));
-      texts_.push_back(result.slots.back().second);
+      result.family_parameters.emplace_back(s, expression(table, name));
+      texts_.push_back(result.family_parameters.back().second);
     }
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
     return result;
@@ -214,9 +216,10 @@ class Reader {
   bool has_hidden_paths() const {
     return std::any_of(written_.begin(), written_.end(), [](const WrittenLikelihood& each) {
       return each.process && each.process->process != Process::wiener &&
-             std::any_of(each.slots.begin(), each.slots.end(), [](const auto& slot) {
-               return slot.first == 2;  // noise
-             });
+             std::any_of(each.family_parameters.begin(), each.family_parameters.end(),
+                         [](const auto& family_parameter) {
+                           return family_parameter.first == 2;  // noise
+                         });
     });
   }
 
@@ -367,12 +370,12 @@ class Reader {
   std::map<std::string, Bounds> natural_bounds() const {
     std::map<std::string, Bounds> bounds;
     for (const WrittenLikelihood& each : written_) {
-      for (const auto& [slot, text] : each.slots) {
+      for (const auto& [family_parameter, text] : each.family_parameters) {
         std::string name = trimmed(text);
         name = trimmed(name.substr(0, name.find('[')));
-        const ParameterKind kind = each.form->slots[slot].kind;
+        const ParameterKind kind = each.form->family_parameters[family_parameter].kind;
         if (kind == ParameterKind::probability) bounds[name].take(0, 1);
-        if (kind == ParameterKind::size || kind == ParameterKind::number)
+        if (kind == ParameterKind::scale || kind == ParameterKind::number)
           bounds[name].take(0, INFINITY);
       }
     }
@@ -625,15 +628,15 @@ class Reader {
       if (written.trials && !model_->data.number(*written.trials)) {
         table.fail("trials", "must name a numeric column under data.columns");
       }
-      for (const auto& [slot, text] : written.slots) {
-        const ParameterForm& form = written.form->slots[slot];
+      for (const auto& [family_parameter, text] : written.family_parameters) {
+        const ParameterForm& form = written.form->family_parameters[family_parameter];
         const bool dimensional =
-            form.kind == ParameterKind::place || form.kind == ParameterKind::size;
+            form.kind == ParameterKind::location || form.kind == ParameterKind::scale;
         measured.wanted.push_back({fmt::format("[likelihood.{}] {}", written.column, form.name),
                                    text, dimensional ? column->unit.powers : formula::Powers(),
                                    dimensional ? fmt::format("the column '{}'", written.column)
                                                : fmt::format("a {}", form.name)});
-        measured.slot.push_back(slot);
+        measured.family_parameter.push_back(family_parameter);
       }
       try {
         measured.program = formula::compile(model_->lines, measured.wanted, model_->row_symbols);

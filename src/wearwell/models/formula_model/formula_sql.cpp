@@ -105,9 +105,9 @@ class Printer {
 
   std::string leaf(int i, const Node& node) {
     const std::size_t index = node.index < 0 ? 0 : at(node.index);
-    const auto parameter = [&](std::size_t slot) {
-      parameters_.insert(slot);
-      return drawn(i, fmt::format("formula_p{}", slot));
+    const auto parameter = [&](std::size_t family_parameter) {
+      parameters_.insert(family_parameter);
+      return drawn(i, fmt::format("formula_p{}", family_parameter));
     };
     const auto label = [&](std::size_t l) {
       labels_.insert(l);

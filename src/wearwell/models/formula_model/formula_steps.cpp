@@ -15,7 +15,7 @@ namespace {
 constexpr double least_factor = 1e-290;
 
 bool has_noise(const Measured& measured) {
-  return std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+  return std::count(measured.family_parameter.begin(), measured.family_parameter.end(), 2) > 0;
 }
 
 bool in_proportion(UnitRows& rows, double middle) {

@@ -85,7 +85,7 @@ class StepUnits final : public latent::UnitTerms {
   double slope_by_z(const Unit& unit, double z) const;
   std::optional<LaplaceApproximation> approximation(const Unit& unit) const;
   void log_densities(const Unit& unit, const double* z, double* log_f) const;
-  bool lay(const Unit& unit, const LaplaceApproximation& about, double width);
+  bool rebuild(const Unit& unit, const LaplaceApproximation& about, double width);
   std::optional<double> integral(const Unit& unit, std::span<const double> gaps);
   void take(Unit& unit, double z, double weight, Moments& moments, Population& by) const;
   void give(std::size_t u, const Moments& moments);

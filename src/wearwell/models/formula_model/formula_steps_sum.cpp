@@ -70,7 +70,7 @@ void StepUnits::log_densities(const Unit& unit, const double* z, double* log_f) 
 
 // Nodes on both sides of the mode, until the integrand is e^-30 of its maximum; false if there are
 // too many.
-bool StepUnits::lay(const Unit& unit, const LaplaceApproximation& about, double width) {
+bool StepUnits::rebuild(const Unit& unit, const LaplaceApproximation& about, double width) {
   constexpr std::size_t n = Nodes::together;
   nodes_.count = 0;
   double highest = -infinity;
@@ -99,7 +99,7 @@ std::optional<double> StepUnits::integral(const Unit& unit, std::span<const doub
   if (!about) return {};
   for (const double gap : gaps) {
     const double width = gap * about->width;
-    if (!lay(unit, *about, width)) return {};
+    if (!rebuild(unit, *about, width)) return {};
     if (const auto log_integral = settled(nodes_, width)) return *log_integral - half_log_two_pi;
   }
   return {};

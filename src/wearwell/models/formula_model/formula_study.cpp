@@ -32,13 +32,14 @@ using formula_model::Observed;
 std::string description(const FormulaModel& model) {
   std::vector<std::string> parts;
   for (const Measured& each : model.measured) {
-    std::vector<std::string> slots;
+    std::vector<std::string> family_parameters;
     for (std::size_t o = 0; o < each.wanted.size(); ++o) {
-      slots.push_back(
-          fmt::format("{} = {}", each.form->slots[each.slot[o]].name, each.program.text(o)));
+      family_parameters.push_back(
+          fmt::format("{} = {}", each.form->family_parameters[each.family_parameter[o]].name,
+                      each.program.text(o)));
     }
-    parts.push_back(
-        fmt::format("{} is {} with {}", each.column, each.form->name, fmt::join(slots, ", ")));
+    parts.push_back(fmt::format("{} is {} with {}", each.column, each.form->name,
+                                fmt::join(family_parameters, ", ")));
   }
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];

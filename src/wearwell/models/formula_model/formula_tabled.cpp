@@ -16,11 +16,12 @@ namespace {
 // Indices of the study's parameters that an expression of the rows depends on, other than effects.
 std::vector<std::size_t> leans_on(const FormulaModel& model, const formula::Wanted& wanted) {
   const formula::Program program = formula::compile(model.lines, {wanted}, model.row_symbols);
-  const std::vector<std::size_t> slots = formula::slots(model.row_symbols);
+  const std::vector<std::size_t> family_parameters = formula::slots(model.row_symbols);
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < model.row_symbols.parameters.size(); ++i) {
     if (!program.uses_parameter(i)) continue;
-    for (std::size_t s = slots[i]; s < slots[i + 1]; ++s) found.push_back(model.shared[s]);
+    for (std::size_t s = family_parameters[i]; s < family_parameters[i + 1]; ++s)
+      found.push_back(model.shared[s]);
   }
   return found;
 }
@@ -114,13 +115,13 @@ std::optional<TabledForm> tabled_form(const FormulaModel& model,
   TabledForm form;
   form.logarithms = logarithms;
   for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
-    if (measured.slot[o] == 0) {
+    if (measured.family_parameter[o] == 0) {
       const std::vector<std::size_t> shared = leans_on(model, measured.wanted[o]);
       if (shared.size() > 1) return {};
       if (!shared.empty()) form.shared = shared[0];
-    } else if (measured.slot[o] == 1 && measured.program.outputs()[o].uniform) {
+    } else if (measured.family_parameter[o] == 1 && measured.program.outputs()[o].uniform) {
       form.size = formula::compile(model.lines, {measured.wanted[o]}, model.symbols);
-      form.per_slot = family == ResponseFamily::log10_normal ? ln10 : 1;
+      form.per_parameter = family == ResponseFamily::log10_normal ? ln10 : 1;
     } else {
       return {};
     }
@@ -170,7 +171,7 @@ void TabledUnits::move() {
   middle_ = model_.effects[0].lognormal ? std::log(population.middle[0]) : population.middle[0];
   scatter_ = population.scatter[0];
   form_.size.forward(size_data_, 0, 1, {{x_, model_.parameters.size()}, {}}, size_workspace_);
-  size_ = form_.per_slot * size_workspace_.values(0)[0];
+  size_ = form_.per_parameter * size_workspace_.values(0)[0];
   log_size_ = std::log(size_);
   inside_ = slice_.move(form_.shared ? x_[*form_.shared] : 0) && size_ > 0 &&
             std::isfinite(size_) && std::isfinite(middle_);
@@ -228,7 +229,7 @@ std::optional<double> TabledUnits::sum(std::span<double> gradient) {
   by.scatter[0] = all.slope_z;
   rows_.add_population_gradient(by, gradient);
   if (form_.shared) gradient[*form_.shared] += all.by_shared;
-  size_workspace_.adjoints(0)[0] = form_.per_slot * (squares / variance - readings) / size_;
+  size_workspace_.adjoints(0)[0] = form_.per_parameter * (squares / variance - readings) / size_;
   form_.size.reverse(size_data_, 0, 1, {{x_, model_.parameters.size()}, {}}, size_workspace_,
                      gradient);
   return sum;

@@ -23,8 +23,8 @@ struct BoundColumn;
 struct TabledForm {
   std::optional<std::size_t> shared;  ///< the parameter, among the study's
   bool logarithms = false;            ///< of the readings
-  formula::Program size;  ///< the index of their standard deviation, in the study's parameters
-  double per_slot = 1;    ///< their standard deviation over that
+  formula::Program size;     ///< the index of their standard deviation, in the study's parameters
+  double per_parameter = 1;  ///< their standard deviation over that
 };
 
 std::optional<TabledForm> tabled_form(const FormulaModel& model,

@@ -226,14 +226,15 @@ void HiddenStep::add_halves(const Distribution& increments, double shrink) {
   }
 }
 
-void HiddenStep::lay_nothing() {
+void HiddenStep::place_nothing() {
   none_ = true;
   nodes_.clear();
   first = 0;
   lag.assign(1, 1.0);
 }
 
-void HiddenStep::lay(Process process, double mean, double scale, double h, int least, int most) {
+void HiddenStep::rebuild(Process process, double mean, double scale, double h, int least,
+                         int most) {
   // A step with less variance counts as certain.
   const Distribution increments(process == Process::gamma, mean, std::max(scale, 1e-16 * mean));
   scale = increments.scale;

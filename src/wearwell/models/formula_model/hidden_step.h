@@ -26,9 +26,9 @@ class HiddenStep {
 
   /// Steps of `mean` above 0 with variance scale * mean; lags cover steps from `least` to `most`
   /// widths.
-  void lay(Process process, double mean, double scale, double h, int least, int most);
+  void rebuild(Process process, double mean, double scale, double h, int least, int most);
   /// A step of zero.
-  void lay_nothing();
+  void place_nothing();
 
   int first = 0;
   std::vector<double> lag;

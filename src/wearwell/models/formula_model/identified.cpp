@@ -12,7 +12,7 @@ namespace {
 
 // Every distribution parameter of every observation, with units at three quantiles of their
 // population.
-std::vector<double> all_slots(const FormulaRows& rows, const std::vector<double>& x) {
+std::vector<double> all_family_parameters(const FormulaRows& rows, const std::vector<double>& x) {
   UnitRows& units = rows.mine().rows;
   units.move_to(x.data());
   const std::size_t d = rows.model().effects.size();
@@ -21,7 +21,7 @@ std::vector<double> all_slots(const FormulaRows& rows, const std::vector<double>
   for (const auto& place : places) {
     std::vector<double> z(rows.model().units.size() * d);
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = place[i % std::max<std::size_t>(d, 1)];
-    for (const auto& column : units.each_slot(z))
+    for (const auto& column : units.each_family_parameter(z))
       all.insert(all.end(), column.begin(), column.end());
     if (d == 0) break;
   }
@@ -37,15 +37,15 @@ double size_of(const Parameter& parameter, double x) {
 Eigen::MatrixXd derivatives(const FormulaRows& rows, const std::vector<Parameter>& parameters,
                             std::vector<double> x) {
   constexpr double step = 1e-4;
-  const std::vector<double> here = all_slots(rows, x);
+  const std::vector<double> here = all_family_parameters(rows, x);
   Eigen::MatrixXd result(static_cast<Eigen::Index>(here.size()),
                          static_cast<Eigen::Index>(x.size()));
   for (std::size_t p = 0; p < x.size(); ++p) {
     const double at = x[p], size = size_of(parameters[p], at);
     x[p] = at + step * size;
-    const std::vector<double> above = all_slots(rows, x);
+    const std::vector<double> above = all_family_parameters(rows, x);
     x[p] = at - step * size;
-    const std::vector<double> below = all_slots(rows, x);
+    const std::vector<double> below = all_family_parameters(rows, x);
     x[p] = at;
     for (std::size_t i = 0; i < here.size(); ++i) {
       const double scale = std::max({std::abs(here[i]), std::abs(above[i]), std::abs(below[i])});

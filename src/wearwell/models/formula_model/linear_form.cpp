@@ -63,8 +63,9 @@ namespace {
 // Whether the form of its expressions proves that a column's mean is linear in the effects.
 bool straight_by_form(const Measured& measured) {
   for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
-    const formula::ByRowDegree most =
-        measured.slot[o] == 0 ? formula::ByRowDegree::linear : formula::ByRowDegree::none;
+    const formula::ByRowDegree most = measured.family_parameter[o] == 0
+                                          ? formula::ByRowDegree::linear
+                                          : formula::ByRowDegree::none;
     if (measured.program.by_row_degree(o) > most) return false;
   }
   return !measured.program.has_paths();

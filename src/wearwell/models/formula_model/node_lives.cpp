@@ -35,8 +35,8 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel>
     }
     if (column_ == model_->measured.size()) limits.fail(name_, "is not a process");
     process_ = model_->measured[column_].process;
-    const auto& slots = model_->measured[column_].wanted;
-    wanted_.assign(slots.begin(), slots.begin() + 2);
+    const auto& family_parameters = model_->measured[column_].wanted;
+    wanted_.assign(family_parameters.begin(), family_parameters.begin() + 2);
   }
   path_.next =
       make_path(model_, limits, name_, wanted_, true, conditions_of_unit(*model_, 0, given_));

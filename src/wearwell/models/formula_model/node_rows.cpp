@@ -21,22 +21,24 @@ bool is_plain_normal(const Measured& measured, const Response& y) {
          y.seen == Censoring::none && !(y.entry > -infinity);
 }
 
-Place place_of(const ResponseForm& form, const Response& y, const double* slots) {
+Place place_of(const ResponseForm& form, const Response& y, const double* family_parameters) {
   if (form.family == ResponseFamily::normal && y.seen == Censoring::none &&
       !(y.entry > -infinity)) {
-    const double tail = 0.5 * std::erfc(std::abs(y.at - slots[0]) / slots[1] * std::sqrt(0.5));
-    return y.at < slots[0] ? Place{tail, 1 - tail} : Place{1 - tail, tail};
+    const double tail = 0.5 * std::erfc(std::abs(y.at - family_parameters[0]) /
+                                        family_parameters[1] * std::sqrt(0.5));
+    return y.at < family_parameters[0] ? Place{tail, 1 - tail} : Place{1 - tail, tail};
   }
   if (y.seen != Censoring::none) {
-    const double p = std::exp(log_response_value(form.family, y, slots));
+    const double p = std::exp(log_response_value(form.family, y, family_parameters));
     return {0.5 * p, 0.5 * p};
   }
-  double below = std::exp(log_cdf(form.family, y.at, slots, y.trials));
-  double above = std::exp(log_survival(form.family, y.at, slots, y.trials));
+  double below = std::exp(log_cdf(form.family, y.at, family_parameters, y.trials));
+  double above = std::exp(log_survival(form.family, y.at, family_parameters, y.trials));
   if (form.counted)
-    above = y.at > 0 ? std::exp(log_survival(form.family, y.at - 1, slots, y.trials)) : 1;
+    above =
+        y.at > 0 ? std::exp(log_survival(form.family, y.at - 1, family_parameters, y.trials)) : 1;
   if (y.entry > -infinity) {
-    const double seen = std::exp(log_survival(form.family, y.entry, slots));
+    const double seen = std::exp(log_survival(form.family, y.entry, family_parameters));
     above = seen > 0 ? above / seen : 0;
     below = 1 - above;
   }
@@ -52,7 +54,7 @@ double Predicted::p_value() const {
 // The nodes of one pass with their distribution parameters.
 struct NodeRows::Block {
   std::size_t begin, count;
-  ParameterValues slots[most_response_parameters];
+  ParameterValues family_parameters[most_response_parameters];
   bool noisy;
 };
 
@@ -94,13 +96,13 @@ void NodeRows::plain_block(const Block& block, const Measured& measured, const R
   if (is_plain_normal(measured, y)) {
     // Nodes of a line share the fixed parameters: what depends only on these is computed once.
     for (std::size_t begin = 0; begin < block.count;) {
-      const double sd = block.slots[1][begin];
+      const double sd = block.family_parameters[1][begin];
       std::size_t end = begin + 1;
-      while (end < block.count && block.slots[1][end] == sd) ++end;
+      while (end < block.count && block.family_parameters[1][end] == sd) ++end;
       const double by_sd = 1 / sd, log_sd = std::log(sd) + half_log_two_pi;
       const bool possible = sd > 0 && std::isfinite(by_sd + log_sd);
       for (std::size_t i = begin; i < end; ++i) {
-        const double z = (y.at - block.slots[0][i]) * by_sd;
+        const double z = (y.at - block.family_parameters[0][i]) * by_sd;
         const double value = count * (-0.5 * z * z - log_sd);
         to[i] += possible && value > -infinity ? value : -infinity;
       }
@@ -109,7 +111,8 @@ void NodeRows::plain_block(const Block& block, const Measured& measured, const R
     return;
   }
   double value[NodeProgram::most];
-  log_responses(measured.form->family, column, 0, block.slots, {value, block.count}, {});
+  log_responses(measured.form->family, column, 0, block.family_parameters, {value, block.count},
+                {});
   for (std::size_t i = 0; i < block.count; ++i) {
     to[i] += std::isnan(value[i]) ? -infinity : count * value[i];
   }
@@ -121,8 +124,8 @@ void NodeRows::process_block(const Block& block, const Measured& measured, doubl
   const ProcessForm& form = *measured.process;
   for (std::size_t i = 0; i < block.count; ++i) {
     const std::size_t node = block.begin + i;
-    const double mean = block.slots[0][i], spread = block.slots[1][i];
-    const double noise = block.noisy ? block.slots[2][i] : 0;
+    const double mean = block.family_parameters[0][i], spread = block.family_parameters[1][i];
+    const double noise = block.noisy ? block.family_parameters[2][i] : 0;
     const double dm = mean - (before.measured ? before.mean[node] : 0);
     double at = y, variance = 0, value = -infinity;
     if (form.process == Process::wiener) {
@@ -170,9 +173,10 @@ Place place_of_step(const ProcessForm& form, double y, double mean, double sprea
   if (!(dm > 0 && dy > 0)) return {dy > 0 ? 1.0 : 0.0, dy > 0 ? 0.0 : 1.0};
   const bool gamma = form.process == Process::gamma;
   const ResponseFamily family = gamma ? ResponseFamily::gamma : ResponseFamily::inverse_gaussian;
-  const double slots[most_response_parameters] = {gamma ? dm / spread : dm,
-                                                  gamma ? spread : dm * dm / spread};
-  return {std::exp(log_cdf(family, dy, slots)), std::exp(log_survival(family, dy, slots))};
+  const double family_parameters[most_response_parameters] = {gamma ? dm / spread : dm,
+                                                              gamma ? spread : dm * dm / spread};
+  return {std::exp(log_cdf(family, dy, family_parameters)),
+          std::exp(log_survival(family, dy, family_parameters))};
 }
 
 // Allocates the positions of the nodes.
@@ -252,21 +256,24 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
       Block block{begin, std::min(NodeProgram::most, nodes.count() - begin), {}, noisy};
       program.evaluate(nodes, begin, block.count, reading.row, nullptr, on, scratch->programs[m]);
-      for (ParameterValues& each : block.slots) each = {&zero, true};
+      for (ParameterValues& each : block.family_parameters) each = {&zero, true};
       for (std::size_t o = 0; o < program.outputs().size(); ++o) {
-        block.slots[measured.slot[o]] = {program.values(o, scratch->programs[m]).data(),
-                                         program.outputs()[o].uniform};
+        block.family_parameters[measured.family_parameter[o]] = {
+            program.values(o, scratch->programs[m]).data(), program.outputs()[o].uniform};
       }
       if (moved && runs) carry_on(program, scratch->programs[m], begin, block.count, *moved);
       if (!y) continue;
       for (; sample && next < sample->node.size() && sample->node[next] < begin + block.count;
            ++next) {
         const std::size_t i = sample->node[next] - begin;
-        const double slots[] = {block.slots[0][i], block.slots[1][i], block.slots[2][i]};
-        const Place place = measured.process
-                                ? place_of_step(*measured.process, y->at, slots[0], slots[1],
-                                                slots[2], before[m], begin + i)
-                                : place_of(*measured.form, *y, slots);
+        const double family_parameters[] = {block.family_parameters[0][i],
+                                            block.family_parameters[1][i],
+                                            block.family_parameters[2][i]};
+        const Place place =
+            measured.process
+                ? place_of_step(*measured.process, y->at, family_parameters[0],
+                                family_parameters[1], family_parameters[2], before[m], begin + i)
+                : place_of(*measured.form, *y, family_parameters);
         if (!std::isnan(place.below + place.above))
           predicted.add(sample->weight[next], place.below, place.above);
       }

@@ -53,7 +53,7 @@ Nodes draws_of(const Nodes& nodes, const std::vector<double>& weight, std::size_
 /// Of a unit of the study with rows `seen`, or of a new one.
 Nodes draws_of(const NodePopulation& population, const NodeRows& rows,
                const std::vector<UnitReading>& seen, std::size_t count) {
-  const UnitNodes laid = lay_nodes(population, seen, seen, {});
+  const UnitNodes laid = place_nodes(population, seen, seen, {});
   std::vector<double> log_weight = laid.log_before, value(log_weight.size()), weight;
   auto path = rows.paths();
   for (const UnitReading& each : seen) {
@@ -123,7 +123,8 @@ class Exporter {
     out_.wanted = {"--value", choice_.value, {}, {}};
     if (choice_.value.empty()) {
       for (std::size_t o = measured.wanted.size(); o-- > 0;)
-        if (measured.form->slots[measured.slot[o]].kind == ParameterKind::place)
+        if (measured.form->family_parameters[measured.family_parameter[o]].kind ==
+            ParameterKind::location)
           out_.wanted = measured.wanted[o];
       if (out_.wanted.text.empty())
         throw InputError(
@@ -222,10 +223,10 @@ class Exporter {
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return model_->effects[a].symbol < model_->effects[b].symbol;
     });
-    std::vector<std::string> of_slot;  // by slots(row_symbols)
-    for (const std::size_t p : model_->shared) of_slot.push_back(model_->parameters[p].name);
+    std::vector<std::string> of_parameter;  // by slots(row_symbols)
+    for (const std::size_t p : model_->shared) of_parameter.push_back(model_->parameters[p].name);
     for (const std::size_t p : sql_.parameters)
-      statements.numbers.push_back({fmt::format("formula_p{}", p), of_slot[p]});
+      statements.numbers.push_back({fmt::format("formula_p{}", p), of_parameter[p]});
     for (const std::size_t e : sql_.effects)
       statements.numbers.push_back(
           {fmt::format("formula_e{}", e), model_->effects[order[e]].name + " of the unit"});

@@ -56,14 +56,14 @@ Tracked::Tracked(const TomlReader& root, std::shared_ptr<const FormulaModel> for
 TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
                          std::vector<UnitReading> seen)
     : tracked_(std::move(tracked)), unit_(std::move(unit)), seen_(std::move(seen)) {
-  lay({});
+  rebuild({});
 }
 
 // All rows, those of the study first.
-void TrackedUnit::lay(std::vector<UnitReading> all) {
+void TrackedUnit::rebuild(std::vector<UnitReading> all) {
   all.insert(all.begin(), seen_.begin(), seen_.end());
   sort_along(all);
-  nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
+  nodes_ = place_nodes(tracked_->population, seen_, all, nodes_);
   log_weight_ = std::move(nodes_.log_before);
   paths_ = look_at_all(nodes_, all, log_weight_);
   if (!all.empty()) {
@@ -132,11 +132,11 @@ std::vector<UnitReading> TrackedUnit::all_of(const prognosis::History& history) 
 }
 
 // Rebuilds nodes for all readings with this one; false and unchanged if no node allows them.
-bool TrackedUnit::lay_with(const UnitReading& reading, const prognosis::History& history) {
+bool TrackedUnit::rebuild_with(const UnitReading& reading, const prognosis::History& history) {
   TrackedUnit before = *this;
   std::vector<UnitReading> all = all_of(history);
   all.push_back(reading);
-  lay(std::move(all));
+  rebuild(std::move(all));
   if (effective_ > 0) return true;
   *this = std::move(before);
   return false;
@@ -160,8 +160,8 @@ double TrackedUnit::p_value_at(const UnitReading& reading, std::span<double> val
   return p_value;
 }
 
-prognosis::UpdateResult TrackedUnit::take(const prognosis::Reading& reading,
-                                          const prognosis::History& history) {
+prognosis::UpdateResult TrackedUnit::update(const prognosis::Reading& reading,
+                                            const prognosis::History& history) {
   static const std::string impossible =
       "no unit of the population can show this after its earlier readings";
   prognosis::UpdateResult taken;
@@ -175,7 +175,7 @@ prognosis::UpdateResult TrackedUnit::take(const prognosis::Reading& reading,
   if (late) {
     taken.problem = two_at_one_place(y, history);
     if (!taken.problem.empty()) return taken;
-    if (!lay_with(y, history)) taken.problem = impossible;
+    if (!rebuild_with(y, history)) taken.problem = impossible;
   } else {
     static thread_local std::vector<double> value;
     value.resize(log_weight_.size());
@@ -190,8 +190,8 @@ prognosis::UpdateResult TrackedUnit::take(const prognosis::Reading& reading,
       weigh();
       if (!any_row_ || y.place >= last_.place) last_ = y;
       any_row_ = true;
-      if (effective_ < least_effective * laid_effective_) lay_with(y, history);
-    } else if (!lay_with(y, history)) {
+      if (effective_ < least_effective * laid_effective_) rebuild_with(y, history);
+    } else if (!rebuild_with(y, history)) {
       taken.problem = impossible;
     }
   }

@@ -38,8 +38,8 @@ class TrackedUnit final : public prognosis::TrackedUnit {
       std::shared_ptr<const Tracked> tracked, const std::string& bytes,
       const std::function<std::vector<UnitReading>(const std::string& unit)>& seen);
 
-  prognosis::UpdateResult take(const prognosis::Reading& reading,
-                               const prognosis::History& history) override;
+  prognosis::UpdateResult update(const prognosis::Reading& reading,
+                                 const prognosis::History& history) override;
   prognosis::Forecast forecast() const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
@@ -55,10 +55,10 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   struct Bare {};
   TrackedUnit(std::shared_ptr<const Tracked> tracked, Bare) : tracked_(std::move(tracked)) {}
 
-  void lay(std::vector<UnitReading> all);
+  void rebuild(std::vector<UnitReading> all);
   std::vector<NodePath> look_at_all(const UnitNodes& nodes, const std::vector<UnitReading>& all,
                                     std::vector<double>& log_weight) const;
-  bool lay_with(const UnitReading& reading, const prognosis::History& history);
+  bool rebuild_with(const UnitReading& reading, const prognosis::History& history);
   void weigh();
   double p_value_at(const UnitReading& reading, std::span<double> value,
                     std::vector<NodePath>* after) const;

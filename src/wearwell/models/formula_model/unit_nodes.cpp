@@ -232,8 +232,8 @@ void UnitNodes::fill(const FormulaModel& model, std::size_t per_line) {
   }
 }
 
-UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
-                    const std::vector<UnitReading>& all, const UnitNodes& before) {
+UnitNodes place_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
+                      const std::vector<UnitReading>& all, const UnitNodes& before) {
   const FormulaModel& model = *population.model;
   const UnitAt at_seen(model, seen), at_all(model, all);
   UnitNodes laid;

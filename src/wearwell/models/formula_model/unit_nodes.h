@@ -58,8 +58,8 @@ struct UnitNodes {
 /// Builds the nodes of a unit with rows `seen` in the study (may be empty) and rows `all` since the
 /// beginning, including those. Both along the axis. `before`: its present nodes, whose points are
 /// kept if they are its own and accurate enough.
-UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
-                    const std::vector<UnitReading>& all, const UnitNodes& before);
+UnitNodes place_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
+                      const std::vector<UnitReading>& all, const UnitNodes& before);
 
 /// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 if all are
 /// zero.

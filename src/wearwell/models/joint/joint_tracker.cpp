@@ -120,7 +120,7 @@ NodeCloud cloud(const ThinnedPosterior& few) {
 }
 
 // Without readings the saved posterior; otherwise that of all inspections, integrated again.
-NodeCloud lay(const Followed& joint, std::span<const Reading> readings) {
+NodeCloud rebuild(const Followed& joint, std::span<const Reading> readings) {
   if (readings.empty()) return cloud(joint.few);
   Inspections all = joint.data.inspections;
   for (const Reading& each : readings) {
@@ -194,8 +194,8 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
     return joint->read(reading, inspection);
   };
   model.reading = [joint](const Reading& reading) { return reading_distribution(*joint, reading); };
-  model.lay = [joint](const std::string&, std::span<const Reading> readings) {
-    return lay(*joint, readings);
+  model.rebuild = [joint](const std::string&, std::span<const Reading> readings) {
+    return rebuild(*joint, readings);
   };
   model.degradation_path = [joint](const std::string&, const Reading* last) {
     return std::optional(degradation_path(*joint, last));
