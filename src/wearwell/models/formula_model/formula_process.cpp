@@ -192,7 +192,7 @@ void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<d
 }  // namespace
 
 std::span<const ProcessForm> process_forms() {
-  constexpr ParameterKind place = ParameterKind::location, size = ParameterKind::scale;
+  constexpr auto location = ParameterKind::location, scale = ParameterKind::scale;
   static const std::vector<ProcessForm> forms = {
       {Process::wiener,
        false,
