@@ -222,7 +222,7 @@ void tracked(std::string_view bytes) {
                                 : each.name == "cycles" ? 6000.0
                                 : each.name == "volume" ? 2.8e-8
                                                         : 4e-6);
-    unit->take(reading, [](const auto&) {});
+    unit->update(reading, [](const auto&) {});
   } catch (const InputError& refused) {
     demand(*refused.what() != '\0', "a refusal says why");
   }

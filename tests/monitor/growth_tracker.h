@@ -12,7 +12,7 @@ namespace wearwell {
 /// any reading; readings are good to 5 m. Its posterior is two sums, which are added in the order of the readings.
 class GrowthUnit : public prognosis::TrackedUnit {
  public:
-  prognosis::UpdateResult take(const prognosis::Reading& reading,
+  prognosis::UpdateResult update(const prognosis::Reading& reading,
                                const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
     prognosis::UpdateResult taken;

@@ -28,7 +28,7 @@ struct Member {
   FamilyParameters family_parameters;
 
   Member(const std::string& name, const FamilyParameters& values)
-      : family(form(name, values.size()).family), slots(values) {}
+      : family(form(name, values.size()).family), family_parameters(values) {}
   double term(Censoring seen, double y, double until = 0) const {
     return log_response_value(family, {seen, y, until}, family_parameters.data());
   }

@@ -17,17 +17,17 @@ struct FollowedUnit {
   FollowedUnit(const prognosis::Tracker& tracker, const std::string& name)
       : unit(tracker.begin(name)) {}
 
-  prognosis::UpdateResult take(const prognosis::Reading& reading) {
+  prognosis::UpdateResult update(const prognosis::Reading& reading) {
     const prognosis::UpdateResult result =
-        unit->take(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
+        unit->update(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
           for (const prognosis::Reading& each : taken) visit(each);
         });
     if (result.counted) taken.push_back(reading);
     return result;
   }
-  prognosis::UpdateResult take(const std::vector<double>& numbers,
-                               const std::vector<std::string>& labels = {}) {
-    return take({numbers, labels});
+  prognosis::UpdateResult update(const std::vector<double>& numbers,
+                                 const std::vector<std::string>& labels = {}) {
+    return update({numbers, labels});
   }
 };
 

@@ -80,7 +80,7 @@ TEST(UnitPopulations, AreSumsOverGridsByBruteForce) {
     SCOPED_TRACE(seen ? "seen" : "new");
     FollowedUnit unit(*watched.tracker, seen ? "u2" : "new");
     for (std::size_t shown = 0; shown <= since.size(); ++shown) {
-      if (shown > 0) unit.take({since[shown - 1].second, since[shown - 1].first});
+      if (shown > 0) unit.update({since[shown - 1].second, since[shown - 1].first});
       const auto apart = unit.unit->in_populations([](const auto&) {});
       ASSERT_TRUE(apart);
       const double now = unit.unit->forecast().now;
