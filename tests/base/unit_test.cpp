@@ -298,7 +298,7 @@ TEST(Quantity, APlainNumberBesideAUnitHasTwoReadings) {
   const Unit hundreds = read_unit("1e2 cycles", "cycle");
   const Quantity seven = read_quantity("7", "cycle");
   EXPECT_THAT(message_of<InputError>([&] { refuse_two_readings(seven, hundreds); }),
-              AllOf(HasSubstr("is it 7,"), HasSubstr("= 700")));
+              AllOf(HasSubstr("is ambiguous: 7,"), HasSubstr("= 700")));
   EXPECT_NO_THROW(refuse_two_readings(read_quantity("7 cycles", "cycle"), hundreds));
   EXPECT_NO_THROW(refuse_two_readings(read_quantity("0", "cycle"), hundreds));
   EXPECT_NO_THROW(refuse_two_readings(seven, read_unit("turns", "cycle")));

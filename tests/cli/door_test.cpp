@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 class Door : public ScratchTest {
  protected:
   Door() {
-    for (const char* name : {"joint", "bearing", "fatigue", "clutch"})
+    for (const char* name : {"joint", "bearing", "fatigue", "clutch", "formula"})
       fs::copy(fs::path(PROJECT_SOURCE_DIR) / "examples" / name, folder() / name);
   }
 

@@ -106,7 +106,7 @@ TEST_F(FatigueDriver, HistoriesThatAScaleMakesStressesOf) {
   const json counted = result("fatigue life res counted/tables/cycles.csv --scale '2 MPa/kN'");
   expect_same_lives(counted, expected, 1e-9);
   EXPECT_THAT(counted["history"].get<std::string>(),
-              AllOf(HasSubstr("times 2 MPa/kN"), HasSubstr("'mean [kN]' is left out")));
+              AllOf(HasSubstr("times 2 MPa/kN"), HasSubstr("'mean [kN]' is ignored")));
 }
 
 TEST_F(FatigueDriver, CurvesOfForcesAndStrainsTakeTheirLikeOnly) {
@@ -147,7 +147,7 @@ TEST_F(FatigueDriver, RefusesLoadsThatReadTwoWays) {
               HasSubstr("'strain' in um/m, times 206 GPa"));
   write("counted.csv", "force_range [kN],cycles\n300,10\n");
   EXPECT_THAT(refused("res counted.csv --unit MPa"),
-              AllOf(HasSubstr("kN"), HasSubstr("--unit says MPa")));
+              AllOf(HasSubstr("kN"), HasSubstr("--unit has MPa")));
   EXPECT_THAT(refused("res counted.csv"), HasSubstr("not a stress"));
   EXPECT_LE(run("fatigue life res counted.csv --scale '2 MPa/kN'").exit_code, 1);
   write("stress.csv", "stress [MPa]\n-300\n300\n-300\n");

@@ -126,7 +126,7 @@ TEST_F(Generated, BashCompletesOptionsTheirWordsAndFiles) {
   EXPECT_THAT(offered("fit stu"), ElementsAre("study.toml"));
   EXPECT_THAT(offered("fit study.toml -o stu"), ElementsAre("study.toml"));
   EXPECT_THAT(offered("new fa"), ElementsAre("fatigue"));
-  EXPECT_THAT(offered("new f"), testing::UnorderedElementsAre("fatigue", "fleet"));
+  EXPECT_THAT(offered("new f"), testing::UnorderedElementsAre("fatigue", "fleet", "formula"));
   EXPECT_THAT(offered("clutch predict --state stu"), ElementsAre("study.toml"));
 }
 

@@ -49,7 +49,7 @@ TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
   const std::string said =
       fitted("lives.csv", "stress,N\n400,41000\n400,52000\n350,120000\n300,500000\n300,700000\n");
   EXPECT_THAT(said, AllOf(HasSubstr("column 'stress' has no unit in its heading; MPa is a guess"),
-                          HasSubstr("no column says which tests were stopped unbroken")));
+                          HasSubstr("no column tells which tests were stopped unbroken")));
   EXPECT_THAT(content("out/study.toml"), HasSubstr("unit = \"MPa\" }    # the unit is a GUESS"));
 }
 
@@ -140,8 +140,8 @@ TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {
   write("lives.csv", "stress [MPa],cycles,status\n400,41000,broke\n300,2000000,went on\n");
   const CommandResult run = here("new --from lives.csv");
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("The study does not run yet"), HasSubstr("'went on' is not a status")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("The study does not run yet"),
+                             HasSubstr("'went on' is not a status")));
   EXPECT_TRUE(std::filesystem::exists(folder() / "lives-study" / "study.toml"));
 }
 

@@ -222,10 +222,10 @@ limit = { depth = "100 um" }
   EXPECT_NEAR(at_limit - 400, fitted["q50"], 0.02 * fitted["q50"].get<double>());
   const CommandResult before = run("life both --unit M5 --survived '300 h'");
   EXPECT_EQ(before.exit_code, 2);
-  EXPECT_THAT(before.err, HasSubstr("was read beyond 300 h already"));
+  EXPECT_THAT(before.err, HasSubstr("has readings beyond 300 h already"));
   EXPECT_THAT(
       run("life both --unit M6").err,
-      HasSubstr("no 'M6' is known; did you mean 'M1'? (known: M1, M11, M3, M5, M7, M9; without "
+      HasSubstr("'M6' is unknown; did you mean 'M1'? (known: M1, M11, M3, M5, M7, M9; without "
                 "--unit a new machine)"));
 
   write("slip.csv", "machine,hours,wear_um\nM5,450,52\n");

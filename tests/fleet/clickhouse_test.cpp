@@ -120,11 +120,11 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   refused(arguments + " --prefix y", "with a repeated number");
   EXPECT_EQ(server.sql("select count() from y_sums").out, "0\n");  // and nothing was kept
   must(server, "insert into cycles values ('unit 1', 100000, 100, null, 150, 1, 1000)");
-  refused(arguments, "unit 1, cycle 100000: torque is no number");
+  refused(arguments, "unit 1, cycle 100000: torque is not a number");
   refused(asked(server.address("reader:se%20cret@")), "Wrong password");
   refused(asked(server.address(), "nothing"), "nothing doesn't exist");
   refused(asked(server.address() + "/nowhere"), "nowhere doesn't exist");
-  refused(asked("clickhouse://127.0.0.1:1"), "not reached: 127.0.0.1:1: Connection refused");
+  refused(asked("clickhouse://127.0.0.1:1"), "cannot be reached: 127.0.0.1:1: Connection refused");
 }
 
 // Columns that a run does not name would be 0 there, without a word.

@@ -258,10 +258,10 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
                       changed[50].unit, changed[50].number));
   changed = cycles;
   changed[50].temperature = -300;
-  refused(changed, "cannot be");
+  refused(changed, "impossible value");
   changed = cycles;
   changed[50].energy = NAN;
-  refused(changed, "cannot be");
+  refused(changed, "impossible value");
   changed = cycles;
   changed[51].unit = changed[50].unit;
   changed[51].number = changed[50].number;

@@ -57,9 +57,10 @@ TEST_F(CText, ComputesWhatTheProgramDoes) {
   }
   source << "  return 0;\n}\n";
   write("formula.c", source.str());
-  const CommandResult ran = run_command("cd " + folder().string() +
-                                        " && cc -std=c99 -pedantic -Wall -Wextra -Werror -O1 law.c "
-                                        "-lm -o law && ./law");
+  const CommandResult ran =
+      run_command("cd " + folder().string() +
+                  " && cc -std=c99 -pedantic -Wall -Wextra -Werror -O1 formula.c "
+                  "-lm -o formula && ./formula");
   ASSERT_EQ(ran.exit_code, 0) << ran.err << source.str();
   std::istringstream printed(ran.out);
   const Data data = program.bind(rows);

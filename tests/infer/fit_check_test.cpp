@@ -212,13 +212,13 @@ TEST(FitCheck, OfVeryManyRowsASampleIsJudgedAndTheOutermostOfAll) {
   std::vector<double> z = normals(60'000, rng);
   const Check right = fit_check(judged(z));
   EXPECT_EQ(right.verdict, Verdict::pass) << right.detail;
-  EXPECT_THAT(right.detail, HasSubstr("20000 rows, drawn from 60000"));
+  EXPECT_THAT(right.detail, HasSubstr("20000 rows, sampled from 60000"));
   for (const std::size_t row : {0u, 31'417u, 59'999u}) {
     std::vector<double> one = z;
     one[row] = -9;
     const Check far = fit_check(judged(one));
     EXPECT_EQ(far.verdict, Verdict::fail);
-    EXPECT_THAT(far.detail, HasSubstr(std::to_string(row + 1) + " lies farther out"));
+    EXPECT_THAT(far.detail, HasSubstr(std::to_string(row + 1) + " is an outlier"));
   }
   for (double& each : z) each *= 1.05;
   EXPECT_EQ(fit_check(judged(z)).verdict, Verdict::fail);

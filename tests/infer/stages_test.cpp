@@ -135,7 +135,7 @@ TEST(Stages, OpenIntegralsWithinALikelihoodAreSaid) {
     if (left == 0) continue;
     EXPECT_EQ(found.stage_diagnostics[0].stage, Stage::effects);
     EXPECT_EQ(found.stage_diagnostics[0].verdict, left > 1e-3 ? Verdict::fail : Verdict::warn);
-    EXPECT_THAT(found.stage_diagnostics[0].what, HasSubstr(" of 200 points"));
+    EXPECT_THAT(found.stage_diagnostics[0].what, HasSubstr(" of 200 sampled points"));
   }
 }
 

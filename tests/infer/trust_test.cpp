@@ -259,7 +259,7 @@ TEST(Trust, DrawsThatDisagreeByChanceAreDrawnAgain) {
   EXPECT_NE(first.pooled.values(0, 0), again.pooled.values(0, 0));
   EXPECT_EQ(check(trust_checks(posterior, again), "exact-agreement").verdict, Verdict::pass);
   EXPECT_THAT(check(trust_checks(posterior, again), "exact-agreement").detail,
-              HasSubstr("drawn again"));
+              HasSubstr("the first draws disagreed and were repeated"));
 }
 
 // x^-2.2 e^(-100/x) from 1 on: nearly half of it lies within a twentieth of its central 90 % from the bound, where its density is

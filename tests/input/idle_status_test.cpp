@@ -37,7 +37,7 @@ TEST_F(IdleStatusTest, ARefusalNamesBothReadings) {
                     HasSubstr("(0, 1)"), HasSubstr("all 3 rows count as failures"),
                     HasSubstr("status = \"event\""), HasSubstr("unused = [\"event\"]")));
   EXPECT_THAT(refusal("status", {"0", "1"}),
-              AllOf(HasSubstr("status = { column = \"status\", failure = 1 } where 1 is a failure"),
+              AllOf(HasSubstr("status = { column = \"status\", failure = 1 } if 1 is a failure"),
                     HasSubstr("failure = 0")));
   EXPECT_THAT(refusal("outcome", {"failed", "running"}), HasSubstr("failure, runout, left"));
 }

@@ -80,13 +80,13 @@ TEST_F(PriorDocs, EveryLineIsReadAndEveryKeyInItIsNeeded) {
 TEST_F(PriorDocs, NoLawIsLeftOut) {
   std::set<std::string> documented;
   for (const Line& line : lines_of_page()) {
-    documented.insert(line.keys.front().substr(7, line.keys.front().size() - 8));
+    documented.insert(line.keys.front().substr(16, line.keys.front().size() - 17));
   }
   // The reader lists what it knows.
   const std::string refusal =
       message_of<InputError>([&] { read("k", {"distribution = \"none such\""}); });
   std::smatch list;
-  ASSERT_TRUE(std::regex_search(refusal, list, std::regex("it is one of (.*) \\(nearest")))
+  ASSERT_TRUE(std::regex_search(refusal, list, std::regex("use one of (.*) \\(nearest")))
       << refusal;
   const std::string names = list[1];
   const std::regex comma(", ");

@@ -132,7 +132,8 @@ TEST_F(TomlReaderTest, NamesPlaceAndKey) {
   expect(
       "n = 1.5\n", [](R r) { r.integer("n", 1, 9); }, "a.toml:1:5: n: must be a whole number");
   expect(
-      "n = 10\n", [](R r) { r.integer("n", 1, 9); }, "a.toml:1:5: n: 10 is out of range, 1 to 9");
+      "n = 10\n", [](R r) { r.integer("n", 1, 9); },
+      "a.toml:1:5: n: 10 is out of range; use 1 to 9");
   expect(
       "n = 0\n", [](R r) { r.integer("n", 1, 9); }, "a.toml:1:5: n: 0 is out of range");
   expect(

@@ -13,7 +13,7 @@ namespace wearwell {
 class GrowthUnit : public prognosis::TrackedUnit {
  public:
   prognosis::UpdateResult update(const prognosis::Reading& reading,
-                               const prognosis::History& history) override {
+                                 const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
     prognosis::UpdateResult taken;
     if (!(hours >= 0)) {

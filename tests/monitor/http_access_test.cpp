@@ -167,7 +167,7 @@ TEST_F(HttpAccessTest, BeyondLoopbackATokenAndTlsMustBe) {
   const HttpServer server(settings, fleet_, &fleet_);
   EXPECT_THAT(server.address(), StartsWith("https://0.0.0.0:"));
   settings.token.clear();
-  EXPECT_THAT(refusal_of(settings), HasSubstr("there a token must be set"));
+  EXPECT_THAT(refusal_of(settings), HasSubstr("is reachable from other machines: set a token"));
 }
 
 TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
@@ -185,7 +185,7 @@ TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
   certify("b");
   settings = tls();
   settings.certificate = folder() / "none.pem";
-  EXPECT_THAT(refusal_of(settings), HasSubstr("none.pem: no certificate"));
+  EXPECT_THAT(refusal_of(settings), HasSubstr("none.pem: contains no readable certificate"));
   settings = tls();
   settings.key = folder() / "b.key";
   EXPECT_THAT(refusal_of(settings), HasSubstr("b.key: "));

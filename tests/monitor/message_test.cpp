@@ -99,7 +99,7 @@ TEST(MessageFields, AreBounded) {
   EXPECT_THAT(problems_of("{\"a\":\"" + std::string(100'000, 'x') + "\"}"),
               ElementsAre(HasSubstr("the limit is 65536")));
   EXPECT_THAT(problems_of(std::string(5 << 20, '{')), ElementsAre(HasSubstr("the limit is")));
-  EXPECT_THAT(problems_of("{\"a\": 1, \"a\": 2}"), ElementsAre(HasSubstr("holds 'a' twice")));
+  EXPECT_THAT(problems_of("{\"a\": 1, \"a\": 2}"), ElementsAre(HasSubstr("has 'a' twice")));
   EXPECT_THAT(problems_of("{\"a\": 1e999}"), ElementsAre(HasSubstr("too large")));
   EXPECT_THAT(problems_of("[1, 2]"), ElementsAre(HasSubstr("is a list")));
   EXPECT_THAT(problems_of(" \n "), ElementsAre("is empty"));

@@ -43,7 +43,7 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
   const CommandResult run =
       run_wearwell("monitor '" + config.string() + "' < '" + (folder() / "lines").string() + "'");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("3 units: 0 to act upon"));
+  EXPECT_THAT(run.out, HasSubstr("3 units: 0 act"));
   EXPECT_THAT(run.out, HasSubstr("15 readings stored; of 18 messages 1 repeated, 2 refused."));
   EXPECT_THAT(run.err, HasSubstr("source.line: refused: t is missing"));
   const CommandResult exported = run_wearwell("monitor '" + config.string() + "' --export '" +

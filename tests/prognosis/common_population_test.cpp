@@ -200,7 +200,7 @@ TEST(CommonPopulation, SaysWhereItCannotBeTold) {
       unit.log_likelihood[k] = -0.5 * std::pow(fleet.theta[k] / 0.01, 2);
     return std::optional(unit);
   };
-  expect_alone(true, "81 points carry");
+  expect_alone(true, "81 points resolve");
   fleet.lives.units[0].in_populations = [] { return std::optional<InPopulations>(); };
   expect_alone(true, "no forecast by population");
   fleet.lives.populations.clear();

@@ -131,7 +131,7 @@ TEST_F(NewData, TellAnotherNumberAtTheSamePlace) {
   ASSERT_THAT(joined.contradictions, SizeIs(2));
   EXPECT_EQ(joined.contradictions[0].place, "laser b9 at hours = 250");
   EXPECT_EQ(joined.contradictions[0].why,
-            "increase_percent = 0.7, where increase_percent = 0.4 is known already");
+            "increase_percent = 0.7, where increase_percent = 0.4 is already known");
   EXPECT_EQ(joined.contradictions[1].place, "laser b9 at hours = 600");
   EXPECT_EQ(joined.counted, 3u);  // not swallowed
 }
@@ -191,7 +191,7 @@ TEST_F(NewData, GoThroughTheQueryOfTheStudy) {
   const Table& table = data_table(joined.source);
   EXPECT_THAT(table.column("volume").numbers, ElementsAre(3, 8, 12));
   ASSERT_THAT(joined.contradictions, SizeIs(1));
-  EXPECT_EQ(joined.contradictions[0].why, "volume = 8, where volume = 6 is known already");
+  EXPECT_EQ(joined.contradictions[0].why, "volume = 8, where volume = 6 is already known");
 }
 
 // Weights times the ratio of two densities are the other posterior.

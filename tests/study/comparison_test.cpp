@@ -84,12 +84,12 @@ TEST(Comparison, NeverRanksWithinTheError) {
   const Comparison near =
       compare({{"worst", with(-9, 0.1)}, {"first", with(-2.05, 0.1)}, {"second", with(-2, 0.1)}});
   EXPECT_THAT(names(near), ElementsAre("first", "second", "worst"));
-  EXPECT_THAT(comparison_text(near), HasSubstr("The order of first, second is not known"));
+  EXPECT_THAT(comparison_text(near), HasSubstr("The order of first, second is unknown"));
   EXPECT_NEAR(near.studies[0].behind->value, 0.1, 1e-12);
   EXPECT_EQ(near.studies[1].behind->value, 0);
   const Comparison far = compare({{"first", with(-2.05, 0.01)}, {"second", with(-2, 0.01)}});
   EXPECT_THAT(names(far), ElementsAre("second", "first"));
-  EXPECT_THAT(comparison_text(far), Not(HasSubstr("is not known")));
+  EXPECT_THAT(comparison_text(far), Not(HasSubstr("is unknown")));
 }
 
 TEST(Comparison, NeverRanksDifferentData) {

@@ -56,7 +56,7 @@ TEST(TerminalSummary, NoTextCommandsTheTerminal) {
     const std::string text = terminal_summary(result, {.histograms = histograms, .rows = true});
     for (const char* command : {"\x1b", "\x07", "\u009b", "\u202e"})
       EXPECT_THAT(text, Not(HasSubstr(command)));
-    EXPECT_THAT(text, EndsWith("do not use these numbers.\n"));
+    EXPECT_THAT(text, EndsWith("do not use these\n  numbers.\n"));
   }
   const std::string head = terminal_summary(result, {}).substr(0, 400);
   EXPECT_THAT(head, Not(HasSubstr("\nTrusted")));

@@ -90,7 +90,8 @@ struct FitTest {
   double p = 1;         ///< p value
   std::string finding;  ///< message for a small p
   std::string advice;
-  double share = 1;  ///< share of the check's level; p is divided by it
+  double share = 1;      ///< share of the check's level; p is divided by it
+  bool may_fail = true;  ///< else it only warns
 
   double judged() const { return p < share ? p / share : 1; }
 };

@@ -175,7 +175,7 @@ TEST(BearingTracker, RefusesWhatIsNoReading) {
     }
     return "";
   }();
-  EXPECT_THAT(message, HasSubstr("no 'Q' is known"));
+  EXPECT_THAT(message, HasSubstr("'Q' is unknown"));
 }
 
 }  // namespace

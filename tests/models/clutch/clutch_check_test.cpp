@@ -68,7 +68,7 @@ TEST(ClutchChecks, ALifeOutsideTheRangeOfValidityIsNamed) {
   EXPECT_EQ(check(1500).verdict, Verdict::pass);
   EXPECT_EQ(check(2200).verdict, Verdict::warn);
   EXPECT_THAT(check(2200).detail, HasSubstr("'hill' lies outside the calibrated range by 0.2 of"));
-  EXPECT_THAT(check(2200).detail, HasSubstr("slip_speed 2200, modelled from 1000 to 2000 rpm"));
+  EXPECT_THAT(check(2200).detail, HasSubstr("slip_speed 2200, calibrated from 1000 to 2000 rpm"));
   EXPECT_EQ(check(9000).verdict, Verdict::fail);
   EXPECT_EQ(check(300).verdict, Verdict::fail);
   EXPECT_EQ(extrapolation_check(model, {{"cold", {1500 * rpm, 50, 60, 2}, {}}}).verdict,

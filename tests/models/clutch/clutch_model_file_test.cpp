@@ -56,7 +56,7 @@ TEST_F(ClutchModelFile, RefusesByWhatIsWrong) {
     return message_of<InputError>([&] { read_model(file); });
   };
   EXPECT_THAT(refused([](auto& j) { j["format"] = "else"; }),
-              HasSubstr("model.json: it is no wearwell clutch wear model"));
+              HasSubstr("model.json: it is not a wearwell clutch wear model"));
   EXPECT_THAT(refused([](auto& j) { j["version"] = 2; }), HasSubstr("reads version 1"));
   EXPECT_THAT(refused([](auto& j) { j.erase("plate_sd"); }), HasSubstr("plate_sd"));
   EXPECT_THAT(refused([](auto& j) { j["map"]["terms"][1]["ds"] = 2; }),
@@ -166,7 +166,7 @@ TEST_F(ClutchModelFile, StateLosesNoBit) {
   EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abd", 2); }),
               HasSubstr("belongs to another model"));
   EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abc", 0); }),
-              HasSubstr("it holds 2 replicates and 0 are wanted"));
+              HasSubstr("it has 2 replicates, but 0 are needed"));
 }
 
 TEST_F(ClutchModelFile, StateWithoutANumberIsNamed) {

@@ -92,7 +92,7 @@ TEST_F(ClutchTables, RefusesByRow) {
                           "point,role,slip_speed [rpm],torque [N m],temperature [degC],"
                           "closing_time [s]\n1,model,1200,25,120,1\n1,model,1300,25,120,1\n"));
       }),
-      HasSubstr("row 2, column 'point': point 1 is planned twice"));
+      HasSubstr("row 2, column 'point': point 1 occurs twice"));
 }
 
 }  // namespace

@@ -58,6 +58,18 @@ TEST(MapFit, AsksWhatOtherFitsAreAsked) {
   EXPECT_FALSE(outcome.copies);
 }
 
+// A search for the best predictions omits small terms on purpose.
+TEST(MapFit, WarnsOfATrendAndFailsForScatter) {
+  const auto outcome = judged(points_with(normal));
+  for (const FitTest& test : outcome.tests)
+    EXPECT_EQ(test.may_fail, !test.name.starts_with("trend") && !test.name.starts_with("order"))
+        << test.name;
+  FitOutcome shown = outcome;
+  for (FitTest& test : shown.tests)
+    if (test.name.starts_with("trend")) test.p = 1e-9;
+  EXPECT_EQ(fit_check(shown).verdict, Verdict::warn);
+}
+
 // The median scores over draws are the residuals of weighted least squares over their standard deviation.
 TEST(MapFit, JudgesTheResiduals) {
   const WearPoints points = points_with(normal);

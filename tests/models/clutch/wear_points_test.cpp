@@ -95,7 +95,7 @@ TEST(WornBlocks, RefusesWhatCannotBe) {
               HasSubstr("row 5: plate 7: its weighings are not consecutive"));
   EXPECT_THAT(refused([](Campaign& c) { c.cycles.erase(c.cycles.begin() + 1); }),
               HasSubstr("row 2: plate 7: 1 cycles are logged between the weighings at 0 and 2, "
-                        "where 2 ran"));
+                        "but 2 ran"));
   EXPECT_THAT(refused([](Campaign& c) { std::swap(c.cycles[1], c.cycles[2]); }),
               HasSubstr("cycles, row 3: plate 7, cycle 2 follows cycle 3"));
   EXPECT_THAT(refused([](Campaign& c) { c.cycles[2].number = 2; }),

@@ -278,7 +278,7 @@ TEST(PartTracker, PopulationsTogetherAreTheForecast) {
 
 TEST(PartTracker, SaysWhatCannotBe) {
   const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
-  EXPECT_THAT(preset.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
+  EXPECT_THAT(preset.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it failed"));
   FollowedUnit seen(*preset.tracker, "h");
   EXPECT_THAT(seen.update({3e6, 360e6}).problem, HasSubstr("but earlier under 350 MPa"));
   EXPECT_THAT(seen.update({none, 350e6}).problem, HasSubstr("life is missing"));

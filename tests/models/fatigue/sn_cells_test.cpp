@@ -51,7 +51,7 @@ TEST_F(SnCells, ASignAndAStatusMustAgree) {
               ElementsAre(Outcome::failure, Outcome::runout));
   EXPECT_THAT(refused(table + "Bruch\n", "status = \"z\"\n"),
               AllOf(HasSubstr("row 2, column 'N': '>5e6' is a limit"),
-                    HasSubstr("column 'z' says 'Bruch'")));
+                    HasSubstr("column 'z' has 'Bruch'")));
 }
 
 TEST_F(SnCells, WordsOfTheStudy) {
@@ -62,7 +62,8 @@ TEST_F(SnCells, WordsOfTheStudy) {
 
 TEST_F(SnCells, AnEmptyLabelBelowAnotherIsRefused) {
   EXPECT_THAT(refused("S,N,part\n300,1e5,A\n200,2e5,\n250,3e5,B\n", "label = \"part\"\n"),
-              AllOf(HasSubstr("row 2, column 'part': no value"), HasSubstr("'A', or none")));
+              AllOf(HasSubstr("row 2, column 'part': no value"),
+                    HasSubstr("'A', the label of the rows above")));
   EXPECT_THAT(read("S,N,part\n300,1e5,\n200,2e5,\n", "label = \"part\"\n").labels,
               ElementsAre("", ""));
 }

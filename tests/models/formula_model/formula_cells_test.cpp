@@ -69,7 +69,7 @@ TEST_F(FormulaCells, ALimitAndAStatusMustAgree) {
   const FormulaData data = read(table + "F\n", columns);
   EXPECT_THAT(
       message_of<InputError>([&] { observed(data); }),
-      AllOf(HasSubstr("row 3, column 'V': '>2' is a limit"), HasSubstr("column 'end' says 'F'")));
+      AllOf(HasSubstr("row 3, column 'V': '>2' is a limit"), HasSubstr("column 'end' has 'F'")));
 }
 
 TEST_F(FormulaCells, UnitsInCellsAndNoValues) {

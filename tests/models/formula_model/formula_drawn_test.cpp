@@ -271,7 +271,7 @@ TEST_F(FormulaDrawn, RefusalsNameThePlace) {
   EXPECT_NE(open.find("random_effects.operator"), std::string::npos) << open;
   EXPECT_NE(
       open.find("identifies the units, machine or operator? No label is nested in the others. "
-                "Add rows_of = \"machine\" to [data]"),
+                "Add rows_of = \"machine\" under [data]"),
       std::string::npos)
       << open;
   const std::string wrong = refusal(without(crossed, "rows_of = \"machine\"", "rows_of = \"F\""));

@@ -99,7 +99,7 @@ TEST_F(FormulaFit, UnitsThatWanderFail) {
   simulate({.wander = 0.3, .noise = 0.02}, 5);
   const Check check = fit();
   EXPECT_EQ(check.verdict, Verdict::fail);
-  EXPECT_NE(check.detail.find("neighbors within one unit are correlated"), std::string::npos)
+  EXPECT_NE(check.detail.find("neighbours within one unit are correlated"), std::string::npos)
       << check.detail;
 }
 
@@ -116,7 +116,7 @@ TEST_F(FormulaFit, StepsOfAProcessAreJudged) {
   simulate({.wander = 0.02, .noise = 0}, 7);
   const Check alike = fit("wiener-process", "sd = \"sigma*sqrt(t)\"", false);
   EXPECT_EQ(alike.verdict, Verdict::fail);
-  EXPECT_NE(alike.detail.find("neighbors within one unit are correlated"), std::string::npos)
+  EXPECT_NE(alike.detail.find("neighbours within one unit are correlated"), std::string::npos)
       << alike.detail;
   simulate({.scatter = 0, .wander = 0.2, .noise = 0}, 8);
   const Check right = fit("wiener-process", "sd = \"sigma*sqrt(t)\"", false);

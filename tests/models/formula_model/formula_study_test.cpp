@@ -199,7 +199,7 @@ TEST_F(FormulaStudy, WhatTheDataCannotTellApartIsNamedAndNotTrusted) {
                                   [](const Check& each) { return each.name == "identified"; });
   ASSERT_NE(check, result.checks.end());
   EXPECT_EQ(check->verdict, Verdict::fail);
-  EXPECT_NE(check->detail.find("k1 and k2 apart: with k1 up by 1 % and k2 down by 1 %"),
+  EXPECT_NE(check->detail.find("k1 and k2 separately: with k1 up by 1 % and k2 down by 1 %"),
             std::string::npos)
       << check->detail;
 }

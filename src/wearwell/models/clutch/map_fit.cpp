@@ -109,6 +109,9 @@ FitOutcome judge_map(const WearPoints& points, const WearMap& map, const Scatter
       std::max_element(outcome.residuals.begin(), outcome.residuals.end(),
                        [](double a, double b) { return std::abs(a) < std::abs(b); });
   for (FitTest& test : outcome.tests) {
+    // The search omits terms that do not improve predictions, even if the residuals show them: the check `wear map`
+    // judges whether predictions suffice.
+    test.may_fail = !test.name.starts_with("trend") && !test.name.starts_with("order");
     if (test.name == "extreme residual")
       test.finding = fmt::format(
           "point {} lies farther out than the others let expect",

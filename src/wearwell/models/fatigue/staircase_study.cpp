@@ -51,17 +51,16 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(stresses[i] > 0, table, stress, i, "positive");
     const fatigue::Outcome outcome = read_outcome(table, *status, i);
-    if (outcome != fatigue::Outcome::failure && outcome != fatigue::Outcome::runout)
+    const bool failed = outcome == fatigue::Outcome::failure;
+    if (!failed && outcome != fatigue::Outcome::runout)
       throw InputError(fmt::format("{}: a staircase test has only failure and runout",
                                    place(table, status->column, i)));
     const double n = count ? counts[i] : 1;
     if (count)
       require(n >= 1 && n <= 1e6 && n == std::floor(n), table, *count, i,
               "a whole number of at least 1");
-    data.tests.push_back({stresses[i], outcome == fatigue::Outcome::failure, static_cast<int>(n)});
-    study.observed.insert(
-        study.observed.end(),
-        {stresses[i], static_cast<double>(outcome == fatigue::Outcome::failure), n});
+    data.tests.push_back({stresses[i], failed, static_cast<int>(n)});
+    study.observed.insert(study.observed.end(), {stresses[i], failed ? 1.0 : 0.0, n});
   }
   study.data_columns.push_back({"alternating_stress", data.stress_si, stress.unit, stresses, true});
   study.data_layout = table.layout;

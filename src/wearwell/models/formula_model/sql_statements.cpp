@@ -44,7 +44,7 @@ std::string SqlStatements::draws_table() const {
     all += '\n';
   }
   return fleet::table_identifier(choice.dialect,
-                                 choice.prefix + "_law_" + sha1_of(all).substr(0, 12));
+                                 choice.prefix + "_formula_" + sha1_of(all).substr(0, 12));
 }
 
 std::string SqlStatements::setup() const {
@@ -86,7 +86,7 @@ std::vector<std::string> SqlStatements::kept() const {
   for (const SqlInput& each : inputs) add(each.column);
   fleet::refuse_alike(choice.dialect, names);
   for (std::string& each : names) {
-    if (each.starts_with("law_"))
+    if (each.starts_with("formula_"))
       throw InputError(fmt::format(
           "the column '{}' has the name of a column of the answer: rename it in the table",
           printable(each)));
