@@ -578,7 +578,8 @@ TEST_F(Clutch, FitRefusesStudiesByKey) {
   const std::string simulation =
       "model = \"clutch-wear\"\n[simulation]\ndesign = \"design.csv\"\ntruth = \"truth.toml\"\n";
   EXPECT_THAT(refusal(simulation + "sed = 3\n"), HasSubstr("did you mean 'seed'?"));
-  EXPECT_THAT(refusal(simulation + "[data]\ndesign = \"design.csv\"\n"), HasSubstr("keep one of them"));
+  EXPECT_THAT(refusal(simulation + "[data]\ndesign = \"design.csv\"\n"),
+              HasSubstr("keep one of them"));
   EXPECT_THAT(refusal("model = \"clutch-wear\"\n"), HasSubstr("[simulation]"));
   EXPECT_THAT(refusal(simulation + "[search]\nlowest = 0\n"), HasSubstr("search.lowest"));
   EXPECT_THAT(refusal(simulation + "[search]\nstep = 0.0001\n"), HasSubstr("search.step"));
@@ -602,11 +603,10 @@ TEST_F(Clutch, ReportAndCompareTakeItAsAnyOther) {
 TEST_F(Clutch, CheckAndNew) {
   const CommandResult check = in_shared("check study.toml");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_THAT(check.out,
-              AllOf(HasSubstr("81 points of the factorial, 20 beyond it, 20 held out"),
-                    HasSubstr("of 15 plates"), HasSubstr("worn-out volume 500 mm^3"),
-                    HasSubstr("at each of 4 pairs"),
-                    HasSubstr("launch: 1700 rpm, 50 N m, 170 degC, 2.15 s")));
+  EXPECT_THAT(check.out, AllOf(HasSubstr("81 points of the factorial, 20 beyond it, 20 held out"),
+                               HasSubstr("of 15 plates"), HasSubstr("worn-out volume 500 mm^3"),
+                               HasSubstr("at each of 4 pairs"),
+                               HasSubstr("launch: 1700 rpm, 50 N m, 170 degC, 2.15 s")));
   const CommandResult made = here("new clutch mine && '" WEARWELL_BINARY "' check mine/study.toml");
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("simulated from a known truth"));

@@ -49,7 +49,7 @@ TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibrary) {
   EXPECT_THAT(refusal({.columns = {"force=F"}}), HasSubstr("write 'force=F:N'"));
   EXPECT_THAT(refusal({.columns = {"force=F:m"}}), HasSubstr("force is N"));
   EXPECT_THAT(refusal({.columns = {"farce=F:N"}}), HasSubstr("'farce'"));
-  EXPECT_THAT(refusal({.keep = {"formula_q05"}}), HasSubstr("another name"));
+  EXPECT_THAT(refusal({.keep = {"formula_q05"}}), HasSubstr("rename it in the table"));
   EXPECT_THAT(refusal({.unit = "kg"}), HasSubstr("'kg' is kg"));
   EXPECT_THAT(refusal({.draws = 30}), HasSubstr("multiple of 20"));
   EXPECT_THAT(
