@@ -15,8 +15,8 @@ pytest.importorskip("ipykernel")
 notebooks = sorted(glob.glob(os.path.join(source, "examples", "notebooks", "*.ipynb")))
 
 
-def test_there_is_one_a_trade():
-    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "joint", "formula"]
+def test_there_is_one_for_each_preset():
+    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "formula", "joint"]
 
 
 @pytest.mark.parametrize("notebook", notebooks, ids=lambda n: os.path.basename(n)[:-6])

@@ -27,7 +27,7 @@ def _levels(b, confidence):
     return [float(each) for each in dict.fromkeys(b)], float(confidence)
 
 
-def _of_law(study, limit, unit, survived, along):
+def _of_formula(study, limit, unit, survived, along):
     """The keys of [predict] for a study of a formula."""
     table = {} if survived is None else {"survived": _toml.quantity(survived, "survived")}
     if limit is None:

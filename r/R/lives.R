@@ -17,7 +17,7 @@ require_levels <- function(b, confidence) {
 }
 
 # The keys of [predict] for a study of a formula.
-asked_of_law <- function(study, limit, unit, survived, along) {
+asked_of_formula <- function(study, limit, unit, survived, along) {
   question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
   units <- column_units(study)
   if (is.null(limit)) {
