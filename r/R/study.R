@@ -74,8 +74,8 @@ varies_of <- function(random_effects, unit, lines, likelihood, priors) {
     random_effects <- in_law
   }
   if (is.null(names(random_effects))) {
-    formula <- function(p) if (is.null(priors[[p]]$formula) || priors[[p]]$formula %in% of_any_sign) "normal" else "lognormal"
-    random_effects <- stats::setNames(lapply(random_effects, formula), random_effects)
+    kind <- function(p) if (is.null(priors[[p]]$distribution) || priors[[p]]$distribution %in% of_any_sign) "normal" else "lognormal"
+    random_effects <- stats::setNames(lapply(random_effects, kind), random_effects)
   }
   entries <- added <- list()
   for (parameter in names(random_effects)) {
@@ -251,10 +251,10 @@ study_address <- function(study) {
   study$live$address
 }
 
-ww_in_words <- function(study) core(C_in_words, study_address(as_study(study)))
+ww_description <- function(study) core(C_description, study_address(as_study(study)))
 
 print.ww_study <- function(x, ...) {
-  cat(ww_in_words(x))
+  cat(ww_description(x))
   invisible(x)
 }
 
