@@ -8,7 +8,7 @@
 
 namespace wearwell {
 
-/// Which of `count` rows are taken, in order: all where they are no more than `most`, else so many by lot (selection sampling,
+/// The sampled rows of `count`, in order: all of them up to `most`, else a random sample of this size (selection sampling,
 /// Knuth 1997, sec. 3.4.2).
 inline std::vector<std::size_t> row_sample(std::size_t count, std::size_t most, Rng lots) {
   std::vector<std::size_t> chosen;

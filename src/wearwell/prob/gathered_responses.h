@@ -7,14 +7,14 @@
 
 namespace wearwell {
 
-/// A response that counts as often as `weight` says, which is no whole number and may be negative.
+/// A response with the weight of its log density in a sum; the weight need not be an integer and may be negative.
 struct WeightedResponse {
   Response response;
   double weight = 1;
 };
 
-/// Few responses for many under one distribution: the sum of their log densities is that of all, to rounding, wherever
-/// the distribution is no narrower than a tenth of what they spread over.
+/// A few weighted responses in place of many under one distribution: the weighted sum of their log densities equals that of
+/// all to rounding, unless the distribution is narrower than a tenth of the spread of the responses.
 ///
 /// Values of one kind (exact, above, below), as logarithms where they are positive, are cut into cells of an eighth of the
 /// spread, and six nodes stand for a cell (`gauss_of_points`): a log density is nearly a polynomial of degree 11 there.

@@ -11,7 +11,7 @@ constexpr double most_steps = 0.8;
 constexpr std::size_t fewest_steps = 4;
 constexpr std::size_t beyond = 8;    // levels at each end, for sequences that go farther
 constexpr double same_level = 1e-9;  // of log10 of stress
-constexpr double few = 20;           // tests that are drawn one by one
+constexpr double few = 20;           // tests that are simulated one by one
 
 // A step in levels goes down after a failure and up after a survivor.
 bool follows(int step, bool failed) {
@@ -24,8 +24,8 @@ double drawn_failures(double tests, double p, Rng& rng) {
     using boost::math::policies::integer_round_up;
     using boost::math::policies::policy;
     const boost::math::binomial_distribution<double, policy<discrete_quantile<integer_round_up>>>
-        law(tests, p);
-    return quantile(law, rng.uniform());
+        binomial(tests, p);
+    return quantile(binomial, rng.uniform());
   }
   double failures = 0;
   for (int i = 0; i < static_cast<int>(tests); ++i) failures += rng.uniform() < p ? 1 : 0;

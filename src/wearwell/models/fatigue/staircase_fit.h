@@ -7,13 +7,13 @@
 
 namespace wearwell::fatigue {
 
-/// What the check `fit` asks of a staircase: whether outcomes follow the distribution of the limit from level to level, and
-/// whether items bear more or less the later they were tested.
+/// Data of the check `fit` of a staircase, which tests whether outcomes follow the distribution of the limit from level to
+/// level, and whether the strength of items drifts with the order of the tests.
 struct StairFit {
   StandardDistribution limit = StandardDistribution::normal;
   std::vector<StairTest> tests;
   Distribution log10_limit, sigma_limit;  ///< priors
-  Unit unit;                              ///< in which stresses are reported
+  Unit unit;                              ///< of reported stresses
 };
 
 /// A p value is the share of tests simulated from the posterior, by the rule of the same sequence, that have as large a
