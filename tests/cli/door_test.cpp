@@ -245,7 +245,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "wearwell fit has no option --metod; did you mean '--method'? (options: --help, --output, "},
       {"fit joint/study.toml -output out", "-output needs two dashes: --output"},
       {"fit joint/study.toml --method exakt",
-       "--method: 'exakt' is not possible; it is one of nuts, metropolis, exact; did you mean "
+       "--method: 'exakt' is not allowed; use one of nuts, metropolis, exact; did you mean "
        "'exact'?"},
       {"fit joint/study.toml --draws abc", "--draws: Value abc not in range 10 to 10000000"},
       {"fit joint/study.toml -o", "wearwell fit: --output needs a value (see wearwell help fit)"},
@@ -261,7 +261,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "\"joint_wear.csv\""},
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
-       "PRESET: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, spectrum, "
+       "PRESET: 'jiont' is not allowed; use one of joint, bearing, clutch, fatigue, spectrum, "
        "strain-life, staircase, formula, life, accelerated, degradation, fleet; did you mean "
        "'joint'?"},
       {"new joint", "wearwell new: DIR is "},

@@ -133,7 +133,7 @@ TEST_F(NewFrom, RefusesWhatSaysNothing) {
   EXPECT_EQ(here("new --from missing.csv").exit_code, 2);
   EXPECT_EQ(here("new").exit_code, 2);
   EXPECT_EQ(here("new joint").exit_code, 2);
-  EXPECT_THAT(here("new jiont d").err, HasSubstr("'jiont' is not possible; it is one of joint"));
+  EXPECT_THAT(here("new jiont d").err, HasSubstr("'jiont' is not allowed; use one of joint"));
 }
 
 TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {

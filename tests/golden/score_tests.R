@@ -13,3 +13,10 @@ print(qnorm(pf(summary(aov(q ~ level))[[1]][1, 4], 2, 7, lower.tail = FALSE)), d
 line <- summary(lm(q ~ w))$coefficients
 print(qnorm(pt(line[2, 3], 8)), digits = 12)  # slope
 print(qnorm(pt(line[1, 3], 8)), digits = 12)  # intercept
+
+# Shapiro and Wilk's test (Royston 1995, as base R has it): W and p of samples of 5, 10, 11, 12, 30 and 400 values.
+set.seed(31)
+for (sample in list(c(2.5, 3.1, 0.4, 7.7, 4.0), x, c(x, 6.2), c(x, 6.2, 0.3), round(rexp(30), 4), (1:400)^1.2)) {
+  test <- shapiro.test(sample)
+  cat(sprintf("{%.15g, %.15g, {%s}},\n", test$statistic, test$p.value, if (length(sample) > 40) "" else paste(sample, collapse = ", ")))
+}

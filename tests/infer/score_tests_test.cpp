@@ -72,7 +72,7 @@ TEST(ScoreTests, HoldTheirLevels) {
       }
     }
     for (std::size_t t = 0; t < tests.size(); ++t) {
-      // The p values of the Anderson-Darling test are approximate, most of all of few.
+      // The p values of the Shapiro-Wilk test are approximate, most of all of few.
       const double slack = t == 0 ? 0.25 : 0;
       EXPECT_NEAR(below[t][0], 0.05 * samples, (0.05 * slack * samples) + 4 * 22) << n << " " << t;
       EXPECT_NEAR(below[t][1], 0.003 * samples, (0.003 * slack * samples) + 4 * 5.5)

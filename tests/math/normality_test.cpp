@@ -91,8 +91,54 @@ TEST(AndersonDarling, StatisticAndP) {
   EXPECT_NEAR(test.p, 0.0391969783412, 1e-11);
 }
 
+struct OfShapiroWilk {
+  double statistic, p;
+  std::vector<double> values;
+};
+
+// Numbers of tests/golden/score_tests.R (base R's shapiro.test).
+TEST(ShapiroWilk, StatisticAndP) {
+  std::vector<OfShapiroWilk> expected = {
+      {0.948793179210289, 0.728564125950698, {2.5, 3.1, 0.4, 7.7, 4}},
+      {0.814322510860584, 0.0216334323524242, {2.1, 3.4, 1.9, 5.6, 4.4, 3.8, 9.7, 2.8, 4.1, 3.3}},
+      {0.872533491534324,
+       0.0835495154259859,
+       {2.1, 3.4, 1.9, 5.6, 4.4, 3.8, 9.7, 2.8, 4.1, 3.3, 6.2}},
+      {0.93409260375726,
+       0.425515277594914,
+       {2.1, 3.4, 1.9, 5.6, 4.4, 3.8, 9.7, 2.8, 4.1, 3.3, 6.2, 0.3}},
+      {0.858253847848531,
+       0.000927631263166012,
+       {0.0443, 0.2942, 0.3134, 1.7679, 0.1685, 0.6605, 0.3037, 4.2387, 2.6994, 0.7678,
+        1.5266, 0.1332, 1.1666, 0.7269, 1.5665, 0.6301, 1.6742, 2.2059, 1.8217, 0.334,
+        1.1656, 0.5653, 0.0266, 1.5098, 3.3692, 0.4757, 1.3736, 0.3688, 0.4646, 0.0069}},
+  };
+  OfShapiroWilk many{0.946752124843436, 8.3502753405766e-11, {}};
+  for (int i = 1; i <= 400; ++i) many.values.push_back(std::pow(i, 1.2));
+  expected.push_back(many);
+  for (const OfShapiroWilk& each : expected) {
+    const ShapiroWilkTest test = shapiro_wilk_test(each.values);
+    EXPECT_NEAR(test.statistic, each.statistic, 1e-8) << each.values.size();
+    EXPECT_NEAR(test.p, each.p, 1e-6 * each.p + 1e-15) << each.values.size();
+    EXPECT_NEAR(0.5 * std::erfc(test.score / std::sqrt(2.0)), test.p, 1e-12);
+  }
+}
+
+// Neither a constant nor four values say anything; values on a line of normal quantiles fit.
+TEST(ShapiroWilk, Extremes) {
+  EXPECT_EQ(shapiro_wilk_test(std::vector<double>(20, 1.5)).p, 1);
+  EXPECT_EQ(shapiro_wilk_test({1, 2, 3, 9}).p, 1);
+  EXPECT_GT(shapiro_wilk_test(normal_plot(std::vector<double>(50)).quantile).p, 0.999);
+  std::vector<double> far(6, 0.0);
+  for (std::size_t i = 0; i < far.size(); ++i) far[i] = 1e-9 * static_cast<double>(i);
+  far.back() = 1e9;
+  const ShapiroWilkTest test = shapiro_wilk_test(far);
+  EXPECT_LT(test.p, 1e-4);
+  EXPECT_GT(test.statistic, 0);
+}
+
 // Rounded values, most of which are equal, are spread: they have the shape that they had.
-TEST(AndersonDarling, RoundingIsNoShape) {
+TEST(Normality, RoundingIsNoShape) {
   Rng rng(3, 0);
   std::vector<double> fine(2000), rounded, coarse;
   for (double& each : fine) each = rng.normal();
@@ -103,6 +149,8 @@ TEST(AndersonDarling, RoundingIsNoShape) {
   const double p = anderson_darling_test(fine).p;
   EXPECT_NEAR(anderson_darling_test(rounded).p, p, 0.1);
   EXPECT_GT(anderson_darling_test(coarse).p, 0.05);
+  EXPECT_NEAR(shapiro_wilk_test(rounded).p, shapiro_wilk_test(fine).p, 0.1);
+  EXPECT_GT(shapiro_wilk_test(coarse).p, 0.05);
 }
 
 }  // namespace

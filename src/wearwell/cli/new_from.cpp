@@ -313,7 +313,7 @@ const Model& model_of(Models models, const std::string& preset) {
   if (found != models.end()) return *found;
   std::vector<std::string> presets;
   for (const Model& model : models) presets.emplace_back(model.preset);
-  throw InputError(fmt::format("PRESET: '{}' is not possible; it is one of {}{}", preset,
+  throw InputError(fmt::format("PRESET: '{}' is not allowed; use one of {}{}", preset,
                                fmt::join(presets, ", "), did_you_mean(preset, presets)));
 }
 

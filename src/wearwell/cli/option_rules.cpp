@@ -31,7 +31,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(
       [words](std::string& text) {
         if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
-        return fmt::format("'{}' is not possible; it is one of {}{}", text, fmt::join(words, ", "),
+        return fmt::format("'{}' is not allowed; use one of {}{}", text, fmt::join(words, ", "),
                            did_you_mean(text, words));
       },
       fmt::format("{}", fmt::join(words, "|")), "one of");

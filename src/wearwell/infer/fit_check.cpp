@@ -336,11 +336,13 @@ Check fit_check(const FitOutcome& outcome) {
   const std::string of_what = outcome.residuals.size() > most_judged
                                   ? fmt::format("the residuals of {} rows, sampled from {},",
                                                 most_judged, outcome.residuals.size())
-                                  : "the residuals";
+                              : outcome.residuals.empty() ? "the outcomes"
+                                                          : "the residuals";
   const FitTest& least = *std::min_element(
       sorted.begin(), sorted.end(), [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
-  std::string passed = fmt::format("the smallest p value of {} tests of {} is {:.2g} ({})",
-                                   outcome.tests.size(), of_what, least.p, least.name);
+  std::string passed =
+      fmt::format("the smallest p value of {} {} of {} is {:.2g} ({})", outcome.tests.size(),
+                  outcome.tests.size() == 1 ? "test" : "tests", of_what, least.p, least.name);
   // Within chance among so many tests, but what an engineer sees.
   if (least.p < noted_below && !least.finding.empty())
     passed += fmt::format("; not significant among so many tests, but note: {}", least.finding);

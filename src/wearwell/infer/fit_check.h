@@ -105,8 +105,9 @@ struct CopiedRows {
 
 struct FitOutcome {
   std::vector<FitTest> tests;
-  std::vector<double> residuals;  ///< the median score of each observation over the draws
-  double p = 1;                   ///< combined: the smallest p over its share
+  /// The median score of each observation over the draws; empty if the tests are of outcomes.
+  std::vector<double> residuals;
+  double p = 1;  ///< combined: the smallest p over its share
   std::optional<CopiedRows> copies = {};
 };
 

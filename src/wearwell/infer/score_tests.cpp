@@ -52,6 +52,9 @@ double cosine_score(std::span<const double> a, std::span<const double> b, double
 }  // namespace
 
 double shape_score(std::span<const double> z) {
+  if (z.size() <= most_shapiro_wilk) {
+    return std::clamp(-shapiro_wilk_test({z.begin(), z.end()}).score, -farthest, farthest);
+  }
   const double p = anderson_darling_test({z.begin(), z.end()}).p;
   return p < 1 ? score_of(p, 1 - p) : 0;
 }

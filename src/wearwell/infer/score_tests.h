@@ -10,8 +10,9 @@ namespace wearwell {
 /// there are too few. Scores can be averaged over posterior draws (`combined_p`).
 ///
 /// Small if the residuals are not from one normal distribution of any mean and width: the
-/// Anderson-Darling test with both estimated. With scores of any family as residuals, this is the
-/// test of Chen and Balakrishnan (1995, J. Quality Technology 27, 154-161).
+/// Shapiro-Wilk test, and above `most_shapiro_wilk` residuals the Anderson-Darling test with both
+/// estimated. Scores of any family may be residuals (Chen and Balakrishnan 1995, J. Quality
+/// Technology 27, 154-161).
 double shape_score(std::span<const double> z);
 
 /// The sizes |z| of residuals as standard normal scores, Phi^-1(2 Phi(|z|) - 1): exact for standard

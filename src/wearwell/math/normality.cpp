@@ -3,7 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
+#include <boost/math/tools/rational.hpp>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <numbers>
 
 #include "wearwell/base/rng.h"
@@ -62,6 +65,60 @@ double anderson_darling_p(double a) {
   if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
   if (a >= 0.2) return 1 - std::exp(-8.318 + 42.796 * a - 59.938 * a * a);
   return 1 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
+}
+
+// The expected order statistic i of n, by Blom's approximation.
+double expected_order_statistic(std::size_t i, std::size_t n) {
+  const double p = (static_cast<double>(i) + 0.625) / (static_cast<double>(n) + 0.25);
+  return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p);
+}
+
+double polynomial(std::initializer_list<double> coefficients, double x) {
+  return boost::math::tools::evaluate_polynomial(coefficients.begin(), x, coefficients.size());
+}
+
+// Coefficients of the upper half of the order statistics in W, from the largest on; those of the
+// lower half are their negatives.
+std::vector<double> shapiro_wilk_coefficients(std::size_t n) {
+  std::vector<double> a(n / 2);
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] = -expected_order_statistic(i, n);
+    square += 2 * a[i] * a[i];
+  }
+  const double length = std::sqrt(square), u = 1 / std::sqrt(static_cast<double>(n));
+  const double first =
+      a[0] / length + polynomial({0, 0.221157, -0.147981, -2.07119, 4.434685, -2.706056}, u);
+  std::size_t corrected = 1;
+  double rest = square - 2 * a[0] * a[0], share = 1 - 2 * first * first;
+  if (n > 5) {
+    const double second =
+        a[1] / length + polynomial({0, 0.042981, -0.293762, -1.752461, 5.682633, -3.582633}, u);
+    rest -= 2 * a[1] * a[1];
+    share -= 2 * second * second;
+    a[1] = second;
+    corrected = 2;
+  }
+  a[0] = first;
+  for (std::size_t i = corrected; i < a.size(); ++i) a[i] /= std::sqrt(rest / share);
+  return a;
+}
+
+// The logarithm of 1 - W as a standard normal score.
+double shapiro_wilk_score(double one_less_w, double n) {
+  double y = std::log(one_less_w), mean = 0, sd = 0;
+  if (n < 12) {
+    const double most = polynomial({-2.273, 0.459}, n);
+    if (y >= most) return std::numeric_limits<double>::infinity();
+    y = -std::log(most - y);
+    mean = polynomial({0.544, -0.39978, 0.025054, -0.0006714}, n);
+    sd = std::exp(polynomial({1.3822, -0.77857, 0.062767, -0.0020322}, n));
+  } else {
+    const double x = std::log(n);
+    mean = polynomial({-1.5861, -0.31082, -0.083751, 0.0038915}, x);
+    sd = std::exp(polynomial({-0.4803, -0.082676, 0.0030302}, x));
+  }
+  return (y - mean) / sd;
 }
 
 /// A matrix times 10^exponent, so that its powers do not overflow.
@@ -159,6 +216,24 @@ AndersonDarlingTest anderson_darling_test(std::vector<double> values) {
   }
   const double statistic = -n - sum / n;
   return {statistic, anderson_darling_p(statistic * (1 + 0.75 / n + 2.25 / (n * n)))};
+}
+
+ShapiroWilkTest shapiro_wilk_test(std::vector<double> values) {
+  constexpr std::size_t fewest = 5;
+  std::sort(values.begin(), values.end());
+  if (values.size() < fewest || !(values.front() < values.back())) return {};
+  spread_ties(values);
+  const std::vector<double> a = shapiro_wilk_coefficients(values.size());
+  double slope = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    slope += a[i] * (values[values.size() - 1 - i] - values[i]);
+  const Eigen::Map<const Eigen::ArrayXd> x(values.data(), std::ssize(values));
+  const double squares = (x - x.mean()).square().sum();
+  // The rounding error of values on a straight line.
+  constexpr double least = 1e-15;
+  const double one_less_w = std::max((squares - slope * slope) / squares, least);
+  const double score = shapiro_wilk_score(one_less_w, static_cast<double>(values.size()));
+  return {1 - one_less_w, score, normal_cdf(-score)};
 }
 
 NormalPlot normal_plot(std::vector<double> values) {

@@ -31,6 +31,21 @@ struct AndersonDarlingTest {
 /// not look like non-normality. p is 1 for fewer than five values and for constant values.
 AndersonDarlingTest anderson_darling_test(std::vector<double> values);
 
+struct ShapiroWilkTest {
+  double statistic = 1;  ///< W
+  double score = 0;      ///< standard normal under the null hypothesis; large for non-normal values
+  double p = 1;
+};
+
+/// The most values that Royston's approximation of the p value covers.
+inline constexpr std::size_t most_shapiro_wilk = 5000;
+
+/// Shapiro-Wilk test of normality, with Royston's approximation of its coefficients and p value
+/// (1995, Applied Statistics 44, 547-551, algorithm AS R94). Equal values are spread as for
+/// `anderson_darling_test`. p is 1 for fewer than five values and for constant values; at most
+/// `most_shapiro_wilk` values.
+ShapiroWilkTest shapiro_wilk_test(std::vector<double> values);
+
 /// Points of a normal probability plot: values in ascending order against the normal quantiles of
 /// (i - 1/2)/n.
 struct NormalPlot {

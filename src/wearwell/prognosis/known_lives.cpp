@@ -45,8 +45,8 @@ double number_at(const Table& table, const Column& column, std::size_t row, doub
     value = cell_number(table, column, row);
   }
   if (!(value >= least))
-    throw InputError(fmt::format("{}: {} is not possible; it must be at least {}",
-                                 place(table, column.name, row), value, least));
+    throw InputError(
+        fmt::format("{}: {} must be at least {}", place(table, column.name, row), value, least));
   return value;
 }
 

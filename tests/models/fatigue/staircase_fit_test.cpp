@@ -232,7 +232,7 @@ TEST(StaircaseFit, AccusesNoTableThatIsSortedByOutcome) {
     });
     const Check found = check(tests);
     EXPECT_EQ(found.verdict, Verdict::pass) << found.detail;
-    EXPECT_THAT(found.detail, HasSubstr("of 1 tests"));
+    EXPECT_THAT(found.detail, HasSubstr("of 1 test of the outcomes"));
   }
 }
 

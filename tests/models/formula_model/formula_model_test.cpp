@@ -92,6 +92,10 @@ TEST_F(ObservedLives, CountWhetherTheyAreExactOrNot) {
 
 TEST_F(ObservedLives, AreRefusedWhereARowSaysNothing) {
   EXPECT_THROW(model("1,100,,\n2,,,\n3,90,,\n"), InputError);
+  // From 0 on, a life says nothing.
+  EXPECT_THAT(message_of<InputError>([&] { model("1,100,,\n2,,0,\n3,90,,\n"); }),
+              testing::AllOf(testing::HasSubstr("row 2, column 'lower'"),
+                             testing::HasSubstr("contains every possible value")));
 }
 
 // A midpoint beside its interval would be read as exact.

@@ -146,7 +146,14 @@ class ObservedReader {
       throw InputError(fmt::format("{}: both this cell and the upper end are empty",
                                    place(data_.table, lower_->column, i)));
     }
-    if (std::isnan(a) || (form_.positive && a <= 0)) return {Censoring::left, b};
+    const bool no_lower = std::isnan(a) || (form_.positive && a <= 0);
+    if (no_lower && (std::isnan(b) || b == infinity)) {
+      throw InputError(
+          fmt::format("{}: the interval contains every possible value: give an upper end, a lower "
+                      "end above 0, or remove the row",
+                      place(data_.table, lower_->column, i)));
+    }
+    if (no_lower) return {Censoring::left, b};
     if (std::isnan(b) || b == infinity) return {Censoring::right, a};
     demand(b >= a, *upper_, i, "no less than the lower end");
     if (a == b) return {Censoring::none, a};
