@@ -20,6 +20,7 @@ const std::vector<std::string> expressions = {
     "exp(a * x) + log(x) + log10(x) + sqrt(x) + abs(y)",
     "x^2 + x^-3 + y^7 + x^b + 2^y + b^a",
     "erf(y) + tanh(y) + sin(phi) * cos(phi) + log1p(x) + expm1(y)",
+    "erfc(y) + gamma(x) + lgamma(x) + weibull_cdf(x, b, a) + lognormal_pdf(x, b, a)",
     "min(x, y) + max(a, y) + min(x, 2)",
     "where(x < 2, a, b) + where(x <= 2 and not (y == 4), 1, 0) + where(x != 2 or y > 1, 3, 4)",
     "where(material == \"PEEK\", q[material], a) + q[\"PTFE\"]",

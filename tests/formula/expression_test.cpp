@@ -1,14 +1,18 @@
 // Values of expressions: precedence against Python's, functions against the C library, data and parameters.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "formula/laboratory.h"
+#include "support/scratch.h"
 #include "wearwell/base/error.h"
 
 namespace wearwell::formula {
 namespace {
+
+using testing::AllOf, testing::HasSubstr;
 
 struct Computed {
   const char* text;
@@ -73,7 +77,7 @@ TEST(Expression, FunctionsAreThoseOfTheLibrary) {
   const std::vector<std::pair<const char*, double (*)(double)>> all = {
       {"exp", std::exp},     {"log", std::log},     {"log10", std::log10}, {"sqrt", std::sqrt},
       {"abs", std::abs},     {"erf", std::erf},     {"tanh", std::tanh},   {"atan", std::atan},
-      {"log1p", std::log1p}, {"expm1", std::expm1},
+      {"log1p", std::log1p}, {"expm1", std::expm1}, {"erfc", std::erfc},
   };
   for (const auto& [name, function] : all) {
     const auto values = laboratory.values(std::string(name) + "(x)");
@@ -88,6 +92,91 @@ TEST(Expression, FunctionsAreThoseOfTheLibrary) {
   EXPECT_DOUBLE_EQ(laboratory.values("cos(phi)")[2], std::cos(0.3));
   EXPECT_DOUBLE_EQ(laboratory.value("sin(30 [deg])"), 0.5);
   EXPECT_DOUBLE_EQ(laboratory.value("pi"), std::numbers::pi);
+}
+
+// R 4.2.2: gamma, lgamma, digamma, qnorm
+TEST(Expression, GammaFunctionsAndTheNormalQuantile) {
+  const Laboratory laboratory;
+  const auto value = [&](const char* text) { return laboratory.value(text); };
+  EXPECT_NEAR(value("gamma(0.3)"), 2.99156898768759, 1e-13);
+  EXPECT_NEAR(value("gamma(-1.5)"), 2.36327180120735, 1e-13);
+  EXPECT_NEAR(value("lgamma(31.4)"), 76.0279562623688, 1e-12);
+  EXPECT_NEAR(value("lgamma(-1.5)"), 0.860047015376481, 1e-13);
+  EXPECT_NEAR(value("digamma(0.3)"), -3.50252422220013, 1e-13);
+  EXPECT_NEAR(value("probit(1e-9)"), -5.99780701500769, 1e-12);
+}
+
+struct OfDistribution {
+  const char* family;
+  const char* parameters;
+  double x, cdf, survival, pdf;
+};
+
+// Values of tests/golden/defined_functions.R.
+constexpr OfDistribution by_r[] = {
+    {"normal", "1.5, 2", -9, 7.60496051648871e-08, 0.999999923950395, 2.064235494315e-07},
+    {"normal", "1.5, 2", 0.5, 0.308537538725987, 0.691462461274013, 0.17603266338215},
+    {"normal", "1.5, 2", 4, 0.894350226333145, 0.105649773666855, 0.091324542694511},
+    {"lognormal", "3, 0.7", 0.050000000000000003, 2.47173939002546e-09, 0.999999997528261,
+     4.24521083002299e-07},
+    {"lognormal", "3, 0.7", 2, 0.281215015716661, 0.718784984283339, 0.240949510934778},
+    {"lognormal", "3, 0.7", 60, 0.999990639262372, 9.3607376278118e-06, 1.0013401865686e-06},
+    {"weibull", "3, 1.8", 0.0001, 8.7333675796044e-09, 0.999999991266632, 0.000157200615746434},
+    {"weibull", "3, 1.8", 2, 0.382445190358309, 0.617554809641691, 0.267888303289513},
+    {"weibull", "3, 1.8", 9, 0.999271610085161, 0.000728389914839172, 0.00105247594405512},
+    {"exponential", "3", 0.0001, 3.33327777839506e-05, 0.999966667222216, 0.333322222407405},
+    {"exponential", "3", 2, 0.486582880967408, 0.513417119032592, 0.171139039677531},
+    {"exponential", "3", 60, 0.999999997938846, 2.06115362243856e-09, 6.87051207479519e-10},
+    {"loglogistic", "3, 1.8", 0.0001, 8.73336754146858e-09, 0.999999991266633,
+     0.000157200614373544},
+    {"loglogistic", "3, 1.8", 2, 0.325230454959938, 0.674769545040062, 0.197510045513841},
+    {"loglogistic", "3, 1.8", 60, 0.995469210973219, 0.00453078902678115, 0.000135307829327279},
+    {"smallest_extreme_value", "1.5, 2", -20, 2.1445178365464e-05, 0.999978554821635,
+     1.07224742079913e-05},
+    {"smallest_extreme_value", "1.5, 2", 1, 0.541043930692336, 0.458956069307664,
+     0.178717673086091},
+    {"smallest_extreme_value", "1.5, 2", 6, 0.999924224522717, 7.57754772826072e-05,
+     0.000359468855665682},
+    {"largest_extreme_value", "1.5, 2", -4, 1.60876011398878e-07, 0.999999839123989,
+     1.25826211265455e-06},
+    {"largest_extreme_value", "1.5, 2", 1, 0.276920334099909, 0.723079665900091, 0.177786373690972},
+    {"largest_extreme_value", "1.5, 2", 20, 0.999903892966515, 9.61070334845312e-05,
+     4.80512075278159e-05},
+};
+
+TEST(Expression, FunctionsOfDistributionsAreThoseOfR) {
+  const Laboratory laboratory;
+  for (const OfDistribution& each : by_r) {
+    const auto value = [&](const std::string& function, double x) {
+      return laboratory.value(
+          fmt::format("{}_{}({:.17g}, {})", each.family, function, x, each.parameters));
+    };
+    const std::string what = fmt::format("{} {}", each.family, each.x);
+    EXPECT_NEAR(value("cdf", each.x), each.cdf, 1e-12 * each.cdf) << what;
+    EXPECT_NEAR(value("survival", each.x), each.survival, 1e-12 * each.survival) << what;
+    EXPECT_NEAR(value("pdf", each.x), each.pdf, 1e-12 * each.pdf) << what;
+    if (each.cdf > 0 && each.cdf < 0.999)
+      EXPECT_NEAR(value("quantile", each.cdf), each.x, 1e-11 * std::abs(each.x)) << what;
+  }
+}
+
+TEST(Expression, FunctionsOfDistributionsHaveUnits) {
+  Laboratory laboratory;
+  EXPECT_DOUBLE_EQ(laboratory.value("weibull_cdf(2 [h], 7200 [s], 3)"), 1 - std::exp(-1));
+  EXPECT_DOUBLE_EQ(laboratory.value("weibull_quantile(0.1, 2 [h], 3) / 1 [s]"),
+                   7200 * std::pow(-std::log1p(-0.1), 1 / 3.0));
+  EXPECT_EQ(laboratory.value("lognormal_cdf(0 [h], 1 [h], 0.5)"), 0);
+  const auto message = [&](const char* text) {
+    return message_of<InputError>([&] { laboratory.value(text); });
+  };
+  EXPECT_THAT(
+      message("weibull_cdf(2 [h], 3 [m], 1)"),
+      AllOf(HasSubstr("'2 [h]' is s, but '3 [m]' is m"), HasSubstr("arguments of weibull_cdf")));
+  EXPECT_THAT(message("weibull_cdf(2 [h], 3 [h], 1 [h])"), HasSubstr("shape of weibull_cdf"));
+  EXPECT_THAT(message("weibull_cdf(2, 3)"), AllOf(HasSubstr("needs 3 arguments, but has 2"),
+                                                  HasSubstr("weibull_cdf(x, scale, shape)")));
+  EXPECT_THAT(message("weibull_quantile(2, 3, 1)"), HasSubstr("is not a finite number"));
+  EXPECT_THAT(message("weibul_cdf(2, 3, 1)"), HasSubstr("did you mean 'weibull_cdf'?"));
 }
 
 // exp and log are our own: bounds, and within an ulp of the library's over the whole range.

@@ -51,6 +51,16 @@ std::string expression_of(const Node& node, const std::vector<std::string>& name
       return unary("fabs");
     case Op::erf:
       return unary("erf");
+    case Op::erfc:
+      return unary("erfc");
+    case Op::gamma:
+      return unary("tgamma");
+    case Op::lgamma:
+      return unary("lgamma");
+    case Op::probit:
+    case Op::digamma:
+      throw InputError(fmt::format("the formula uses {}, which C does not have",
+                                   node.op == Op::probit ? "a normal quantile" : "digamma"));
     case Op::tanh:
       return unary("tanh");
     case Op::sin:

@@ -86,6 +86,10 @@ class Examination {
       case Op::log1p:
       case Op::sqrt:
       case Op::exp:
+      case Op::probit:
+      case Op::gamma:
+      case Op::lgamma:
+      case Op::digamma:
         return fmt::format("{} of {}", name_of(node.op), value(node.a));
       case Op::power:
         return fmt::format("{} to the power {}", value(node.a), value(node.b));

@@ -238,6 +238,16 @@ Kernels ternary(unsigned uniform) {
       return binary<Max>(uniform);
     case Op::erf:
       return unary<Erf>(uniform);
+    case Op::erfc:
+      return unary<Erfc>(uniform);
+    case Op::probit:
+      return unary<Probit>(uniform);
+    case Op::gamma:
+      return unary<Gamma>(uniform);
+    case Op::lgamma:
+      return unary<LogGamma>(uniform);
+    case Op::digamma:
+      return unary<Digamma>(uniform);
     case Op::tanh:
       return unary<Tanh>(uniform);
     case Op::sin:

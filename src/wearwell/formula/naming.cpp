@@ -6,6 +6,7 @@
 
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/formula/defined_functions.h"
 
 namespace wearwell::formula {
 namespace {
@@ -151,6 +152,7 @@ void Naming::unknown(const Token& token) {
   };
   if (called) {
     add(functions());
+    add(defined_functions());
   } else {
     known = names_.all_lines;
     add(names_.symbols.columns);

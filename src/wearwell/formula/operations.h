@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/formula/special_functions.h"
 #include "wearwell/formula/vector_math.h"
 
 namespace wearwell::formula {
@@ -42,6 +43,11 @@ WEARWELL_UNARY(Log10, std::log10(a), 0.43429448190325182765 / a)
 WEARWELL_UNARY(Sqrt, std::sqrt(a), 0.5 / y)
 WEARWELL_UNARY(Abs, std::abs(a), sign_of(a))
 WEARWELL_UNARY(Erf, std::erf(a), 1.1283791670955125739 * vector_exp(-a * a))
+WEARWELL_UNARY(Erfc, std::erfc(a), -1.1283791670955125739 * vector_exp(-a * a))
+WEARWELL_UNARY(Probit, probit(a), 2.5066282746310005024 * vector_exp(0.5 * y * y))
+WEARWELL_UNARY(Gamma, gamma_function(a), y* digamma(a))
+WEARWELL_UNARY(LogGamma, log_gamma(a), digamma(a))
+WEARWELL_UNARY(Digamma, digamma(a), trigamma(a))
 WEARWELL_UNARY(Tanh, std::tanh(a), 1 - y * y)
 WEARWELL_UNARY(Sin, std::sin(a), std::cos(a))
 WEARWELL_UNARY(Cos, std::cos(a), -std::sin(a))

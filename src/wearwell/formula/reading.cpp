@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/formula/defined_functions.h"
 #include "wearwell/formula/naming.h"
 #include "wearwell/formula/rules.h"
 
@@ -15,7 +16,6 @@ namespace wearwell::formula {
 namespace {
 
 constexpr int deepest = 200;  // nested brackets, signs and powers
-
 // Recursive descent, from lowest to highest precedence: or, and, not, comparison, + -, * /, unary
 // sign, ^.
 class Reader : Naming {
@@ -243,12 +243,13 @@ class Reader : Naming {
   Term name() {
     const Token& token = here();
     const Function* function = find_function(token.text);
+    const DefinedFunction* defined = find_defined_function(token.text);
     const bool called = ahead().kind == Token::sign && ahead().text == "(";
-    if (function != nullptr) {
+    if (function != nullptr || defined != nullptr) {
       if (!called)
         complain(text_, token.at, fmt::format("'{}' is a function", token.text),
                  fmt::format("write its arguments in brackets: {}(...)", token.text));
-      return call(*function);
+      return function != nullptr ? call(*function) : call(*defined);
     }
     if (token.text == "pi") {
       ++at_;
@@ -267,6 +268,58 @@ class Reader : Naming {
   }
 
   Term call(const Function& function) {
+    const std::size_t start = here().at;
+    const std::vector<Term> arguments = read_arguments(function.name);
+    Term term = rules_.call(function, arguments, start, end_of_last());
+    term.at = start;
+    term.end = end_of_last();
+    return term;
+  }
+
+  // Its body, with the arguments for the names in it.
+  Term call(const DefinedFunction& function) {
+    const std::size_t start = here().at;
+    const std::vector<Term> arguments = read_arguments(function.name);
+    check_arguments(function, arguments, start);
+    static const Symbols no_symbols;
+    Names names{no_symbols};
+    bool constants = true;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      names.lines[function.arguments[i].name] = arguments[i].node;
+      constants = constants && graph_[arguments[i].node].op == Op::constant;
+    }
+    const Text body{function.name, function.body};
+    const Term term{read_expression(graph_, body, tokens_of(body), names), start, end_of_last()};
+    if (constants && graph_[term.node].op != Op::constant)
+      complain(text_, start, fmt::format("{} is not a finite number", function.name));
+    return term;
+  }
+
+  void check_arguments(const DefinedFunction& function, const std::vector<Term>& arguments,
+                       std::size_t start) {
+    std::string list;
+    for (const auto& each : function.arguments) list += (list.empty() ? "" : ", ") + each.name;
+    if (arguments.size() != function.arguments.size())
+      complain(text_, start,
+               fmt::format("{} needs {} arguments, but has {}", function.name,
+                           function.arguments.size(), arguments.size()),
+               fmt::format("write {}({})", function.name, list));
+    const Term* first = nullptr;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (function.arguments[i].pure) {
+        rules_.demand_pure(arguments[i],
+                           fmt::format("{} of {}", function.arguments[i].name, function.name),
+                           arguments[i].at);
+      } else if (first == nullptr) {
+        rules_.demand_value(arguments[i]);
+        first = &arguments[i];
+      } else {
+        rules_.common(*first, arguments[i], "arguments of " + function.name, arguments[i].at);
+      }
+    }
+  }
+
+  std::vector<Term> read_arguments(const std::string& name) {
     const Deeper deeper(*this);
     const std::size_t start = tokens_[at_++].at, open = tokens_[at_++].at;
     open_.push_back(open);
@@ -279,11 +332,8 @@ class Reader : Naming {
       }
     }
     close(open);
-    if (arguments.empty()) complain(text_, start, fmt::format("{} has no argument", function.name));
-    Term term = rules_.call(function, arguments, start, end_of_last());
-    term.at = start;
-    term.end = end_of_last();
-    return term;
+    if (arguments.empty()) complain(text_, start, fmt::format("{} has no argument", name));
+    return arguments;
   }
 
   int depth_ = 0;

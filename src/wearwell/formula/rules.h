@@ -40,6 +40,10 @@ class Rules {
 
   /// Refuses a label or text used as a number.
   void demand_value(const Term& term) const;
+  /// `of`: the function or operation, for the message.
+  void demand_pure(const Term& term, const std::string& of, std::size_t at) const;
+  /// The common dimension of both; `what`: "added".
+  int common(const Term& a, const Term& b, const std::string& what, std::size_t at) const;
 
  private:
   const Node& node(const Term& term) const { return graph_[term.node]; }
@@ -49,8 +53,6 @@ class Rules {
   std::string stand_in(const Term& term) const;
 
   void demand_truth(const Term& term, const std::string& of) const;
-  void demand_pure(const Term& term, const std::string& of, std::size_t at) const;
-  int common(const Term& a, const Term& b, const std::string& what, std::size_t at) const;
   int bounded(int powers, std::size_t at) const;
   int label_is(const Term& label, const Term& level);
   Term made(Node node, const Term& a, const Term& b, std::size_t at);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "wearwell/formula/defined_functions.h"
+
 namespace wearwell::formula {
 
 const std::vector<Function>& functions() {
@@ -12,10 +14,12 @@ const std::vector<Function>& functions() {
       {"expm1", Op::expm1, 1, Rule::pure},   {"sqrt", Op::sqrt, 1, Rule::root},
       {"abs", Op::abs, 1, Rule::same},       {"min", Op::min, 2, Rule::same},
       {"max", Op::max, 2, Rule::same},       {"pow", Op::power, 2, Rule::power},
-      {"erf", Op::erf, 1, Rule::pure},       {"tanh", Op::tanh, 1, Rule::pure},
-      {"sin", Op::sin, 1, Rule::angle},      {"cos", Op::cos, 1, Rule::angle},
-      {"atan", Op::atan, 1, Rule::to_angle}, {"where", Op::where, 3, Rule::where},
-      {"cum", Op::cum, 1, Rule::cum}};
+      {"erf", Op::erf, 1, Rule::pure},       {"erfc", Op::erfc, 1, Rule::pure},
+      {"probit", Op::probit, 1, Rule::pure}, {"gamma", Op::gamma, 1, Rule::pure},
+      {"lgamma", Op::lgamma, 1, Rule::pure}, {"digamma", Op::digamma, 1, Rule::pure},
+      {"tanh", Op::tanh, 1, Rule::pure},     {"sin", Op::sin, 1, Rule::angle},
+      {"cos", Op::cos, 1, Rule::angle},      {"atan", Op::atan, 1, Rule::to_angle},
+      {"where", Op::where, 3, Rule::where},  {"cum", Op::cum, 1, Rule::cum}};
   return all;
 }
 
@@ -27,7 +31,7 @@ const Function* find_function(std::string_view name) {
 
 bool is_word_of_language(std::string_view name) {
   constexpr std::array others = {"and", "or", "not", "pi"};
-  return find_function(name) != nullptr ||
+  return find_function(name) != nullptr || find_defined_function(name) != nullptr ||
          std::find(others.begin(), others.end(), name) != others.end();
 }
 

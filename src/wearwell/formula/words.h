@@ -37,6 +37,11 @@ enum class Op : unsigned char {
   min,
   max,
   erf,
+  erfc,
+  probit,  ///< the standard normal quantile
+  gamma,
+  lgamma,
+  digamma,
   tanh,
   sin,
   cos,

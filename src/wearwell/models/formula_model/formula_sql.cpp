@@ -179,8 +179,20 @@ class Printer {
         return call("atan");
       case Op::erf:
         if (clickhouse()) return call("erf");
-        throw InputError(
-            fmt::format("the formula uses erf, which {} does not have", fleet::name_of(dialect_)));
+        lacks("erf");
+      case Op::erfc:
+        if (clickhouse()) return call("erfc");
+        lacks("erfc");
+      case Op::gamma:
+        if (dialect_ == Dialect::postgresql) lacks("gamma");
+        return call(clickhouse() ? "tgamma" : "gamma");
+      case Op::lgamma:
+        if (dialect_ == Dialect::postgresql) lacks("lgamma");
+        return call("lgamma");
+      case Op::digamma:
+        lacks("digamma");
+      case Op::probit:
+        lacks("a normal quantile");
       // Kahan's form, which keeps full precision near 0 (Goldberg, ACM Computing Surveys 23, 1991,
       // theorem 4).
       case Op::log1p:
@@ -198,6 +210,11 @@ class Printer {
       default:
         return "";
     }
+  }
+
+  [[noreturn]] void lacks(const char* function) const {
+    throw InputError(fmt::format("the formula uses {}, which {} does not have", function,
+                                 fleet::name_of(dialect_)));
   }
 
   [[noreturn]] static void refuse_rows_before() {

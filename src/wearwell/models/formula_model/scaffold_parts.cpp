@@ -110,6 +110,7 @@ std::string name_of(const Column& column, const std::string& otherwise) {
       "temperature", "boltzmann",   "life",    "time",    "cycles",
       "depth",       "volume",      "mass",    "crack",   "distance",
       "pow",         "sin",         "cos",     "tanh",    "erf",
+      "erfc",        "probit",      "gamma",   "lgamma",  "digamma",
       "unused",      "revolutions", "pressure"};
   std::string name = name_and_unit(column, "").name;
   for (char& each : name) {

@@ -1,0 +1,14 @@
+# Values of tests/formula/expression_test.cpp, by base R 4.2.2: Rscript defined_functions.R
+show <- function(family, parameters, x, cdf, survival, pdf)
+  cat(sprintf('    {"%s", "%s", %.17g, %.15g, %.15g, %.15g},\n', family, parameters, x, cdf, survival, pdf), sep = "")
+of <- function(family, parameters, xs, p, d) for (x in xs) show(family, parameters, x, p(x, TRUE), p(x, FALSE), d(x))
+of("normal", "1.5, 2", c(-9, 0.5, 4), function(x, l) pnorm(x, 1.5, 2, l), function(x) dnorm(x, 1.5, 2))
+of("lognormal", "3, 0.7", c(0.05, 2, 60), function(x, l) plnorm(x, log(3), 0.7, l), function(x) dlnorm(x, log(3), 0.7))
+of("weibull", "3, 1.8", c(1e-4, 2, 9), function(x, l) pweibull(x, 1.8, 3, l), function(x) dweibull(x, 1.8, 3))
+of("exponential", "3", c(1e-4, 2, 60), function(x, l) pexp(x, 1 / 3, l), function(x) dexp(x, 1 / 3))
+of("loglogistic", "3, 1.8", c(1e-4, 2, 60), function(x, l) plogis(log(x), log(3), 1 / 1.8, l),
+   function(x) dlogis(log(x), log(3), 1 / 1.8) / x)
+sev <- function(x, l) pexp(exp((x - 1.5) / 2), 1, l)
+of("smallest_extreme_value", "1.5, 2", c(-20, 1, 6), sev, function(x) { z <- (x - 1.5) / 2; exp(z - exp(z)) / 2 })
+of("largest_extreme_value", "1.5, 2", c(-4, 1, 20), function(x, l) pexp(exp(-(x - 1.5) / 2), 1, !l),
+   function(x) { z <- -(x - 1.5) / 2; exp(z - exp(z)) / 2 })
