@@ -184,6 +184,13 @@ std::optional<std::string> TomlReader::choice(std::string_view key,
   return value;
 }
 
+std::optional<bool> TomlReader::boolean(std::string_view key) const {
+  const toml::node* node = state_->find(key, "true or false");
+  if (!node) return {};
+  if (!node->is_boolean()) fail(key, fmt::format("must be true or false, {}", not_a(*node)));
+  return node->as_boolean()->get();
+}
+
 std::optional<long long> TomlReader::integer(std::string_view key, long long least,
                                              long long most) const {
   const bool bounded = most < std::numeric_limits<long long>::max();

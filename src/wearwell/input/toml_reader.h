@@ -41,6 +41,8 @@ class TomlReader {
   std::optional<std::string> choice(std::string_view key,
                                     const std::vector<std::string>& allowed) const;
 
+  std::optional<bool> boolean(std::string_view key) const;
+
   std::optional<long long> integer(std::string_view key, long long least, long long most) const;
 
   /// "NUMBER UNIT" of the dimension of `si`; for a number or a count also a plain number.

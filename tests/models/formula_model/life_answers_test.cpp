@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 #include "support/posterior_study.h"
@@ -77,6 +78,57 @@ TEST_F(LifeAnswers, SurvivalAndHorizonArePredictive) {
     if (each.name != "survival to 300 h") continue;
     EXPECT_GT(std::abs(100 - each.best().q50 - 100 * failed(300)), 0.5);
     EXPECT_NEAR(100 - *each.best().predictive, 100 * failed(300), 1e-2 * failed(300));
+  }
+}
+
+// The mean life is that of the closed form, and the mean remaining useful life an average over survivors.
+TEST_F(LifeAnswers, MeanLivesAreThoseOfClosedForms) {
+  write("lives.csv",
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,runout\n"
+        "900,runout\n");
+  const PosteriorSummary result = run(
+      lives +
+      std::string("mean_life = true\nsurvived = \"400 h\"\n[predict.quantities]\n"
+                  "closed = { value = \"eta * gamma(1 + 1/beta)\", unit = \"h\" }\n"
+                  "later = { value = \"weibull_survival(900 [h], eta, beta)\", unit = \"%\" }\n"));
+  ASSERT_TRUE(result.fit->exact);
+  const WeightedDraws& nodes = result.fit->exact->nodes;
+  double left = 0, remaining = 0, mean = 0;
+  for (Eigen::Index i = 0; i < nodes.values.rows(); ++i) {
+    const double eta = nodes.values(i, 0) / 3600, beta = nodes.values(i, 1);
+    const double at = std::pow(400 / eta, beta);
+    left += nodes.weights[i] * std::exp(-at);
+    // The integral of the survival function beyond 400 h.
+    remaining += nodes.weights[i] * eta / beta * boost::math::tgamma(1 / beta, at);
+    mean += nodes.weights[i] * eta * std::tgamma(1 + 1 / beta);
+  }
+  const auto named = [&](const std::string& name) -> const QuantityQuantiles& {
+    for (const QuantitySummary& each : result.quantities)
+      if (each.name == name) return each.best();
+    ADD_FAILURE() << name;
+    return result.quantities.front().best();
+  };
+  for (const auto& [of, as] : {std::pair{"mean life", "closed"}, {"survival to 900 h", "later"}}) {
+    EXPECT_NEAR(named(of).q05 / named(as).q05, 1, 1e-7) << of;
+    EXPECT_NEAR(named(of).q50 / named(as).q50, 1, 1e-7) << of;
+    EXPECT_NEAR(named(of).q95 / named(as).q95, 1, 1e-7) << of;
+  }
+  EXPECT_NEAR(*named("mean life").predictive / mean, 1, 1e-4);
+  EXPECT_NEAR(*named("mean remaining useful life").predictive / (remaining / left), 1, 1e-3);
+  EXPECT_LT(*named("mean life").bound, named("mean life").q50);
+}
+
+// Loglogistic lives have no mean where the shape is 1 or less.
+TEST_F(LifeAnswers, AMeanThatDoesNotExistIsInfinite) {
+  write("lives.csv", "life [h],status\n3,failure\n54,failure\n700,failure\n8200,failure\n");
+  std::string text = lives;
+  text.replace(text.find("weibull"), 7, "loglogistic");
+  text.replace(text.find("median = 2"), 10, "median = 0.3");
+  const PosteriorSummary result = run(text + "mean_life = true\n");
+  for (const QuantitySummary& each : result.quantities) {
+    if (each.name != "mean life") continue;
+    EXPECT_TRUE(std::isinf(each.best().q95));
+    EXPECT_TRUE(std::isinf(*each.best().predictive));
   }
 }
 

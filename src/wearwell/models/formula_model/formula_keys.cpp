@@ -83,6 +83,9 @@ StudyKeys formula_keys() {
         "lives to the threshold of these units only; [] for a new unit only"},
        {"predict.b_lives", "[1, 10]",
         "percentages failed, for a likelihood of a life or for lives to the threshold"},
+       {"predict.mean_life", "true",
+        "reports the mean life (MTTF), and with `survived` the mean remaining useful life, of a "
+        "likelihood of a life"},
        {"predict.survived", "\"1000 h\"", "survived use: lives from there on"},
        {"predict.survival_to", "\"1000 h\"", "share that outlasts it, one or several"},
        {"predict.hazard_at", "\"1000 h\"", "hazard rate at this life"},

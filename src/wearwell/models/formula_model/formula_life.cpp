@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "wearwell/math/mean_beyond.h"
 #include "wearwell/math/root.h"
 #include "wearwell/models/formula_model/effect_lines.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
@@ -84,6 +85,25 @@ class LifeDistribution::AtPoint {
       sum += weight(i) * probability(life_.family_, life, slots(i));
     }
     return sum;
+  }
+
+  double log_left(double life) const {
+    double most = -infinity, sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double term = log_survival(life_.family_, life, slots(i));
+      if (size() == 1) return term;
+      if (term > most) {
+        sum = sum * std::exp(most - term) + weight(i);
+        most = term;
+      } else if (term != -infinity) {
+        sum += weight(i) * std::exp(term - most);
+      }
+    }
+    return most + std::log(sum);
+  }
+
+  double mean_beyond(double from) const {
+    return wearwell::mean_beyond([&](double life) { return log_left(life); }, quantile(0.5), from);
   }
 
   // Density over survival; for a single distribution in logarithms, so that it stays finite far in
@@ -180,6 +200,10 @@ WeightedDraws LifeDistribution::points(const WeightedDraws& draws, double share_
   return result;
 }
 
+LifeDistribution::Known LifeDistribution::undetermined(const WeightedDraws& draws) {
+  return {{draws, [](const double*) { return std::nan(""); }}};
+}
+
 // A quantity derived from the parameters; if it is expensive, it is evaluated at few points.
 template <class Value>
 LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const Value& value,
@@ -210,9 +234,8 @@ LifeDistribution::Known LifeDistribution::quantile(const WeightedDraws& draws, d
       share_of_points);
 }
 
-LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& draws, double p,
-                                                          double from,
-                                                          double share_of_points) const {
+std::optional<WeightedDraws> LifeDistribution::survivors(const WeightedDraws& draws, double from,
+                                                         double share_of_points) const {
   AtPoint at(*this);
   WeightedDraws given = points(draws, share_of_points);
   std::vector<double> left;
@@ -222,20 +245,41 @@ LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& d
   }
   const Eigen::Map<const Eigen::VectorXd> share(left.data(),
                                                 static_cast<Eigen::Index>(left.size()));
-  const bool known = given.weights.dot(share) >= least_survival;
+  if (!(given.weights.dot(share) >= least_survival)) return {};
   given.weights.array() *= share.array();
   given.weights /= given.weights.sum();
   if (given.has_cells()) {
     given.cells.mass.array() *= share.head(given.cells.mass.size()).array();
     given.cells.mass /= given.cells.mass.sum();
   }
-  return {{given, [&](const double* x) {
+  return given;
+}
+
+LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& draws, double p,
+                                                          double from,
+                                                          double share_of_points) const {
+  const auto given = survivors(draws, from, share_of_points);
+  if (!given) return undetermined(draws);
+  AtPoint at(*this);
+  return {{*given, [&](const double* x) {
              at.move_to(x);
              const double gone = at.cdf(from);
-             if (!known) return std::nan("");
              // If none survives the value does not count, but it must be a number.
              return gone < 1 ? at.quantile(gone + p * (1 - gone)) - from : 0;
            }}};
+}
+
+LifeDistribution::Known LifeDistribution::mean_beyond(const WeightedDraws& draws, double from,
+                                                      double share_of_points) const {
+  AtPoint at(*this);
+  const auto value = [&](const double* x) {
+    at.move_to(x);
+    const double mean = at.mean_beyond(from);
+    return std::isnan(mean) && at.cdf(from) == 1 ? 0 : mean;  // of a point that does not count
+  };
+  if (!(from > 0)) return over(draws, value, share_of_points);
+  const auto given = survivors(draws, from, share_of_points);
+  return given ? Known{{*given, value}} : undetermined(draws);
 }
 
 LifeDistribution::Known LifeDistribution::survival(const WeightedDraws& draws, double life,

@@ -56,6 +56,9 @@ class LifeDistribution {
                         double share_of_points = 1) const;
   /// The share of all that outlasts a life.
   Known survival(const WeightedDraws& draws, double life, double share_of_points = 1) const;
+  /// The mean life of those that have survived to `from`, from there on, over the posterior given
+  /// that survival; infinite where the distribution has none. `from` is 0 for a new item.
+  Known mean_beyond(const WeightedDraws& draws, double from, double share_of_points = 1) const;
   /// The hazard rate at this life, per SI unit of life.
   Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
   /// The median life over that of `other`.
@@ -65,6 +68,10 @@ class LifeDistribution {
  private:
   class AtPoint;
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
+  // Those given survival to `from`; empty if hardly any item survives.
+  std::optional<WeightedDraws> survivors(const WeightedDraws& draws, double from,
+                                         double share_of_points) const;
+  static Known undetermined(const WeightedDraws& draws);
   template <class Value>
   Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
 

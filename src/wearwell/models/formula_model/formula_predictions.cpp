@@ -2,127 +2,22 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <optional>
 
 #include "wearwell/base/error.h"
 #include "wearwell/formula/no_columns.h"
 #include "wearwell/models/formula_model/formula_asked.h"
 #include "wearwell/models/formula_model/formula_figures.h"
-#include "wearwell/models/formula_model/formula_life.h"
 #include "wearwell/models/formula_model/formula_limit.h"
 #include "wearwell/models/formula_model/formula_path_ahead.h"
 #include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/life_answers.h"
 #include "wearwell/study/life_levels.h"
-#include "wearwell/study/numerical_error.h"
 
 namespace wearwell::formula_model {
 namespace {
-
-// The requests if the likelihood is of a life.
-struct AskedOfLife {
-  std::shared_ptr<const LifeDistribution> life, fast;  // under the conditions, and those of a test
-  LifeLevels levels;
-  std::optional<Quantity> survived;
-  std::vector<Quantity> survival, hazard;
-
-  // Over the whole posterior; all run in parallel.
-  std::vector<std::function<LifeDistribution::Known()>> known(const WeightedDraws& draws,
-                                                              double points) const {
-    std::vector<std::function<LifeDistribution::Known()>> all;
-    for (const double percent : levels.percents) {
-      all.push_back([=, &draws, this] { return life->quantile(draws, percent / 100, points); });
-    }
-    for (std::size_t k = 0; survived && k < levels.percents.size(); ++k) {
-      all.push_back([=, &draws, this] {
-        return life->quantile_beyond(draws, levels.percents[k] / 100, survived->si(), points);
-      });
-    }
-    for (const Quantity& each : survival) {
-      all.push_back([=, &draws, this] { return life->survival(draws, each.si(), points); });
-    }
-    for (const Quantity& each : hazard) {
-      all.push_back([=, &draws, this] { return life->hazard(draws, each.si(), points); });
-    }
-    if (fast) all.push_back([=, &draws, this] { return life->ratio(draws, *fast, points); });
-    return all;
-  }
-
-  // The predictive life, and the remaining life given survival.
-  std::vector<QuantityQuantiles> of_next(const LifeDistribution::Next& next) const {
-    const auto quantiles = [](const auto& q) {
-      return QuantityQuantiles{q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)};
-    };
-    std::vector<QuantityQuantiles> all = {quantiles([&](double p) { return next.quantile(p); })};
-    if (survived)
-      all.push_back(quantiles([&](double p) { return next.quantile(p, survived->si()); }));
-    return all;
-  }
-
-  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws) const {
-    std::vector<QuantityQuantiles> found = answers(draws, 1);
-    if (!life->over_all()) estimate_numerical_errors(found, answers(draws, fewer_points));
-    return found;
-  }
-
-  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws, double points) const {
-    const auto asked = known(draws, points);
-    std::vector<QuantityQuantiles> found(asked.size());
-    LifeDistribution::Next next;
-    tbb::parallel_for(std::size_t{0}, asked.size() + 1, [&](std::size_t i) {
-      if (i == 0) {
-        next = life->next(draws, points);
-        return;
-      }
-      const LifeDistribution::Known known = asked[i - 1]();
-      const QuantityDistribution& of = known.distribution;
-      found[i - 1] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
-      found[i - 1].bound = of.quantile(1 - levels.credible_level);
-      found[i - 1].numerical_error = known.misfit;
-    });
-    std::vector<QuantityQuantiles> all;
-    auto answer = found.begin();
-    const auto add = [&](std::optional<double> predictive) {
-      all.push_back(*answer++);
-      all.back().predictive = predictive;
-      if (!predictive) all.back().bound = {};
-    };
-    const std::vector<QuantityQuantiles> lives = of_next(next);
-    all.push_back(lives.front());
-    for (const double percent : levels.percents) add(next.quantile(percent / 100));
-    if (survived) {
-      all.push_back(lives.back());
-      for (const double percent : levels.percents)
-        add(next.quantile(percent / 100, survived->si()));
-    }
-    for (const Quantity& each : survival) add(1 - next.cdf(each.si()));
-    while (answer != found.end()) add({});
-    return all;
-  }
-
-  std::vector<PredictiveLife> lives(const WeightedDraws& draws) const {
-    const auto next = std::make_shared<const LifeDistribution::Next>(life->next(draws));
-    std::vector<PredictiveLife> all = {{{[next](double x) { return next->cdf(x); },
-                                         [next](double p) { return next->quantile(p); }}}};
-    std::vector<QuantityQuantiles> errors;
-    if (!life->over_all()) {
-      errors = of_next(*next);
-      estimate_numerical_errors(errors, of_next(life->next(draws, fewer_points)));
-    }
-    if (!errors.empty()) all.front().numerical_error = errors.front().numerical_error;
-    if (!survived) return all;
-    const double from = survived->si(), gone = next->cdf(from);
-    all.push_back({{[=](double x) { return (next->cdf(from + x) - gone) / (1 - gone); },
-                    [=](double p) { return next->quantile(p, from); }},
-                   1 - gone});
-    if (!errors.empty()) all.back().numerical_error = errors.back().numerical_error;
-    return all;
-  }
-};
 
 class Predictions {
  public:
@@ -148,7 +43,7 @@ class Predictions {
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key : {"survival_to", "hazard_at", "accelerated"}) {
+      for (const char* key : {"mean_life", "survival_to", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; with predict.limit lives are those to the "
@@ -194,12 +89,16 @@ class Predictions {
     }
     const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
-      for (const char* key :
-           {"b_lives", "credible_level", "survival_to", "survived", "hazard_at", "accelerated"}) {
+      for (const char* key : {"b_lives", "credible_level", "mean_life", "survival_to", "survived",
+                              "hazard_at", "accelerated"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
       return;
     }
+    const bool mean = predict_.boolean("mean_life").value_or(false);
+    if (mean && !measured.form->positive)
+      predict_.fail("mean_life",
+                    "is for a family of positive values; the mean of this one is its location");
     const auto life = life_distribution(measured, predict_.has("given") ? "given" : "", common_);
     std::shared_ptr<const LifeDistribution> fast;
     std::string fast_words;
@@ -221,6 +120,7 @@ class Predictions {
     for (const double percent : percents) {
       bounded(b_life_name(percent), given_words_, measured.unit);
     }
+    if (mean) bounded("mean life", given_words_, measured.unit);
     if (survived) {
       const std::string from =
           joined(given_words_, fmt::format("from {} on", description(*survived)));
@@ -231,6 +131,7 @@ class Predictions {
       for (const double percent : percents) {
         bounded(b_life_name(percent, "remaining useful life"), from, measured.unit);
       }
+      if (mean) bounded("mean remaining useful life", from, measured.unit);
     }
     for (const Quantity& each : survival) {
       bounded("survival to " + description(each), given_words_, Unit{"%", 0.01, 0});
@@ -245,9 +146,9 @@ class Predictions {
                                        fmt::format("{} over {}", given_words_, fast_words),
                                        Unit{"1", 1, 0}));
     }
-    const AskedOfLife of_life{life, fast, levels, survived, survival, hazard};
-    group.from_draws = [of_life](const WeightedDraws& draws) { return of_life.answers(draws); };
-    group.lives = [of_life](const WeightedDraws& draws) { return of_life.lives(draws); };
+    const AskedOfLife asked{life, fast, levels, mean, survived, survival, hazard};
+    group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
+    group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };
     study_.quantity_groups.push_back(std::move(group));
   }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "wearwell/base/unit.h"
+#include "wearwell/models/formula_model/formula_life.h"
+#include "wearwell/study/life_levels.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell::formula_model {
+
+/// What [predict] asks of a life that is measured itself.
+struct AskedOfLife {
+  std::shared_ptr<const LifeDistribution> life, fast;  ///< under the conditions; of a test, or null
+  LifeLevels levels;
+  bool mean = false;                 ///< the mean life, and the mean remaining useful life
+  std::optional<Quantity> survived;  ///< lives are also reported from there on
+  std::vector<Quantity> survival, hazard;
+};
+
+/// In this order: the life of the next item, its B-lives, its mean life; the same from `survived`
+/// on; survival, hazard, acceleration factor.
+std::vector<QuantityQuantiles> life_answers(const AskedOfLife& asked, const WeightedDraws& draws);
+
+/// The life of the next item, and from `survived` on.
+std::vector<PredictiveLife> predictive_lives(const AskedOfLife& asked, const WeightedDraws& draws);
+
+}  // namespace wearwell::formula_model
