@@ -118,6 +118,44 @@ TEST_F(LifeAnswers, MeanLivesAreThoseOfClosedForms) {
   EXPECT_LT(*named("mean life").bound, named("mean life").q50);
 }
 
+// Two groups of one shape: P(A outlives B) = u/(1 + u), u = (eta_A/eta_B)^beta; B-lives have the ratio of the scales.
+TEST_F(LifeAnswers, OneGroupComparedWithAnother) {
+  write("lives.csv",
+        "life [h],status,maker\n310,failure,new\n540,failure,new\n700,failure,new\n900,runout,new\n"
+        "120,failure,old\n260,failure,old\n405,failure,old\n510,failure,old\n");
+  std::string text = lives;
+  text.replace(text.find("status = \"status\""), 17, "status = \"status\"\nmaker = \"maker\"");
+  text.replace(text.find("scale = \"eta\""), 13, "scale = \"eta[maker]\"");
+  const PosteriorSummary result = run(
+      text +
+      "given = { maker = \"new\" }\ncompared_with = { maker = \"old\" }\nb_lives = [10]\n"
+      "[predict.quantities]\n"
+      "outlives = { value = \"1/(1 + (eta[\\\"old\\\"]/eta[\\\"new\\\"])^beta)\", unit = \"%\" }\n"
+      "ratio = \"eta[\\\"new\\\"]/eta[\\\"old\\\"]\"\n"
+      "difference = { value = \"weibull_cdf(300 [h], eta[\\\"old\\\"], beta) - "
+      "weibull_cdf(300 [h], eta[\\\"new\\\"], beta)\", unit = \"%\" }\n");
+  const auto named = [&](const std::string& name) -> const QuantitySummary& {
+    for (const QuantitySummary& each : result.quantities)
+      if (each.name == name) return each;
+    ADD_FAILURE() << name;
+    return result.quantities.front();
+  };
+  for (const auto& [of, as] : {std::pair{"probability to outlive", "outlives"},
+                               {"B10 life ratio", "ratio"},
+                               {"difference of survival to 300 h", "difference"}}) {
+    const QuantityQuantiles &found = named(of).best(), &closed = named(as).best();
+    EXPECT_NEAR(found.q05, closed.q05, 1e-6 * std::abs(closed.q05)) << of;
+    EXPECT_NEAR(found.q50, closed.q50, 1e-6 * std::abs(closed.q50)) << of;
+    EXPECT_NEAR(found.q95, closed.q95, 1e-6 * std::abs(closed.q95)) << of;
+    EXPECT_EQ(named(of).at, "maker = new against maker = old");
+  }
+  // Averaged over the posterior: between the quantiles, and above a half.
+  const QuantityQuantiles& p = named("probability to outlive").best();
+  EXPECT_GT(*p.predictive, 50);
+  EXPECT_LT(*p.predictive, p.q95);
+  EXPECT_LT(*p.bound, p.q50);
+}
+
 // Loglogistic lives have no mean where the shape is 1 or less.
 TEST_F(LifeAnswers, AMeanThatDoesNotExistIsInfinite) {
   write("lives.csv", "life [h],status\n3,failure\n54,failure\n700,failure\n8200,failure\n");

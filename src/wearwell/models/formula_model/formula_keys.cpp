@@ -92,6 +92,9 @@ StudyKeys formula_keys() {
        {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives and survival"},
        {"predict.accelerated.*", "\"80 degC\"",
         "conditions of a test, for the acceleration factor"},
+       {"predict.compared_with.*", "\"old\"",
+        "conditions of a life to compare with: probability to outlive it, ratios of B-lives, "
+        "differences of survival"},
        {"predict.quantities.*", "\"exp(k_scatter^2/2)\"",
         "any function of the parameters; or with its unit:"},
        {"predict.quantities.*.value", "\"k * 20 [N]\"", "expression"},

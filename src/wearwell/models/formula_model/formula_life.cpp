@@ -2,11 +2,6 @@
 
 #include <cmath>
 
-#include "wearwell/math/mean_beyond.h"
-#include "wearwell/math/root.h"
-#include "wearwell/models/formula_model/effect_lines.h"
-#include "wearwell/models/formula_model/formula_drawn.h"
-#include "wearwell/models/formula_model/formula_lives.h"
 #include "wearwell/predict/interpolated.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/predict/thinned_posterior.h"
@@ -23,116 +18,7 @@ std::size_t some(std::size_t most, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(most));
 }
 
-double probability(ResponseFamily family, double life, const double* family_parameters) {
-  return std::exp(log_cdf(family, life, family_parameters));
-}
-
-// The quantile p of a cdf; in the logarithm for positive values.
-template <class F>
-double solve(const F& cdf, double p, double middle, bool positive) {
-  if (!std::isfinite(middle)) return std::nan("");
-  if (!positive) {
-    return solve_increasing([&](double y) { return cdf(y) - p; }, middle,
-                            std::max(1e-3 * std::abs(middle), 1e-12), {.relative = 1e-10});
-  }
-  return std::exp(solve_increasing([&](double log_y) { return cdf(std::exp(log_y)) - p; },
-                                   std::log(middle), 0.5, {.absolute = 1e-10}, -700, 700));
-}
-
 }  // namespace
-
-// The distribution parameters at one point, over the population.
-class LifeDistribution::AtPoint {
- public:
-  explicit AtPoint(const LifeDistribution& life)
-      : life_(life),
-        nodes_(life.family_parameters_->model->effects.size(), 6.5),
-        new_units_(*life.family_parameters_->model),
-        path_(*life.family_parameters_) {
-    family_parameters_.resize(most_response_parameters * size());
-  }
-
-  void move_to(const double* x) {
-    const FormulaModel& model = *life_.family_parameters_->model;
-    const std::size_t d = model.effects.size(), count = nodes_.weight.size();
-    for (std::size_t k = 0; k < new_units_.count(); ++k) {
-      path_.move_to(new_units_.at(k, x, model.parameters.size()));
-      for (std::size_t at = 0; at < count; at += Path::most) {
-        const std::size_t n = std::min(Path::most, count - at);
-        path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
-        for (std::size_t i = 0; i < n; ++i) {
-          for (std::size_t o = 0; o < life_.family_parameter_.size(); ++o) {
-            family_parameters_[(k * count + at + i) * most_response_parameters +
-                               life_.family_parameter_[o]] = path_.output(o, i);
-          }
-        }
-      }
-    }
-  }
-
-  std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
-  double weight(std::size_t i) const {
-    const std::size_t count = nodes_.weight.size();
-    return nodes_.weight[i % count] * new_units_.share(i / count);
-  }
-  const double* slots(std::size_t i) const {
-    return &family_parameters_[i * most_response_parameters];
-  }
-
-  double cdf(double life) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      sum += weight(i) * probability(life_.family_, life, slots(i));
-    }
-    return sum;
-  }
-
-  double log_left(double life) const {
-    double most = -infinity, sum = 0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double term = log_survival(life_.family_, life, slots(i));
-      if (size() == 1) return term;
-      if (term > most) {
-        sum = sum * std::exp(most - term) + weight(i);
-        most = term;
-      } else if (term != -infinity) {
-        sum += weight(i) * std::exp(term - most);
-      }
-    }
-    return most + std::log(sum);
-  }
-
-  double mean_beyond(double from) const {
-    return wearwell::mean_beyond([&](double life) { return log_left(life); }, quantile(0.5), from);
-  }
-
-  // Density over survival; for a single distribution in logarithms, so that it stays finite far in
-  // the tail.
-  double hazard(double life) const {
-    double failing = 0, left = 0, one = 0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double density = log_response_value(life_.family_, {.at = life}, slots(i));
-      const double survival = log_survival(life_.family_, life, slots(i));
-      failing += weight(i) * std::exp(density);
-      left += weight(i) * std::exp(survival);
-      one = std::exp(density - survival);
-    }
-    return size() == 1 ? one : failing / left;
-  }
-
-  double quantile(double p) const {
-    if (size() == 1) return wearwell::quantile(life_.family_, p, slots(0));
-    const double middle = wearwell::quantile(life_.family_, 0.5, slots(size() / 2));
-    return solve([&](double y) { return cdf(y); }, p, middle, life_.positive_);
-  }
-
- private:
-  const LifeDistribution& life_;
-  NormalNodes nodes_;
-  NewUnits new_units_;
-  PathAt path_;
-  std::vector<double> family_parameters_;
-};
 
 std::string per_unit(const Unit& unit) {
   if (unit.text == "1") return "1";
@@ -150,13 +36,13 @@ LifeDistribution::LifeDistribution(std::shared_ptr<const Path> family_parameters
 double LifeDistribution::Next::cdf(double life) const {
   double sum = 0;
   for (const Component& each : components_) {
-    sum += each.weight * probability(family_, life, each.family_parameter);
+    sum += each.weight * std::exp(log_cdf(family_, life, each.family_parameter));
   }
   return sum;
 }
 
 double LifeDistribution::Next::quantile(double p) const {
-  return solve([&](double y) { return cdf(y); }, p, middle_, positive_);
+  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, positive_);
 }
 
 double LifeDistribution::Next::quantile(double p, double from) const {
@@ -165,13 +51,17 @@ double LifeDistribution::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
+LifeAtPoint LifeDistribution::at_point() const {
+  return {*family_parameters_, family_parameter_, family_, positive_};
+}
+
 bool LifeDistribution::over_all() const {
   return family_parameters_->model->effects.empty();
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
                                               double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   Next next;
   next.family_ = family_;
   next.positive_ = positive_;
@@ -224,7 +114,7 @@ LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const
 
 LifeDistribution::Known LifeDistribution::quantile(const WeightedDraws& draws, double p,
                                                    double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   return over(
       draws,
       [&](const double* x) {
@@ -236,7 +126,7 @@ LifeDistribution::Known LifeDistribution::quantile(const WeightedDraws& draws, d
 
 std::optional<WeightedDraws> LifeDistribution::survivors(const WeightedDraws& draws, double from,
                                                          double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   WeightedDraws given = points(draws, share_of_points);
   std::vector<double> left;
   for (Eigen::Index i = 0; i < given.values.rows(); ++i) {
@@ -260,7 +150,7 @@ LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& d
                                                           double share_of_points) const {
   const auto given = survivors(draws, from, share_of_points);
   if (!given) return undetermined(draws);
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   return {{*given, [&](const double* x) {
              at.move_to(x);
              const double gone = at.cdf(from);
@@ -271,7 +161,7 @@ LifeDistribution::Known LifeDistribution::quantile_beyond(const WeightedDraws& d
 
 LifeDistribution::Known LifeDistribution::mean_beyond(const WeightedDraws& draws, double from,
                                                       double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   const auto value = [&](const double* x) {
     at.move_to(x);
     const double mean = at.mean_beyond(from);
@@ -284,7 +174,7 @@ LifeDistribution::Known LifeDistribution::mean_beyond(const WeightedDraws& draws
 
 LifeDistribution::Known LifeDistribution::survival(const WeightedDraws& draws, double life,
                                                    double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   return over(
       draws,
       [&](const double* x) {
@@ -296,7 +186,7 @@ LifeDistribution::Known LifeDistribution::survival(const WeightedDraws& draws, d
 
 LifeDistribution::Known LifeDistribution::hazard(const WeightedDraws& draws, double life,
                                                  double share_of_points) const {
-  AtPoint at(*this);
+  LifeAtPoint at = at_point();
   return over(
       draws,
       [&](const double* x) {
@@ -306,17 +196,51 @@ LifeDistribution::Known LifeDistribution::hazard(const WeightedDraws& draws, dou
       share_of_points);
 }
 
-LifeDistribution::Known LifeDistribution::ratio(const WeightedDraws& draws,
-                                                const LifeDistribution& other,
-                                                double share_of_points) const {
-  AtPoint here(*this), there(other);
+template <class Value>
+LifeDistribution::Known LifeDistribution::compared(const WeightedDraws& draws,
+                                                   const LifeDistribution& other,
+                                                   const Value& value,
+                                                   double share_of_points) const {
+  LifeAtPoint here = at_point(), there = other.at_point();
   return over(
       draws,
       [&](const double* x) {
         here.move_to(x);
         there.move_to(x);
-        return here.quantile(0.5) / there.quantile(0.5);
+        return value(here, there);
       },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::ratio(const WeightedDraws& draws,
+                                                const LifeDistribution& other, double p,
+                                                double share_of_points) const {
+  return compared(
+      draws, other,
+      [p](const LifeAtPoint& here, const LifeAtPoint& there) {
+        return here.quantile(p) / there.quantile(p);
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::survival_difference(const WeightedDraws& draws,
+                                                              const LifeDistribution& other,
+                                                              double life,
+                                                              double share_of_points) const {
+  return compared(
+      draws, other,
+      [life](const LifeAtPoint& here, const LifeAtPoint& there) {
+        return there.cdf(life) - here.cdf(life);
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::outliving(const WeightedDraws& draws,
+                                                    const LifeDistribution& other,
+                                                    double share_of_points) const {
+  return compared(
+      draws, other,
+      [](const LifeAtPoint& here, const LifeAtPoint& there) { return here.outlives(there); },
       share_of_points);
 }
 

@@ -7,6 +7,7 @@
 
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/models/formula_model/formula_path.h"
+#include "wearwell/models/formula_model/life_at_point.h"
 
 namespace wearwell::formula_model {
 
@@ -61,17 +62,27 @@ class LifeDistribution {
   Known mean_beyond(const WeightedDraws& draws, double from, double share_of_points = 1) const;
   /// The hazard rate at this life, per SI unit of life.
   Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
-  /// The median life over that of `other`.
-  Known ratio(const WeightedDraws& draws, const LifeDistribution& other,
+  /// The p-quantile over that of `other`.
+  Known ratio(const WeightedDraws& draws, const LifeDistribution& other, double p,
               double share_of_points = 1) const;
+  /// The share that outlasts a life, less that of `other`.
+  Known survival_difference(const WeightedDraws& draws, const LifeDistribution& other, double life,
+                            double share_of_points = 1) const;
+  /// The probability that an item lives longer than one of `other`.
+  Known outliving(const WeightedDraws& draws, const LifeDistribution& other,
+                  double share_of_points = 1) const;
 
  private:
-  class AtPoint;
+  LifeAtPoint at_point() const;
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   // Those given survival to `from`; empty if hardly any item survives.
   std::optional<WeightedDraws> survivors(const WeightedDraws& draws, double from,
                                          double share_of_points) const;
   static Known undetermined(const WeightedDraws& draws);
+  // A value of both distributions at a point.
+  template <class Value>
+  Known compared(const WeightedDraws& draws, const LifeDistribution& other, const Value& value,
+                 double share_of_points) const;
   template <class Value>
   Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
 

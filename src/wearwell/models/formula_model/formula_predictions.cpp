@@ -43,7 +43,8 @@ class Predictions {
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key : {"mean_life", "survival_to", "hazard_at", "accelerated"}) {
+      for (const char* key :
+           {"mean_life", "survival_to", "hazard_at", "accelerated", "compared_with"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; with predict.limit lives are those to the "
@@ -90,7 +91,7 @@ class Predictions {
     const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
       for (const char* key : {"b_lives", "credible_level", "mean_life", "survival_to", "survived",
-                              "hazard_at", "accelerated"}) {
+                              "hazard_at", "accelerated", "compared_with"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
       return;
@@ -100,8 +101,13 @@ class Predictions {
       predict_.fail("mean_life",
                     "is for a family of positive values; the mean of this one is its location");
     const auto life = life_distribution(measured, predict_.has("given") ? "given" : "", common_);
-    std::shared_ptr<const LifeDistribution> fast;
-    std::string fast_words;
+    std::shared_ptr<const LifeDistribution> fast, other;
+    std::string fast_words, other_words;
+    if (const auto compared = predict_.table("compared_with")) {
+      const Conditions conditions = read_conditions(*compared, *model_);
+      other_words = conditions.words;
+      other = life_distribution(measured, "compared_with", common_conditions(*model_, conditions));
+    }
     if (const auto accelerated = predict_.table("accelerated")) {
       const Conditions conditions = read_conditions(*accelerated, *model_);
       fast_words = conditions.words;
@@ -136,6 +142,15 @@ class Predictions {
     for (const Quantity& each : survival) {
       bounded("survival to " + description(each), given_words_, Unit{"%", 0.01, 0});
     }
+    if (other) {
+      const std::string against = fmt::format("{} against {}", given_words_, other_words);
+      const Unit percent{"%", 0.01, 0};
+      bounded("probability to outlive", against, percent);
+      for (const double each : percents)
+        bounded(b_life_name(each) + " ratio", against, Unit{"1", 1, 0});
+      for (const Quantity& each : survival)
+        bounded("difference of survival to " + description(each), against, percent);
+    }
     const Unit rate{per_unit(measured.unit), 1 / measured.unit.scale, 0};
     for (const Quantity& each : hazard) {
       group.requests.push_back(
@@ -146,7 +161,7 @@ class Predictions {
                                        fmt::format("{} over {}", given_words_, fast_words),
                                        Unit{"1", 1, 0}));
     }
-    const AskedOfLife asked{life, fast, levels, mean, survived, survival, hazard};
+    const AskedOfLife asked{life, fast, other, levels, mean, survived, survival, hazard};
     group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
     group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };
     study_.quantity_groups.push_back(std::move(group));

@@ -29,10 +29,22 @@ std::vector<std::function<Known()>> known_answers(const AskedOfLife& asked,
   }
   for (const Quantity& each : asked.survival)
     all.push_back([=, &draws, &life] { return life.survival(draws, each.si(), points); });
+  if (asked.other) {
+    const LifeDistribution& other = *asked.other;
+    all.push_back([=, &draws, &life, &other] { return life.outliving(draws, other, points); });
+    for (const double percent : asked.levels.percents)
+      all.push_back(
+          [=, &draws, &life, &other] { return life.ratio(draws, other, percent / 100, points); });
+    for (const Quantity& each : asked.survival)
+      all.push_back([=, &draws, &life, &other] {
+        return life.survival_difference(draws, other, each.si(), points);
+      });
+  }
   for (const Quantity& each : asked.hazard)
     all.push_back([=, &draws, &life] { return life.hazard(draws, each.si(), points); });
   if (asked.fast)
-    all.push_back([=, &draws, &life, &asked] { return life.ratio(draws, *asked.fast, points); });
+    all.push_back(
+        [=, &draws, &life, &asked] { return life.ratio(draws, *asked.fast, 0.5, points); });
   return all;
 }
 
@@ -65,10 +77,11 @@ std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const Weig
                                             double points) {
   const auto known = known_answers(asked, draws, points);
   std::vector<Answer> found(known.size());
-  LifeDistribution::Next next;
+  LifeDistribution::Next next, other;
   tbb::parallel_for(std::size_t{0}, known.size() + 1, [&](std::size_t i) {
     if (i == 0) {
       next = asked.life->next(draws, points);
+      if (asked.other) other = asked.other->next(draws, points);
       return;
     }
     found[i - 1] = answer_of(known[i - 1](), asked.levels.credible_level);
@@ -92,6 +105,12 @@ std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const Weig
     if (asked.mean) add(answer->mean);
   }
   for (const Quantity& each : asked.survival) add(1 - next.cdf(each.si()));
+  if (asked.other) {
+    add(answer->mean);
+    for (const double percent : percents)
+      add(next.quantile(percent / 100) / other.quantile(percent / 100));
+    for (const Quantity& each : asked.survival) add(other.cdf(each.si()) - next.cdf(each.si()));
+  }
   while (answer != found.end()) add({});
   return all;
 }

@@ -13,7 +13,9 @@ namespace wearwell::formula_model {
 
 /// What [predict] asks of a life that is measured itself.
 struct AskedOfLife {
-  std::shared_ptr<const LifeDistribution> life, fast;  ///< under the conditions; of a test, or null
+  std::shared_ptr<const LifeDistribution> life;   ///< under the conditions
+  std::shared_ptr<const LifeDistribution> fast;   ///< under those of a test; may be null
+  std::shared_ptr<const LifeDistribution> other;  ///< compared with; may be null
   LifeLevels levels;
   bool mean = false;                 ///< the mean life, and the mean remaining useful life
   std::optional<Quantity> survived;  ///< lives are also reported from there on
@@ -21,7 +23,8 @@ struct AskedOfLife {
 };
 
 /// In this order: the life of the next item, its B-lives, its mean life; the same from `survived`
-/// on; survival, hazard, acceleration factor.
+/// on; survival; against `other`: probability to outlive it, ratios of B-lives, differences of
+/// survival; hazard, acceleration factor.
 std::vector<QuantityQuantiles> life_answers(const AskedOfLife& asked, const WeightedDraws& draws);
 
 /// The life of the next item, and from `survived` on.

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "wearwell/math/root.h"
+#include "wearwell/models/formula_model/effect_lines.h"
+#include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_path.h"
+
+namespace wearwell::formula_model {
+
+/// A life at one point of the parameters: a mixture over the random effects of new items, one
+/// distribution where there are none. One thread at a time.
+class LifeAtPoint {
+ public:
+  /// `family_parameters` has the outputs of the measured column; output o is the family's
+  /// parameter `places[o]`. Both must outlive this.
+  LifeAtPoint(const Path& family_parameters, std::span<const std::size_t> places,
+              ResponseFamily family, bool positive);
+
+  void move_to(const double* x);  ///< natural parameters, SI
+
+  /// The components: their weights, which sum to 1, and their family's parameters.
+  std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
+  double weight(std::size_t i) const;
+  const double* slots(std::size_t i) const {
+    return &family_parameters_[i * most_response_parameters];
+  }
+
+  double cdf(double life) const;
+  double log_survival(double life) const;  ///< with all digits far in the tail
+  double log_density(double life) const;
+  double hazard(double life) const;  ///< density over survival
+  double quantile(double p) const;
+  /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
+  double mean_beyond(double from) const;
+  /// The probability that an item outlives one of `other`: the integral of this survival function
+  /// over the other's distribution, within 1e-8 and the 2e-10 of its tails.
+  double outlives(const LifeAtPoint& other) const;
+
+ private:
+  std::span<const std::size_t> places_;
+  ResponseFamily family_;
+  bool positive_;
+  const FormulaModel& model_;
+  NormalNodes nodes_;
+  NewUnits new_units_;
+  PathAt path_;
+  std::vector<double> family_parameters_;
+};
+
+/// The quantile p of a cdf whose median is about `middle`; in the logarithm for positive values.
+template <class F>
+double quantile_of_cdf(const F& cdf, double p, double middle, bool positive) {
+  if (!std::isfinite(middle)) return std::nan("");
+  if (!positive) {
+    return solve_increasing([&](double y) { return cdf(y) - p; }, middle,
+                            std::max(1e-3 * std::abs(middle), 1e-12), {.relative = 1e-10});
+  }
+  return std::exp(solve_increasing([&](double log_y) { return cdf(std::exp(log_y)) - p; },
+                                   std::log(middle), 0.5, {.absolute = 1e-10}, -700, 700));
+}
+
+}  // namespace wearwell::formula_model
