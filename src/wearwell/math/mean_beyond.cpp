@@ -43,8 +43,8 @@ double mean_beyond(const std::function<double(double x)>& log_survival, double m
     break;
   }
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  constexpr unsigned depth = 12;
-  constexpr double tolerance = 1e-9;
+  constexpr unsigned depth = 30;
+  constexpr double tolerance = 1e-10;
   const auto integrand = [&](double u) { return std::exp(log_integrand(u)); };
   // Below its scale the integrand is nearly exp(u); a threshold is a kink anywhere.
   return Rule::integrate(integrand, scale - negligible, scale, depth, tolerance) +
