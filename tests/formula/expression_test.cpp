@@ -179,6 +179,16 @@ TEST(Expression, FunctionsOfDistributionsHaveUnits) {
   EXPECT_THAT(message("weibul_cdf(2, 3, 1)"), HasSubstr("did you mean 'weibull_cdf'?"));
 }
 
+// A parameter may be named gamma, but not where the function is called.
+TEST(Expression, AFunctionMayHaveTheNameOfAParameter) {
+  Laboratory laboratory;
+  laboratory.lines.push_back({"gamma", "2 * a"});
+  EXPECT_DOUBLE_EQ(laboratory.value("gamma + 1"), 2.4);
+  EXPECT_THAT(message_of<InputError>([&] { laboratory.value("gamma(3)"); }),
+              AllOf(HasSubstr("'gamma' is a function, but this study uses the name itself"),
+                    HasSubstr("write a product as gamma * (...)")));
+}
+
 // exp and log are our own: bounds, and within an ulp of the library's over the whole range.
 TEST(Expression, ExponentialAndLogarithmAreGoodToAnUlp) {
   Laboratory laboratory;

@@ -33,6 +33,18 @@ Term Naming::leaf(Op op, std::size_t index, const Powers& powers, std::size_t at
   return {graph_.add(node), at, end_of_last()};
 }
 
+bool Naming::is_symbol(const std::string& name) const {
+  const auto in = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& each) { return each.name == name; });
+  };
+  const Symbols& symbols = names_.symbols;
+  return name == names_.state || names_.lines.contains(name) || in(symbols.parameters) ||
+         in(symbols.columns) || in(symbols.constants) || in(symbols.labels) ||
+         std::find(names_.all_lines.begin(), names_.all_lines.end(), name) !=
+             names_.all_lines.end();
+}
+
 Term Naming::named(const Token& token) {
   const std::string& name = token.text;
   ++at_;

@@ -32,6 +32,9 @@ class Naming {
     return end;
   }
 
+  /// Whether the study gives this name a meaning.
+  bool is_symbol(const std::string& name) const;
+
   /// Reads the name at the position and moves past it and its index.
   Term named(const Token& token);
 

@@ -245,7 +245,13 @@ class Reader : Naming {
     const Function* function = find_function(token.text);
     const DefinedFunction* defined = find_defined_function(token.text);
     const bool called = ahead().kind == Token::sign && ahead().text == "(";
-    if (function != nullptr || defined != nullptr) {
+    const bool reserved = is_word_of_language(token.text);
+    if (called && !reserved && (function != nullptr || defined != nullptr) && is_symbol(token.text))
+      complain(text_, token.at,
+               fmt::format("'{}' is a function, but this study uses the name itself", token.text),
+               fmt::format("rename it to call the function, or write a product as {} * (...)",
+                           token.text));
+    if ((called || reserved) && (function != nullptr || defined != nullptr)) {
       if (!called)
         complain(text_, token.at, fmt::format("'{}' is a function", token.text),
                  fmt::format("write its arguments in brackets: {}(...)", token.text));
@@ -255,7 +261,7 @@ class Reader : Naming {
       ++at_;
       return {graph_.constant(std::numbers::pi), token.at, end_of_last()};
     }
-    if (is_word_of_language(token.text)) {
+    if (reserved) {
       complain(text_, token.at,
                fmt::format("'{}' instead of a number, a name or a bracket", token.text));
     }
@@ -280,7 +286,7 @@ class Reader : Naming {
   Term call(const DefinedFunction& function) {
     const std::size_t start = here().at;
     const std::vector<Term> arguments = read_arguments(function.name);
-    check_arguments(function, arguments, start);
+    rules_.check_arguments(function, arguments, start);
     static const Symbols no_symbols;
     Names names{no_symbols};
     bool constants = true;
@@ -293,30 +299,6 @@ class Reader : Naming {
     if (constants && graph_[term.node].op != Op::constant)
       complain(text_, start, fmt::format("{} is not a finite number", function.name));
     return term;
-  }
-
-  void check_arguments(const DefinedFunction& function, const std::vector<Term>& arguments,
-                       std::size_t start) {
-    std::string list;
-    for (const auto& each : function.arguments) list += (list.empty() ? "" : ", ") + each.name;
-    if (arguments.size() != function.arguments.size())
-      complain(text_, start,
-               fmt::format("{} needs {} arguments, but has {}", function.name,
-                           function.arguments.size(), arguments.size()),
-               fmt::format("write {}({})", function.name, list));
-    const Term* first = nullptr;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-      if (function.arguments[i].pure) {
-        rules_.demand_pure(arguments[i],
-                           fmt::format("{} of {}", function.arguments[i].name, function.name),
-                           arguments[i].at);
-      } else if (first == nullptr) {
-        rules_.demand_value(arguments[i]);
-        first = &arguments[i];
-      } else {
-        rules_.common(*first, arguments[i], "arguments of " + function.name, arguments[i].at);
-      }
-    }
   }
 
   std::vector<Term> read_arguments(const std::string& name) {

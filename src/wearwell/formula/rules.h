@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wearwell/formula/complaint.h"
+#include "wearwell/formula/defined_functions.h"
 #include "wearwell/formula/graph.h"
 
 namespace wearwell::formula {
@@ -38,12 +39,12 @@ class Rules {
   Term call(const Function& function, const std::vector<Term>& arguments, std::size_t at,
             std::size_t end);
 
+  /// Refuses arguments of another number or dimension.
+  void check_arguments(const DefinedFunction& function, const std::vector<Term>& arguments,
+                       std::size_t start) const;
+
   /// Refuses a label or text used as a number.
   void demand_value(const Term& term) const;
-  /// `of`: the function or operation, for the message.
-  void demand_pure(const Term& term, const std::string& of, std::size_t at) const;
-  /// The common dimension of both; `what`: "added".
-  int common(const Term& a, const Term& b, const std::string& what, std::size_t at) const;
 
  private:
   const Node& node(const Term& term) const { return graph_[term.node]; }
@@ -53,6 +54,8 @@ class Rules {
   std::string stand_in(const Term& term) const;
 
   void demand_truth(const Term& term, const std::string& of) const;
+  void demand_pure(const Term& term, const std::string& of, std::size_t at) const;
+  int common(const Term& a, const Term& b, const std::string& what, std::size_t at) const;
   int bounded(int powers, std::size_t at) const;
   int label_is(const Term& label, const Term& level);
   Term made(Node node, const Term& a, const Term& b, std::size_t at);

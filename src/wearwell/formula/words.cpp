@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "wearwell/formula/defined_functions.h"
-
 namespace wearwell::formula {
 
 const std::vector<Function>& functions() {
@@ -31,8 +29,12 @@ const Function* find_function(std::string_view name) {
 
 bool is_word_of_language(std::string_view name) {
   constexpr std::array others = {"and", "or", "not", "pi"};
-  return find_function(name) != nullptr || find_defined_function(name) != nullptr ||
-         std::find(others.begin(), others.end(), name) != others.end();
+  // Names that studies use for parameters; only a call is the function.
+  constexpr std::array free = {"erfc", "probit", "gamma", "lgamma", "digamma"};
+  const auto among = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return among(others) || (find_function(name) != nullptr && !among(free));
 }
 
 }  // namespace wearwell::formula

@@ -86,7 +86,8 @@ struct Function {
 const std::vector<Function>& functions();
 const Function* find_function(std::string_view name);
 
-/// Functions, `and`, `or`, `not`, `pi`: reserved names.
+/// Reserved names: `and`, `or`, `not`, `pi`, and functions except those of distributions and a few
+/// with names that parameters have, like `gamma`.
 bool is_word_of_language(std::string_view name);
 
 /// Throws InputError if a name is invalid or a keyword; `what` is "column", "line".
