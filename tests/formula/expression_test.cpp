@@ -155,8 +155,9 @@ TEST(Expression, FunctionsOfDistributionsAreThoseOfR) {
     EXPECT_NEAR(value("cdf", each.x), each.cdf, 1e-12 * each.cdf) << what;
     EXPECT_NEAR(value("survival", each.x), each.survival, 1e-12 * each.survival) << what;
     EXPECT_NEAR(value("pdf", each.x), each.pdf, 1e-12 * each.pdf) << what;
-    if (each.cdf > 0 && each.cdf < 0.999)
+    if (each.cdf > 0 && each.cdf < 0.999) {
       EXPECT_NEAR(value("quantile", each.cdf), each.x, 1e-11 * std::abs(each.x)) << what;
+    }
   }
 }
 
