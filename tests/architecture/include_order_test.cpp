@@ -32,6 +32,7 @@ const std::vector<std::set<std::string>> order = {
     {"present"},
     {"study"},
     {"selection", "prognosis", "fleet"},
+    {"plan"},
     {"joint", "bearing", "clutch", "fatigue", "formula_model"},
     {"models", "monitor"},
     {"cli"},

@@ -17,6 +17,7 @@
 #include "wearwell/cli/life.h"
 #include "wearwell/cli/monitor.h"
 #include "wearwell/cli/new.h"
+#include "wearwell/cli/plan/plan_commands.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
 #include "wearwell/cli/update.h"
@@ -30,8 +31,9 @@ void group_commands(CLI::App& app) {
       {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
       {"report", "A study"},    {"life", "Its result"},     {"decide", "Its result"},
       {"update", "Its result"}, {"backtest", "Its result"}, {"compare", "Its result"},
-      {"export", "Its result"}, {"monitor", "Many units"},  {"fleet", "Many units"},
-      {"select", "Other"},      {"help", "Other"},          {"version", "Other"}};
+      {"export", "Its result"}, {"plan", "Its result"},     {"monitor", "Many units"},
+      {"fleet", "Many units"},  {"select", "Other"},        {"help", "Other"},
+      {"version", "Other"}};
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_group().empty()) continue;
     const auto group = groups.find(command->get_name());
@@ -53,6 +55,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_report_command(*app, exit_code);
   add_life_command(*app, models, exit_code);
   add_decide_command(*app, models, exit_code);
+  plan::add_plan_command(*app, models, exit_code);
   add_update_command(*app, models, exit_code);
   add_backtest_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
