@@ -183,12 +183,20 @@ def _subject(about, name):
     return None, None, "", _tables(about, name)
 
 
+def _several(data):
+    return [] if data is None else list(data) if isinstance(data, (list, tuple)) else [data]
+
+
 def _tables(data, name):
     """The tables that an argument holds: one, or a list of them."""
-    if data is None:
-        return []
-    several = data if isinstance(data, (list, tuple)) else [data]
-    return [(name, table_of(each, name)) for each in several]
+    return [(name, table_of(each, name)) for each in _several(data)]
+
+
+def files_and_tables(data):
+    """The paths in an argument that holds tables or files, and the others."""
+    several = _several(data)
+    is_path = [isinstance(each, (str, os.PathLike)) for each in several]
+    return [e for e, path in zip(several, is_path) if path], [e for e, path in zip(several, is_path) if not path]
 
 
 def answer(kind, arguments, about=None, name="", tables=None, threads=0, progress=None):

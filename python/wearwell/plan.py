@@ -9,7 +9,7 @@ import os
 
 from ._errors import InputError
 from ._fit import Fit
-from ._plan import answer
+from ._plan import answer, files_and_tables
 from ._study import Study
 
 
@@ -61,7 +61,7 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
     until : str, optional
         Target: "width <= factor 1.5" or "width <= 20 MPa". Says whether it is reached, and how many tests it needs.
     tests : table or sequence of tables, optional
-        Tests done since the fit, in the columns of the study's data.
+        Tests done since the fit, in the columns of the study's data: data frames and their like, or paths of files.
     samples : int
         Samples of the nested Monte Carlo, 16 to 100000.
     nodes : int
@@ -94,10 +94,11 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
     >>> NEXT
     """
     _require(fit, "fit", (Fit,), "a fit, or the folder of a result")
+    files, tests = files_and_tables(tests)
     return answer("next", {
         "goal": goal, "grid": grid, "specimens": specimens, "cost": cost, "specimen_cost": specimen_cost, "use_cost": use_cost,
         "measure": measure, "by": by, "value": value, "budget": budget, "batch": batch, "until": until, "samples": samples,
-        "nodes": nodes, "seed": seed,
+        "nodes": nodes, "seed": seed, "tests": files or None,
     }, fit, "fit", {"candidates": candidates, "tests": tests}, threads, progress)
 
 

@@ -84,10 +84,13 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
                          measure = NULL, by = "width", value = NULL, budget = NULL, batch = 1, until = NULL, tests = NULL,
                          samples = 256, nodes = 800, seed = 1, threads = 0, progress = FALSE) {
   about <- fit_or_folder(fit)
+  several <- if (is.list(tests) && !is.data.frame(tests) && is.null(names(tests))) tests else if (!is.null(tests)) list(tests)
+  files <- vapply(several, is_path, NA)
   plan_of("next", list(goal = goal, grid = grid, specimens = specimens, cost = cost, specimen_cost = specimen_cost, use_cost = use_cost,
                        measure = measure, by = by, value = value, budget = budget, batch = batch, until = until, samples = samples,
-                       nodes = nodes, seed = seed_text(seed)),
-          run = about$run, path = about$path, tables = c(plan_tables(candidates, "candidates"), plan_tables(tests, "tests")),
+                       nodes = nodes, seed = seed_text(seed),
+                       tests = if (any(files)) I(vapply(several[files], path_of, "", "tests"))),
+          run = about$run, path = about$path, tables = c(plan_tables(candidates, "candidates"), plan_tables(several[!files], "tests")),
           threads = threads, progress = progress)
 }
 

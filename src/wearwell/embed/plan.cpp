@@ -11,12 +11,14 @@
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/plan_arguments.h"
 #include "wearwell/models/registry.h"
+#include "wearwell/plan/accelerate.h"
 #include "wearwell/plan/demonstrate.h"
 #include "wearwell/plan/inspect.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/present/page.h"
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
 #include "wearwell/study/model.h"
 
@@ -150,13 +152,39 @@ Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) 
   arguments.whole("nodes", question.nodes);
   arguments.seed("seed", question.seed);
   arguments.table("candidates");
-  arguments.table("tests");
+  std::vector<std::string> files;
+  arguments.texts("tests", files);
   if (const Table* candidates = table_of(subject, "candidates")) question.candidates = *candidates;
   question.tests = tables_of(subject, "tests");
-  return [question, &subject] {
+  return [question, files, &subject]() mutable {
+    prognosis::CarriedState state = carried_posterior(subject);
+    for (const std::string& file : files)
+      question.tests.push_back(prognosis::read_new_data(state.source, file));
     const std::string result = subject.run ? "fit" : subject.path;
-    return plan::next_test(carried_posterior(subject), result, &read_any, question);
+    return plan::next_test(std::move(state), result, &read_any, question);
   };
+}
+
+Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
+  plan::AccelerateQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.text("use", question.use);
+  arguments.text("highest", question.highest);
+  arguments.text("until", question.until);
+  arguments.whole("specimens", question.specimens);
+  arguments.text("family", question.family);
+  arguments.text("relation", question.relation);
+  arguments.text("lowest", question.lowest);
+  arguments.text("low", question.low);
+  arguments.text("shape", question.shape);
+  arguments.text("sigma", question.sigma);
+  arguments.text("failing_at_use", question.failing_at_use);
+  arguments.text("failing_at_highest", question.failing_at_highest);
+  arguments.text("life_at_highest", question.life_at_highest);
+  arguments.text("slope", question.slope);
+  arguments.text("middle_share", question.middle_share);
+  arguments.whole("least_failures", question.least_failures);
+  return [question] { return plan::accelerate(question); };
 }
 
 using Reader = Work (*)(PlanArguments&, const PlanSubject&, const Monitor&);
@@ -164,6 +192,7 @@ using Reader = Work (*)(PlanArguments&, const PlanSubject&, const Monitor&);
 Reader reader_of(const std::string& kind) {
   if (kind == "next") return &next;
   if (kind == "demonstrate") return &demonstrate;
+  if (kind == "accelerate") return &accelerate;
   if (kind == "inspect") return &inspect;
   throw InputError(
       fmt::format("there is no plan of kind '{}'; it is next, size, demonstrate, inspect or "

@@ -40,7 +40,7 @@ class PlanArguments {
   void truth(const char* name, bool& to);
   /// A number, or its digits: not every language has whole numbers of 64 bits.
   void seed(const char* name, std::uint64_t& to);
-  /// An argument that is a table, and so is none of these.
+  /// An argument that only holds tables.
   void table(const char* name) { find(name); }
 
   /// Throws InputError if there is an argument that none of the above has asked for.
