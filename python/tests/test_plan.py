@@ -167,3 +167,107 @@ def test_other_threads_and_an_exception_in_progress(liners):
     assert one.json == all_of_them.json
     with pytest.raises(ww.InputError, match="threads is -1"):
         ww.plan.inspect(liners, threads=-1)
+
+
+# ---- Accelerate.
+
+accelerated = {"use": "50 degC", "highest": "120 degC", "until": "183 d", "specimens": 300, "failing_at_use": "0.1 %"}
+options = ["accelerate", "--use", "50 degC", "--highest", "120 degC", "--until", "183 d", "--specimens", 300, "--failing-at-use", "0.1 %"]
+
+
+def test_accelerated_tests_are_the_programs(same):
+    same(ww.plan.accelerate(**accelerated, sigma=0.6, failing_at_highest=0.9), *options, "--sigma", 0.6, "--failing-at-highest", "90 %")
+    same(ww.plan.accelerate(**accelerated, shape="1.4 to 2", activation_energy="0.65 to 0.8 eV", middle_share=0.25),
+         *options, "--shape", "1.4 to 2", "--activation-energy", "0.65 to 0.8 eV", "--middle-share", "25 %")
+
+
+def test_errors_of_accelerated_tests_name_the_argument():
+    with pytest.raises(ww.InputError, match="^shape, sigma: give one of them"):
+        ww.plan.accelerate(**accelerated)
+    with pytest.raises(ww.InputError, match="^activation_energy and exponent are the same"):
+        ww.plan.accelerate(**accelerated, sigma=0.6, activation_energy="0.7 eV", exponent=4)
+    with pytest.raises(ww.InputError, match="^life_at_highest and failing_at_highest say the same"):
+        ww.plan.accelerate(**accelerated, sigma=0.6, failing_at_highest=0.9, life_at_highest="60 d")
+    with pytest.raises(ww.InputError, match="^use: '200 degC' must be below highest '120 degC'"):
+        ww.plan.accelerate(**{**accelerated, "use": "200 degC"}, sigma=0.6, failing_at_highest=0.9)
+
+
+# ---- Next.
+
+goal = "B10 at softer spring"
+
+
+@pytest.fixture(scope="module")
+def springs():
+    from conftest import source
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        return ww.fit(os.path.join(source, "examples", "spring", "sensible.toml"), seed=1, report=False)
+
+
+@pytest.fixture(scope="module")
+def candidates():
+    return pd.DataFrame({"alternating_stress_MPa": [230.0, 260.0, 290.0], "mean_stress_MPa": 1000.0, "stop [cycles]": [5e5, 3e5, 2e5],
+                         "cost [EUR]": [900, 500, 300]})
+
+
+@pytest.fixture
+def results(springs, tmp_path):
+    springs.write(tmp_path / "results")
+    return tmp_path / "results"
+
+
+def test_next_tests_are_the_programs(same, springs, candidates, results, tmp_path):
+    table = tmp_path / "tests.csv"
+    candidates.to_csv(table, index=False)
+    options = ["next", results, "--goal", goal, "--candidates", table, "--cost", "cost"]
+    plan = ww.plan.next(results, goal, candidates=table, cost="cost")
+    same(plan, *options)
+    of_frame = ww.plan.next(springs, goal, candidates=candidates, cost="cost")
+    assert of_frame.summary["candidates"] == plan.summary["candidates"]
+    assert of_frame.tables["candidates"].equals(plan.tables["candidates"])
+    assert len(plan.tables["candidates"]) == 3
+
+
+def test_grids_batches_and_several_specimens(same, springs, results):
+    grid = "alternating_stress_MPa = 230 to 290 by 20; mean_stress_MPa = 1000; stop = 5e5 cycles"
+    text = ww.plan.next(results, goal, grid=grid, specimens=[1, 3], batch=2, samples=64, nodes=200, seed=7)
+    same(text, "next", results, "--goal", goal, "--grid", grid, "--specimens", "1, 3", "--batch", 2, "--samples", 64, "--nodes", 200,
+         "--seed", 7)
+    named = ww.plan.next(springs, goal, grid={"alternating_stress_MPa": [230, 250, 270, 290], "mean_stress_MPa": 1000, "stop": "5e5 cycles"},
+                         specimens=[1, 3], batch=2, samples=64, nodes=200, seed=7, threads=1)
+    assert named.summary["candidates"] == text.summary["candidates"]
+
+
+def test_tests_that_were_done(same, springs, results, candidates, tmp_path):
+    done = pd.DataFrame({"type": ["H"], "normalized_displacement_mean": [np.nan], "normalized_displacement_amplitude": [np.nan],
+                         "life_normalized": [1.1], "mean_stress_MPa": [1000.0], "alternating_stress_MPa": [250.0]})
+    log = tmp_path / "log.csv"
+    done.to_csv(log, index=False)
+    table = tmp_path / "tests.csv"
+    candidates.to_csv(table, index=False)
+    options = {"candidates": table, "until": "width <= factor 1.5"}
+    of_file = ww.plan.next(results, goal, tests=log, **options)
+    same(of_file, "next", results, "--goal", goal, "--candidates", table, "--tests", log, "--until", "width <= factor 1.5")
+    assert of_file.summary["candidates"] == ww.plan.next(springs, goal, tests=[done], **options).summary["candidates"]
+    assert of_file.summary["candidates"] != ww.plan.next(springs, goal, **options).summary["candidates"]
+
+
+def test_errors_of_next_tests_name_the_argument(springs, candidates):
+    def refused(message, *arguments, **options):
+        with pytest.raises(ww.InputError) as error:
+            ww.plan.next(springs, *arguments, **options)
+        assert message in str(error.value)
+        assert "--" not in str(error.value)
+
+    refused("goal: the study has no", "B10 at hanger", candidates=candidates)
+    refused("grid: 'stress'", goal, grid="stress")
+    refused("by: 'size' must be width, variance or information", goal, candidates=candidates, by="size")
+    refused("cost: candidates has no column 'price'", goal, candidates=candidates, cost="price")
+    refused("specimen_cost", goal, candidates=candidates, specimen_cost=-1)
+    refused("batch is 2.5; it is a whole number", goal, candidates=candidates, batch=2.5)
+    refused("seed is", goal, candidates=candidates, seed=-1)
+    refused("candidates, row 2", goal, candidates=candidates.assign(**{"alternating_stress_MPa": [230.0, np.nan, 290.0]}))
+    with pytest.raises(ww.InputError, match="^fit is DataFrame; it is a fit"):
+        ww.plan.next(candidates, goal)

@@ -229,3 +229,75 @@ def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step
         "inspection_cost": inspection_cost, "failure_cost": failure_cost, "replacement_cost": replacement_cost,
         "downtime_cost": downtime_cost, "visit_cost": visit_cost, "given": given,
     }, lives, "lives", None, threads, progress)
+
+
+def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrhenius", family="weibull", shape=None, sigma=None,
+               failing_at_use=None, failing_at_highest=None, life_at_highest=None, activation_energy=None, exponent=None, slope=None,
+               lowest=None, low=None, middle_share=0.2, least_failures=4):
+    """Plan an accelerated life test: levels of stress, specimens at each, and how well they predict a life in use.
+
+    Planning values: ``shape`` or ``sigma``, and two of ``failing_at_use``, ``failing_at_highest`` (or
+    ``life_at_highest``) and ``activation_energy`` (or ``exponent``, ``slope``). Each is a number, its 90 % interval
+    "1.4 to 2", or a prior.
+
+    Parameters
+    ----------
+    use : str or pint quantity
+        Stress in use, "50 degC".
+    highest : str or pint quantity
+        Highest stress to test, "120 degC".
+    until : str or pint quantity
+        Stop time of every test, "183 d".
+    specimens : int
+        Number of specimens in all.
+    goal : str
+        Life to predict at the stress in use, "B10".
+    relation : {"arrhenius", "inverse-power", "linear"}
+        Relation of log life to stress.
+    family : {"weibull", "lognormal", "loglogistic"}
+        Distribution of lives.
+    shape : float or str, optional
+        Weibull shape.
+    sigma : float or str, optional
+        Instead: scale of the natural logarithm of life, of any family.
+    failing_at_use : float or str, optional
+        Share that fails in use by the stop time, "0.1 %".
+    failing_at_highest : float or str, optional
+        Share that fails at the highest stress by the stop time, "90 %".
+    life_at_highest : str, optional
+        Instead: median life there, "60 d", or another one, "B10 = 20 d".
+    activation_energy : str or pint quantity, optional
+        How steeply life falls by the relation of Arrhenius, "0.7 eV".
+    exponent : float or str, optional
+        The same of an inverse power.
+    slope : float or str, optional
+        The same of a linear relation: fall of the natural logarithm of life per unit of stress.
+    lowest : str or pint quantity, optional
+        Lowest stress to test; by default that in use.
+    low : str or pint quantity, optional
+        Lower level of the plans with three levels; by default optimized.
+    middle_share : float or str
+        Share of specimens at the middle level of the compromise plan.
+    least_failures : int
+        Failures wanted at each level: their probability is reported.
+
+    Returns
+    -------
+    Plan
+        An optimum, a compromise, a 4:2:1 and an equal plan.
+
+    Raises
+    ------
+    InputError
+        If an argument is missing or wrong; the message names it.
+
+    Examples
+    --------
+    >>> ACCELERATE
+    """
+    return answer("accelerate", {
+        "use": use, "highest": highest, "until": until, "specimens": specimens, "goal": goal, "relation": relation, "family": family,
+        "shape": shape, "sigma": sigma, "failing_at_use": failing_at_use, "failing_at_highest": failing_at_highest,
+        "life_at_highest": life_at_highest, "activation_energy": activation_energy, "exponent": exponent, "slope": slope,
+        "lowest": lowest, "low": low, "middle_share": middle_share, "least_failures": least_failures,
+    })

@@ -94,6 +94,17 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
           threads = threads, progress = progress)
 }
 
+ww_plan_accelerate <- function(use, highest, until, specimens, goal = "B10", relation = "arrhenius", family = "weibull", shape = NULL,
+                               sigma = NULL, failing_at_use = NULL, failing_at_highest = NULL, life_at_highest = NULL,
+                               activation_energy = NULL, exponent = NULL, slope = NULL, lowest = NULL, low = NULL, middle_share = 0.2,
+                               least_failures = 4) {
+  plan_of("accelerate", list(use = use, highest = highest, until = until, specimens = specimens, goal = goal, relation = relation,
+                             family = family, shape = shape, sigma = sigma, failing_at_use = failing_at_use,
+                             failing_at_highest = failing_at_highest, life_at_highest = life_at_highest,
+                             activation_energy = activation_energy, exponent = exponent, slope = slope, lowest = lowest, low = low,
+                             middle_share = middle_share, least_failures = least_failures))
+}
+
 print.ww_plan <- function(x, ...) {
   cat(x$text)
   invisible(x)

@@ -85,3 +85,35 @@ test_that("errors of inspections name the argument", {
   refused(ww_plan_inspect(3), "lives is double")
   refused(ww_plan_next(list(a = 1), "B10"), "fit is list; it is a fit, or the folder of a result")
 })
+
+test_that("accelerated tests are the program's", {
+  given <- list(use = "50 degC", highest = "120 degC", until = "183 d", specimens = 300, failing_at_use = "0.1 %")
+  flags <- c("accelerate", "--use", "50 degC", "--highest", "120 degC", "--until", "183 d", "--specimens", 300, "--failing-at-use", "0.1 %")
+  same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9)), flags, "--sigma", 0.6, "--failing-at-highest", "90 %")
+  refused(do.call(ww_plan_accelerate, given), "shape, sigma: give one of them")
+  refused(do.call(ww_plan_accelerate, c(given, sigma = 0.6, activation_energy = "0.7 eV", exponent = 4)),
+          "activation_energy and exponent are the same")
+})
+
+test_that("next tests are the program's, of folders and fits, files and frames", {
+  goal <- "B10 at softer spring"
+  fit <- quiet(ww_fit(example("spring", "sensible.toml"), seed = 1, report = FALSE))
+  folder <- tempfile("results")
+  ww_write(fit, folder)
+  tests <- data.frame("alternating_stress_MPa" = c(230, 260, 290), "mean_stress_MPa" = 1000, "stop [cycles]" = c(5e5, 3e5, 2e5),
+                      "cost [EUR]" = c(900, 500, 300), check.names = FALSE)
+  file <- tempfile(fileext = ".csv")
+  write.csv(tests, file, row.names = FALSE)
+  of_file <- ww_plan_next(folder, goal, candidates = file, cost = "cost")
+  same(of_file, "next", folder, "--goal", goal, "--candidates", file, "--cost", "cost")
+  of_frame <- ww_plan_next(fit, goal, candidates = tests, cost = "cost")
+  expect_identical(of_frame$summary$candidates, of_file$summary$candidates)
+  expect_identical(of_frame$tables$candidates, of_file$tables$candidates)
+  grid <- list(alternating_stress_MPa = c(230, 250), mean_stress_MPa = 1000, stop = "5e5 cycles")
+  same(ww_plan_next(folder, goal, grid = grid, specimens = c(1, 3), batch = 2, samples = 64, nodes = 200, seed = 7),
+       "next", folder, "--goal", goal, "--grid", "alternating_stress_MPa = 230, 250; mean_stress_MPa = 1000; stop = 5e5 cycles",
+       "--specimens", "1, 3", "--batch", 2, "--samples", 64, "--nodes", 200, "--seed", 7)
+  refused(ww_plan_next(fit, "B10 at hanger", candidates = tests), "goal: the study has no")
+  refused(ww_plan_next(fit, goal, candidates = tests, cost = "price"), "cost: candidates has no column 'price'")
+  refused(ww_plan_next(fit, goal, candidates = tests, seed = -1), "seed is -1")
+})
