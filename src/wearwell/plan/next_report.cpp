@@ -14,7 +14,6 @@ namespace wearwell::plan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using present::Table;
 
 constexpr std::size_t most_in_terminal = 15;
 
@@ -110,14 +109,14 @@ std::string target_text(const NextPlan& plan) {
       target.text, *target.tests, *target.tests == 1 ? "" : "s");
 }
 
-Table candidates_table(const NextPlan& plan) {
+present::Table candidates_table(const NextPlan& plan) {
   const bool lives = !plan.use_unit.empty();
   const bool costs = plan.judged.front().cost.has_value();
   const bool stops = std::any_of(plan.judged.begin(), plan.judged.end(), [](const Judged& each) {
     return each.candidate.stop.has_value();
   });
   const std::string currency = plan.currency.empty() ? "1" : plan.currency;
-  Table table{"candidates",
+  present::Table table{"candidates",
               "Candidates, best first",
               {{"candidate"},
                {"specimens", "1", present::given},
@@ -157,7 +156,7 @@ Table candidates_table(const NextPlan& plan) {
   return table;
 }
 
-std::string next_table_text(const Table& table) {
+std::string next_table_text(const present::Table& table) {
   std::vector<std::vector<std::string>> rows(1);
   std::vector<std::size_t> shown;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
