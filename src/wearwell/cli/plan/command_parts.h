@@ -24,4 +24,6 @@ void add_answer_options(CLI::App& command, AnswerOptions& options);
 /// trusted.
 int give_answer(const AnswerOptions& options, const std::function<Answer()>& work);
 
+void add_inspect_command(CLI::App& plan, Models models, int& exit_code);
+
 }  // namespace wearwell::plan

@@ -10,6 +10,7 @@ void add_plan_command(CLI::App& app, Models models, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("plan", "Plan tests and inspections: which next, how many, how long");
   command->require_subcommand(1);
+  add_inspect_command(*command, models, exit_code);
 }
 
 }  // namespace wearwell::plan
