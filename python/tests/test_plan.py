@@ -247,9 +247,9 @@ def test_tests_that_were_done(same, springs, results, candidates, tmp_path):
     done.to_csv(log, index=False)
     table = tmp_path / "tests.csv"
     candidates.to_csv(table, index=False)
-    options = {"candidates": table, "until": "width <= factor 1.5"}
+    options = {"candidates": table, "cost": "cost", "until": "width <= factor 1.5"}
     of_file = ww.plan.next(results, goal, tests=log, **options)
-    same(of_file, "next", results, "--goal", goal, "--candidates", table, "--tests", log, "--until", "width <= factor 1.5")
+    same(of_file, "next", results, "--goal", goal, "--candidates", table, "--cost", "cost", "--tests", log, "--until", "width <= factor 1.5")
     assert of_file.summary["candidates"] == ww.plan.next(springs, goal, tests=[done], **options).summary["candidates"]
     assert of_file.summary["candidates"] != ww.plan.next(springs, goal, **options).summary["candidates"]
 
@@ -268,6 +268,61 @@ def test_errors_of_next_tests_name_the_argument(springs, candidates):
     refused("specimen_cost", goal, candidates=candidates, specimen_cost=-1)
     refused("batch is 2.5; it is a whole number", goal, candidates=candidates, batch=2.5)
     refused("seed is", goal, candidates=candidates, seed=-1)
-    refused("candidates, row 2", goal, candidates=candidates.assign(**{"alternating_stress_MPa": [230.0, np.nan, 290.0]}))
+    refused("candidates, row 2", goal, cost="cost", candidates=candidates.assign(**{"alternating_stress_MPa": [230.0, np.nan, 290.0]}))
     with pytest.raises(ww.InputError, match="^fit is DataFrame; it is a fit"):
         ww.plan.next(candidates, goal)
+
+
+# ---- Size.
+
+priors = """
+title = "Wear of a liner"
+model = "formula"
+[data]
+file = "not-measured-yet.csv"
+[data.columns]
+wear = { column = "V", unit = "mm^3" }
+force = { column = "F", unit = "N" }
+distance = { column = "s", unit = "m" }
+[likelihood.wear]
+family = "normal"
+mean = "k * force * distance"
+sd = "sigma"
+[prior]
+k = { distribution = "lognormal", median = "1e-7 mm^3/(N m)", log_sd = 1 }
+sigma = { distribution = "half-normal", scale = "0.1 mm^3" }
+"""
+size_options = {"width": "factor 1.3", "simulations": 20, "most": 40, "seed": 3}
+
+
+def test_sizes_are_the_programs(same, tmp_path):
+    study, tests = tmp_path / "study.toml", tmp_path / "tests.csv"
+    study.write_text(priors)
+    frame = pd.DataFrame({"F [N]": [100.0, 200.0], "s [m]": [4e4, 4e4], "specimens": [1, 2]})
+    frame.to_csv(tests, index=False)
+    plan = ww.plan.size(study, "k", tests=tests, **size_options)
+    same(plan, "size", study, "--goal", "k", "--tests", tests, "--width", "factor 1.3", "--simulations", 20, "--most", 40, "--seed", 3)
+    assert ww.plan.size(study, "k", tests=frame, **size_options).summary == plan.summary
+    seen = []
+    ww.plan.size(study, "k", tests=frame, **size_options, progress=lambda what, done, total, seconds: seen.append(total))
+
+    def stop(*_):
+        raise ZeroDivisionError
+
+    if seen:  # it took long enough to be told of
+        with pytest.raises(ZeroDivisionError):
+            ww.plan.size(study, "k", tests=frame, **size_options, progress=stop)
+
+
+def test_errors_of_sizes_name_the_argument(tmp_path):
+    study = tmp_path / "study.toml"
+    study.write_text(priors)
+    tests = {"F [N]": [100.0], "s [m]": [4e4]}
+    with pytest.raises(ww.InputError, match="^width: 'factor 0.5'"):
+        ww.plan.size(study, "k", tests=tests, width="factor 0.5")
+    with pytest.raises(ww.InputError, match="^simulations is 5; it is a whole number from 20 to 100000"):
+        ww.plan.size(study, "k", tests=tests, width="factor 2", simulations=5)
+    with pytest.raises(ww.InputError, match="^tests is missing"):
+        ww.plan.size(study, "k", width="factor 2", tests=None)
+    with pytest.raises(ww.InputError, match="^study is DataFrame; it is a study, or the path of a study file"):
+        ww.plan.size(pd.DataFrame(tests), "k", width="factor 2", tests=tests)

@@ -102,6 +102,62 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
     }, fit, "fit", {"candidates": candidates, "tests": tests}, threads, progress)
 
 
+def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, most=1000, simulations=200, seed=1, threads=0,
+         progress=None):
+    """Find the smallest number of specimens, before any test, with which a goal is known well enough.
+
+    Parameters are drawn from the priors, campaigns are simulated, and each is fitted by quadrature. The interpreter's
+    lock is released.
+
+    Parameters
+    ----------
+    study : Study, str or path
+        A study with proper priors, or its file. Its data are not used; those of a file need not exist.
+    goal : str
+        What the tests are to determine: "B10 at NAME", a quantity, a prediction or a parameter of the study.
+    width : str
+        Largest width of the goal's interval: "factor 2" (upper over lower end), or a difference, "30 um".
+    tests : table, str or path
+        A row for each kind of test: a column for each condition of the study, and optionally ``specimens`` (numbers or
+        proportions), ``stop`` and ``name``.
+    assurance : float or str
+        Probability that the interval is so narrow.
+    level : float or str
+        Level of the interval.
+    measure : str, optional
+        Column that the tests measure, where the study has several.
+    most : int
+        Largest number of specimens tried, 1 to 100000.
+    simulations : int
+        Number of simulated campaigns, 20 to 100000.
+    seed : int
+        Seed of the simulation.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds). An exception in it stops the work.
+
+    Returns
+    -------
+    Plan
+        The number of specimens, and the assurance of other numbers.
+
+    Raises
+    ------
+    InputError
+        If a prior is improper, or an argument, a column or the goal is unknown or wrong; the message names it.
+
+    Examples
+    --------
+    >>> SIZE
+    """
+    _require(study, "study", (Study,), "a study, or the path of a study file")
+    return answer("size", {
+        "goal": goal, "width": width, "assurance": assurance, "level": level, "measure": measure, "most": most,
+        "simulations": simulations, "seed": seed,
+    }, study, "study", {"tests": tests}, threads, progress)
+
+
 def demonstrate(goal, *, confidence=0.9, failures=0, specimens=None, time=None, distribution="weibull", shape=None, sigma=None,
                 truth=None, sudden_death=None):
     """Plan a test that demonstrates a life: specimens, time, failures allowed.
@@ -151,7 +207,7 @@ def demonstrate(goal, *, confidence=0.9, failures=0, specimens=None, time=None, 
     [22, 38, 52]
     >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", shape=2, specimens=10)
     >>> round(plan.summary["plans"][0]["time"])
-    1478380
+    1478322
     >>> ww.plan.demonstrate("B10 >= 1e6 cycles", confidence=1.5)
     Traceback (most recent call last):
         ...

@@ -2,7 +2,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
-from . import Fit, Plan
+from . import Fit, Plan, Study
 
 _Path = str | os.PathLike[str]
 _Quantity = Any  # a number, "1e6 cycles", or a pint quantity
@@ -27,6 +27,21 @@ def next(
     tests: Any = ...,
     samples: int = ...,
     nodes: int = ...,
+    seed: int = ...,
+    threads: int = ...,
+    progress: _Progress = ...,
+) -> Plan: ...
+def size(
+    study: Study | _Path,
+    goal: str,
+    *,
+    width: _Quantity,
+    tests: Any,
+    assurance: float | str = ...,
+    level: float | str = ...,
+    measure: str | None = ...,
+    most: int = ...,
+    simulations: int = ...,
     seed: int = ...,
     threads: int = ...,
     progress: _Progress = ...,

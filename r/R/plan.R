@@ -105,6 +105,16 @@ ww_plan_accelerate <- function(use, highest, until, specimens, goal = "B10", rel
                              middle_share = middle_share, least_failures = least_failures))
 }
 
+ww_plan_size <- function(study, goal, width, tests, assurance = 0.8, level = 0.9, measure = NULL, most = 1000, simulations = 200, seed = 1,
+                         threads = 0, progress = FALSE) {
+  of_file <- is_path(study)
+  if (!of_file && !inherits(study, "ww_study")) stop_input("study is ", kind_of(study), "; it is a study, or the path of a study file")
+  plan_of("size", list(goal = goal, width = width, assurance = assurance, level = level, measure = measure, most = most,
+                       simulations = simulations, seed = seed_text(seed)),
+          study = if (!of_file) study_address(study), path = if (of_file) path_of(study, "study") else "",
+          tables = plan_tables(tests, "tests"), threads = threads, progress = progress)
+}
+
 print.ww_plan <- function(x, ...) {
   cat(x$text)
   invisible(x)

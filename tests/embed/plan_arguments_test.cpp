@@ -61,9 +61,9 @@ TEST(PlanArguments, WrongTypesAreRefusedByName) {
   EXPECT_THAT([&] { arguments.truth("truth", truth); },
               ThrowsMessage<InputError>("truth is a number; it is true or false"));
   EXPECT_THAT([&] { arguments.whole("whole", whole); },
-              ThrowsMessage<InputError>("whole is -1; it is a whole number, 0 or more"));
+              ThrowsMessage<InputError>("whole is -1; it is a whole number from 0 to 2147483647"));
   EXPECT_THAT([&] { arguments.whole("half", whole); },
-              ThrowsMessage<InputError>("half is 0.5; it is a whole number, 0 or more"));
+              ThrowsMessage<InputError>("half is 0.5; it is a whole number from 0 to 2147483647"));
   EXPECT_THAT([&] { arguments.number("number", number); },
               ThrowsMessage<InputError>("number is a text; it is a number"));
 }

@@ -117,3 +117,21 @@ test_that("next tests are the program's, of folders and fits, files and frames",
   refused(ww_plan_next(fit, goal, candidates = tests, cost = "price"), "cost: candidates has no column 'price'")
   refused(ww_plan_next(fit, goal, candidates = tests, seed = -1), "seed is -1")
 })
+
+test_that("sizes are the program's", {
+  study <- tempfile(fileext = ".toml")
+  writeLines(c('title = "Wear of a liner"', 'model = "formula"', "[data]", 'file = "not-measured-yet.csv"', "[data.columns]",
+               'wear = { column = "V", unit = "mm^3" }', 'force = { column = "F", unit = "N" }', 'distance = { column = "s", unit = "m" }',
+               "[likelihood.wear]", 'family = "normal"', 'mean = "k * force * distance"', 'sd = "sigma"', "[prior]",
+               'k = { distribution = "lognormal", median = "1e-7 mm^3/(N m)", log_sd = 1 }',
+               'sigma = { distribution = "half-normal", scale = "0.1 mm^3" }'), study)
+  tests <- data.frame("F [N]" = c(100, 200), "s [m]" = 4e4, specimens = c(1, 2), check.names = FALSE)
+  file <- tempfile(fileext = ".csv")
+  write.csv(tests, file, row.names = FALSE)
+  plan <- ww_plan_size(study, "k", "factor 1.3", file, simulations = 20, most = 40, seed = 3)
+  same(plan, "size", study, "--goal", "k", "--tests", file, "--width", "factor 1.3", "--simulations", 20, "--most", 40, "--seed", 3)
+  expect_identical(ww_plan_size(study, "k", "factor 1.3", tests, simulations = 20, most = 40, seed = 3)$summary, plan$summary)
+  refused(ww_plan_size(study, "k", "factor 0.5", tests), "width: 'factor 0.5'")
+  refused(ww_plan_size(study, "k", "factor 2", tests, simulations = 5), "simulations is 5; it is a whole number from 20 to 100000")
+  refused(ww_plan_size(tests, "k", "factor 2", tests), "study is data.frame; it is a study")
+})

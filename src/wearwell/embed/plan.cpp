@@ -15,6 +15,7 @@
 #include "wearwell/plan/demonstrate.h"
 #include "wearwell/plan/inspect.h"
 #include "wearwell/plan/next_question.h"
+#include "wearwell/plan/size.h"
 #include "wearwell/present/page.h"
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/known_lives.h"
@@ -59,6 +60,28 @@ prognosis::CarriedState carried_posterior(const PlanSubject& subject) {
   if (state.parameters.empty())
     throw InputError("the fit has no posterior to plan with: a clutch campaign has none");
   return state;
+}
+
+Source source_for(const PlanSubject& subject) {
+  return subject.study ? *subject.study->source : source_of(subject.path);
+}
+
+Work size(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
+  plan::SizeQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.text("width", question.width);
+  arguments.table("tests");
+  arguments.text("assurance", question.assurance);
+  arguments.text("level", question.level);
+  arguments.text("measure", question.measure);
+  arguments.whole("most", question.most, 1, 100'000);
+  arguments.whole("simulations", question.simulations, 20, 100'000);
+  arguments.seed("seed", question.seed);
+  const Table* const tests = table_of(subject, "tests");
+  if (!tests) throw InputError("tests is missing: a table with a row for each test");
+  return [question, tests, &subject, monitor] {
+    return plan::size(question, source_for(subject), *tests, &read_any, monitor);
+  };
 }
 
 Work demonstrate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
@@ -186,8 +209,8 @@ Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
     std::string text;
     arguments.text(name, text);
     if (!text.empty() && !given.empty())
-      throw InputError(fmt::format("{} and {} are the same, of different relations; give one",
-                                   given, name));
+      throw InputError(
+          fmt::format("{} and {} are the same, of different relations; give one", given, name));
     if (!text.empty()) given = name, question.slope = text;
   }
   arguments.text("middle_share", question.middle_share);
@@ -199,6 +222,7 @@ using Reader = Work (*)(PlanArguments&, const PlanSubject&, const Monitor&);
 
 Reader reader_of(const std::string& kind) {
   if (kind == "next") return &next;
+  if (kind == "size") return &size;
   if (kind == "demonstrate") return &demonstrate;
   if (kind == "accelerate") return &accelerate;
   if (kind == "inspect") return &inspect;

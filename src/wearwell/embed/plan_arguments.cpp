@@ -18,8 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double most_exact = 9007199254740992.0;  // 2^53
-
 std::string kind_of(const Json& value) {
   if (value.is_boolean()) return "a truth value";
   if (value.is_number()) return "a number";
@@ -107,15 +105,18 @@ void PlanArguments::number(const char* name, double& to) {
   if (value) to = *value;
 }
 
-std::optional<std::size_t> PlanArguments::whole_of(const char* name) {
+std::optional<std::size_t> PlanArguments::whole_of(const char* name, std::size_t least,
+                                                   std::size_t most) {
   const Json* value = find(name);
   if (!value) return {};
   const double number =
       value->is_number() ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
-  if (!(number >= 0) || number != std::floor(number) || number > most_exact)
-    throw InputError(fmt::format("{} is {}; it is a whole number, 0 or more", name,
-                                 value->is_number() ? value->dump() : kind_of(*value)));
-  return value->is_number_float() ? static_cast<std::size_t>(number) : value->get<std::size_t>();
+  if (number != std::floor(number) || !(number >= static_cast<double>(least)) ||
+      !(number <= static_cast<double>(most)))
+    throw InputError(fmt::format("{} is {}; it is a whole number from {} to {}", name,
+                                 value->is_number() ? value->dump() : kind_of(*value), least,
+                                 most));
+  return static_cast<std::size_t>(number);
 }
 
 void PlanArguments::truth(const char* name, bool& to) {

@@ -28,14 +28,17 @@ class PlanArguments {
   void clauses(const char* name, std::string& to);
   void number(const char* name, double& to);
   void number(const char* name, std::optional<double>& to);
-  /// A whole number that is not negative.
+  /// A whole number that is not negative; the other one is from `least` to `most`.
   template <class Whole>
   void whole(const char* name, Whole& to) {
-    if (const auto value = whole_of(name)) to = static_cast<Whole>(*value);
+    if (const auto value = whole_of(name, 0, most_whole)) to = static_cast<Whole>(*value);
   }
   template <class Whole>
   void whole(const char* name, std::optional<Whole>& to) {
-    if (const auto value = whole_of(name)) to = static_cast<Whole>(*value);
+    if (const auto value = whole_of(name, 0, most_whole)) to = static_cast<Whole>(*value);
+  }
+  void whole(const char* name, std::size_t& to, std::size_t least, std::size_t most) {
+    if (const auto value = whole_of(name, least, most)) to = *value;
   }
   void truth(const char* name, bool& to);
   /// A number, or its digits: not every language has whole numbers of 64 bits.
@@ -53,8 +56,10 @@ class PlanArguments {
   void call_option(const std::string& option, const std::string& argument);
 
  private:
+  static constexpr std::size_t most_whole = 2'147'483'647;  // of an int
+
   const nlohmann::ordered_json* find(const char* name);
-  std::optional<std::size_t> whole_of(const char* name);
+  std::optional<std::size_t> whole_of(const char* name, std::size_t least, std::size_t most);
   std::string one_text(const char* name, const nlohmann::ordered_json& value) const;
   std::string listed(const char* name, const nlohmann::ordered_json& value) const;
 
