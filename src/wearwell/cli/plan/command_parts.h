@@ -24,4 +24,7 @@ void add_answer_options(CLI::App& command, AnswerOptions& options);
 /// trusted.
 int give_answer(const AnswerOptions& options, const std::function<Answer()>& work);
 
+void add_accelerate_command(CLI::App& plan, int& exit_code);
+void add_demonstrate_command(CLI::App& plan, int& exit_code);
+
 }  // namespace wearwell::plan
