@@ -26,5 +26,7 @@ int give_answer(const AnswerOptions& options, const std::function<Answer()>& wor
 
 void add_next_command(CLI::App& plan, Models models, int& exit_code);
 void add_inspect_command(CLI::App& plan, Models models, int& exit_code);
+void add_accelerate_command(CLI::App& plan, int& exit_code);
+void add_demonstrate_command(CLI::App& plan, int& exit_code);
 
 }  // namespace wearwell::plan
