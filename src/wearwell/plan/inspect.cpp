@@ -150,12 +150,17 @@ void add_costs(InspectReport& report) {
     const double until = each.bounds.until;
     each.cost = cost_of(each.life, each.times, until, own);
     const EqualInterval equal = cheapest_equal(each.life, each.bounds, own);
+    const auto named = [&](const char* name, const std::vector<double>& times) {
+      return fmt::format("{}{}", name,
+                         keeps_risk(each.life, times, each.bounds) ? "" : ", above the risk");
+    };
     if (std::isfinite(equal.interval))
       each.others.push_back({"best equal interval", equal.interval, equal.cost});
     if (std::isfinite(of_decide) && of_decide < until)
-      each.others.push_back({"equal interval of wearwell decide", of_decide,
-                             cost_of(each.life, equal_times(of_decide, until), until, own)});
-    each.others.push_back({"no inspection", 0, cost_of(each.life, {}, until, own)});
+      each.others.push_back(
+          {named("equal interval of wearwell decide", equal_times(of_decide, until)), of_decide,
+           cost_of(each.life, equal_times(of_decide, until), until, own)});
+    each.others.push_back({named("no inspection", {}), 0, cost_of(each.life, {}, until, own)});
   }
 }
 

@@ -91,14 +91,14 @@ std::string fleet_answer(const InspectReport& report) {
                 report.visits[0] == 0 ? "now" : "after " + use_text(report, report.visits[0]));
   if (report.aim == InspectAim::fewest)
     text += fmt::format(
-        " No plan with fewer visits keeps the risk of every {0}; each {0} planned alone needs {1} "
-        "visits.",
+        " No plan with fewer visits keeps the risk of every {0}; {0}s planned one by one would "
+        "need "
+        "{1} visits.",
         noun, report.alone_visits);
   if (report.joint)
     text += fmt::format(
-        " Expected cost {}, visits included. No plan on the {} examined costs less than {}.",
-        money_text(report, report.joint->total), "times",
-        money_text(report, report.joint->least_possible));
+        " Expected cost {}, visits included; no plan at the examined times costs less than {}.",
+        money_text(report, report.joint->total), money_text(report, report.joint->least_possible));
   if (past > 0)
     text += fmt::format(" {} {}{} more likely than not past the threshold: replace or inspect now.",
                         past, noun, past == 1 ? " is" : "s are");

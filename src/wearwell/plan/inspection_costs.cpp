@@ -178,13 +178,20 @@ std::vector<double> equal_times(double interval, double until) {
   return times;
 }
 
+bool keeps_risk(const LifeAhead& life, std::span<const double> times,
+                const InspectionBounds& bounds) {
+  const std::vector<double> risks = risks_between(life, times, bounds.until);
+  return *std::max_element(risks.begin(), risks.end()) <= bounds.risk + 1e-9;
+}
+
 EqualInterval cheapest_equal(const LifeAhead& life, const InspectionBounds& bounds,
                              const InspectionPrices& prices) {
   EqualInterval best{dear, cost_of(life, {}, bounds.until, prices)};
+  if (!keeps_risk(life, {}, bounds)) best.cost.total = dear;
   const auto consider = [&](double interval) {
-    const InspectionCost cost =
-        cost_of(life, equal_times(interval, bounds.until), bounds.until, prices);
-    if (cost.total < best.cost.total) best = {interval, cost};
+    const std::vector<double> times = equal_times(interval, bounds.until);
+    const InspectionCost cost = cost_of(life, times, bounds.until, prices);
+    if (cost.total < best.cost.total && keeps_risk(life, times, bounds)) best = {interval, cost};
   };
   constexpr int most = 300;
   if (bounds.step > 0) {

@@ -75,8 +75,13 @@ CheapestTimes cheapest_inspections(const LifeAhead& life, const InspectionBounds
 /// Times at every `interval` before the end.
 std::vector<double> equal_times(double interval, double until);
 
-/// The equal interval of least cost, among those that divide the horizon finely (multiples of the
-/// step, if there is one); infinite if no inspection is cheaper.
+/// Whether these times keep the bound on each interval.
+bool keeps_risk(const LifeAhead& life, std::span<const double> times,
+                const InspectionBounds& bounds);
+
+/// The equal interval of least cost that keeps the bound, among those that divide the horizon finely (multiples of the
+/// step, if there is one); infinite if no inspection is cheaper, or
+/// none keeps the bound.
 struct EqualInterval {
   double interval = 0;
   InspectionCost cost;
