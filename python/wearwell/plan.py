@@ -91,7 +91,21 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
 
     Examples
     --------
-    >>> NEXT
+    >>> import wearwell as ww
+    >>> fit = ww.fit("examples/spring/sensible.toml", seed=1, method="exact", draws=100, report=False)
+    >>> grid = {"alternating_stress_MPa": [240, 260, 280], "mean_stress_MPa": 1050, "stop": "1e6 cycles"}
+    >>> plan = ww.plan.next(fit, "B10 at softer spring", grid=grid)
+    >>> best = plan.summary["candidates"][0]
+    >>> best["conditions"]["alternating_stress"]
+    240.0
+    >>> all(each["narrowing"] <= best["narrowing"] for each in plan.summary["candidates"])
+    True
+    >>> len(plan.tables["candidates"])
+    3
+    >>> ww.plan.next(fit, "B10 at hanger", grid=grid)
+    Traceback (most recent call last):
+        ...
+    wearwell.InputError: goal: the study has no ...
     """
     _require(fit, "fit", (Fit,), "a fit, or the folder of a result")
     files, tests = files_and_tables(tests)
@@ -149,7 +163,13 @@ def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, m
 
     Examples
     --------
-    >>> SIZE
+    >>> import wearwell as ww
+    >>> study = ww.Study(formula="V = k*F*s", data={"F": [100], "s": [4e4], "V": [0.4]}, units={"F": "N", "s": "m", "V": "mm^3"},
+    ...                  priors={"k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=1), "sigma": ww.half_normal("0.1 mm^3")})
+    >>> tests = {"F [N]": [100, 200], "s [m]": [4e4, 4e4]}
+    >>> plan = ww.plan.size(study, "k", width="factor 1.5", tests=tests, most=40, simulations=20)
+    >>> plan.summary["reached"], plan.summary["specimens"] <= 40
+    (True, True)
     """
     _require(study, "study", (Study,), "a study, or the path of a study file")
     return answer("size", {
@@ -276,7 +296,19 @@ def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step
 
     Examples
     --------
-    >>> INSPECT
+    >>> import wearwell as ww
+    >>> plan = ww.plan.inspect("examples/decide/lives.csv", unit="P4", risk=0.1, until="800 h", step="10 h")
+    >>> plan.summary["aim"]
+    'fewest'
+    >>> all(each["risk"] <= 0.1 for each in plan.summary["units"][0]["inspections"])
+    True
+
+    Lives in memory, and the cheapest inspections:
+
+    >>> lives = {"life [h]": [1200, 1500, 1900, 2300, 2600, 3100, 3600]}
+    >>> plan = ww.plan.inspect(lives, until="3000 h", inspection_cost="60 EUR", failure_cost="2000 EUR", downtime_cost="2 EUR/h")
+    >>> plan.summary["aim"], plan.summary["currency"]
+    ('cheapest', 'EUR')
     """
     if isinstance(lives, Study):
         raise InputError("lives is Study; it is a fit, the folder of a result, or a table of lives")
@@ -349,7 +381,15 @@ def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrheniu
 
     Examples
     --------
-    >>> ACCELERATE
+    An adhesive bond (Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 20):
+
+    >>> import wearwell as ww
+    >>> plan = ww.plan.accelerate(use="50 degC", highest="120 degC", until="183 d", specimens=300, sigma=0.6, failing_at_use=0.001,
+    ...                           failing_at_highest=0.9)
+    >>> [each["plan"] for each in plan.summary["plans"]]
+    ['optimum', 'compromise', '4:2:1', 'equal']
+    >>> [sum(level["specimens"] for level in each["levels"]) for each in plan.summary["plans"]]
+    [300, 300, 300, 300]
     """
     return answer("accelerate", {
         "use": use, "highest": highest, "until": until, "specimens": specimens, "goal": goal, "relation": relation, "family": family,
