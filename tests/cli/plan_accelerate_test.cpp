@@ -121,6 +121,8 @@ TEST_F(PlanAccelerate, RefusesWhatItCannotPlan) {
   EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %'"), HasSubstr("not 1"));
   EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --activation-energy '0.7 eV'"),
               HasSubstr("not 3"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %' --exponent 4"),
+              HasSubstr("--exponent: belongs to --relation inverse-power"));
   EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-highest '90 %' --life-at-highest '60 d'"),
               HasSubstr("give one"));
   EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %' --life-at-highest '60 km'"),

@@ -24,10 +24,11 @@ struct AccelerateQuestion {
   std::string failing_at_use = {};      ///< share by the stop time, "0.1 %"
   std::string failing_at_highest = {};  ///< "90 %"
   std::string life_at_highest = {};     ///< median "60 d", or "B10 = 20 d"
-  std::string slope = {};  ///< arrhenius: activation energy "0.7 eV"; inverse-power: exponent "4";
-                           ///< linear: fall of log life per unit of stress, "0.05"
-  std::string middle_share = "20 %";  ///< of the compromise plan
-  std::size_t least_failures = 4;     ///< at each level: their probability is reported
+  std::string activation_energy = {};   ///< arrhenius: "0.7 eV"
+  std::string exponent = {};            ///< inverse-power: "4"
+  std::string slope = {};               ///< linear: fall of log life per unit of stress, "0.05"
+  std::string middle_share = "20 %";    ///< of the compromise plan
+  std::size_t least_failures = 4;       ///< at each level: their probability is reported
 };
 
 /// Levels and allocation of an optimum, a compromise, a 4:2:1 and an equal plan, and how well each

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -116,14 +118,26 @@ NamedValue life_value(AccelerationTest& test) {
   }
 }
 
-NamedValue slope_value(const AccelerationTest& test) {
-  const std::string& text = test.question.slope;
-  if (test.relation == Relation::arrhenius)
-    return {"activation energy", "--activation-energy",
-            read_planning_quantity("--activation-energy", text, "J"), "eV", 1 / electron_volt};
-  if (test.relation == Relation::inverse_power)
-    return {"exponent", "--exponent", read_planning_value("--exponent", text)};
-  return {"slope", "--slope", read_planning_value("--slope", text)};
+// How steeply life falls, for the relation; another relation's is refused.
+std::optional<NamedValue> slope_value(const AccelerationTest& test) {
+  const AccelerateQuestion& question = test.question;
+  const std::tuple<Relation, const char*, const std::string*, const char*> all[] = {
+      {Relation::arrhenius, "--activation-energy", &question.activation_energy, "arrhenius"},
+      {Relation::inverse_power, "--exponent", &question.exponent, "inverse-power"},
+      {Relation::linear, "--slope", &question.slope, "linear"}};
+  std::optional<NamedValue> found;
+  for (const auto& [relation, option, text, name] : all) {
+    if (text->empty()) continue;
+    if (relation != test.relation)
+      throw InputError(
+          fmt::format("{}: belongs to --relation {}, not {}", option, name, question.relation));
+    if (relation == Relation::arrhenius)
+      found = {"activation energy", option, read_planning_quantity(option, *text, "J"), "eV",
+               1 / electron_volt};
+    else
+      found = {option + 2, option, read_planning_value(option, *text)};
+  }
+  return found;
 }
 
 // Two planning values of the relation, in the order use, highest, slope.
@@ -146,7 +160,7 @@ void read_relation(AccelerationTest& test) {
           "--life-at-highest and --failing-at-highest say the same in two ways; give one");
     found.push_back(life_value(test));
   }
-  if (!question.slope.empty()) found.push_back(slope_value(test));
+  if (auto slope = slope_value(test)) found.push_back(std::move(*slope));
   if (found.size() != 2)
     throw InputError(
         fmt::format("the line of life needs two planning values, not {}: two of --failing-at-use, "

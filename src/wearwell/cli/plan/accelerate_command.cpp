@@ -47,11 +47,12 @@ void add_planning_values(CLI::App& command, AccelerateQuestion& question) {
                      "Share that fails at the highest stress by the stop time, '90 %'");
   command.add_option("--life-at-highest", question.life_at_highest,
                      "Instead: median life there, '60 d', or another one, 'B10 = 20 d'");
-  CLI::Option* slope =
-      command.add_option("--activation-energy,--exponent,--slope", question.slope,
-                         "How steeply life falls: '0.7 eV' (arrhenius), exponent (inverse-power), "
-                         "fall of log life per unit of stress (linear)");
-  slope->expected(1);
+  command.add_option("--activation-energy", question.activation_energy,
+                     "Arrhenius: how steeply life falls, '0.7 eV' or '0.65 to 0.8 eV'");
+  command.add_option("--exponent", question.exponent, "The same for inverse-power: '4'");
+  command.add_option("--slope", question.slope,
+                     "The same for linear: fall of the natural logarithm of life per unit of "
+                     "--highest, '0.05'");
 }
 
 }  // namespace
