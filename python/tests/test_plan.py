@@ -184,7 +184,7 @@ def test_accelerated_tests_are_the_programs(same):
 def test_errors_of_accelerated_tests_name_the_argument():
     with pytest.raises(ww.InputError, match="^shape, sigma: give one of them"):
         ww.plan.accelerate(**accelerated)
-    with pytest.raises(ww.InputError, match="^activation_energy and exponent are the same"):
+    with pytest.raises(ww.InputError, match="^exponent: belongs to relation inverse-power, not arrhenius"):
         ww.plan.accelerate(**accelerated, sigma=0.6, activation_energy="0.7 eV", exponent=4)
     with pytest.raises(ww.InputError, match="^life_at_highest and failing_at_highest say the same"):
         ww.plan.accelerate(**accelerated, sigma=0.6, failing_at_highest=0.9, life_at_highest="60 d")

@@ -92,7 +92,7 @@ test_that("accelerated tests are the program's", {
   same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9)), flags, "--sigma", 0.6, "--failing-at-highest", "90 %")
   refused(do.call(ww_plan_accelerate, given), "shape, sigma: give one of them")
   refused(do.call(ww_plan_accelerate, c(given, sigma = 0.6, activation_energy = "0.7 eV", exponent = 4)),
-          "activation_energy and exponent are the same")
+          "exponent: belongs to relation inverse-power, not arrhenius")
 })
 
 test_that("next tests are the program's, of folders and fits, files and frames", {

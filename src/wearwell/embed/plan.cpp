@@ -204,15 +204,9 @@ Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
   arguments.text("failing_at_use", question.failing_at_use);
   arguments.text("failing_at_highest", question.failing_at_highest);
   arguments.text("life_at_highest", question.life_at_highest);
-  std::string given;  // the one argument of the three that is given
-  for (const char* name : {"activation_energy", "exponent", "slope"}) {
-    std::string text;
-    arguments.text(name, text);
-    if (!text.empty() && !given.empty())
-      throw InputError(
-          fmt::format("{} and {} are the same, of different relations; give one", given, name));
-    if (!text.empty()) given = name, question.slope = text;
-  }
+  arguments.text("activation_energy", question.activation_energy);
+  arguments.text("exponent", question.exponent);
+  arguments.text("slope", question.slope);
   arguments.text("middle_share", question.middle_share);
   arguments.whole("least_failures", question.least_failures);
   return [question] { return plan::accelerate(question); };
