@@ -15,10 +15,11 @@ json_value <- function(item, what) {
   if (is.list(item)) {
     each <- vapply(item, json_value, "", what)
   } else {
+    always <- inherits(item, "AsIs")
     item <- unclass(item)
     if (anyNA(item) || (is.numeric(item) && any(is.infinite(item)))) stop_input(what, " is ", shown_value(item), "; a number is finite")
     each <- if (is.character(item)) json_text(item) else if (is.logical(item)) ifelse(item, "true", "false") else number_text(item)
-    if (length(item) == 1 && !inherits(item, "AsIs")) return(each)
+    if (length(item) == 1 && !always) return(each)
   }
   paste0("[", paste(each, collapse = ", "), "]")
 }
