@@ -137,7 +137,7 @@ def test_a_frame_of_lives_is_its_file(examples):
 def test_inspections_of_a_fit_are_the_programs(same, liners, tmp_path):
     liners.write(tmp_path / "results")
     folder = tmp_path / "results"
-    unit = liners.study and "1"
+    unit = "1"
     given = {"force": "20 N"}
     same(ww.plan.inspect(str(folder), risk=0.05), "inspect", folder, "--risk", "5 %")
     same(ww.plan.inspect(liners, risk=0.05), "inspect", folder, "--risk", "5 %", titles=["title"])
@@ -160,6 +160,8 @@ def test_errors_of_inspections_name_the_argument(liners, examples):
         ww.plan.inspect(table, unit="P22")
     with pytest.raises(ww.InputError, match="no/such"):
         ww.plan.inspect("no/such")
+    with pytest.raises(ww.InputError, match="fleet.toml: the units of a monitor are planned on the command line"):
+        ww.plan.inspect("fleet.toml")
 
 
 def test_other_threads_and_an_exception_in_progress(liners):

@@ -114,6 +114,10 @@ Lives lives_of(const PlanSubject& subject) {
     result.lives = prognosis::lives_of_table(*table);
     return result;
   }
+  if (!subject.run && std::filesystem::path(subject.path).extension() == ".toml")
+    throw InputError(fmt::format(
+        "{}: the units of a monitor are planned on the command line: wearwell plan inspect {}",
+        printable(subject.path), printable(subject.path)));
   if (!subject.run && !std::filesystem::is_directory(subject.path)) {
     result.lives = prognosis::lives_of_table(read_table(subject.path));
     return result;
