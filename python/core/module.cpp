@@ -38,5 +38,6 @@ PYBIND11_MODULE(_core, module) {
   add_errors(module);
   add_tables(module);
   add_studies(module);
+  add_plans(module);
   add_tools(module);
 }

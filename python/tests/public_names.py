@@ -34,7 +34,7 @@ def public_names():
 
 def docstrings():
     """By name, modules included: the docstring without its indentation."""
-    objects = {"wearwell": wearwell, "bearing": wearwell.bearing, "clutch": wearwell.clutch, **public_names()}
+    objects = {"wearwell": wearwell, "bearing": wearwell.bearing, "clutch": wearwell.clutch, "plan": wearwell.plan, **public_names()}
     return {name: inspect.cleandoc(each.__doc__ or "") for name, each in objects.items()}
 
 

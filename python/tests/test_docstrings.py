@@ -10,9 +10,9 @@ from public_names import docstrings, public_names, sections
 
 names = public_names()
 texts = docstrings()
-return_nothing = {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Selection.report"}
-raise_nothing = {"ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Selection",
-                 "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
+return_nothing = {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Plan.report", "Plan.write", "Selection.report"}
+raise_nothing = {"ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
+                 "Selection", "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
 
 
 def is_exception(each):

@@ -17,11 +17,12 @@ True
 from . import _errors
 from ._errors import CheckWarning, InputError, MachineError, NotTrusted
 from . import _core
-from . import bearing, clutch
+from . import bearing, clutch, plan
 from ._arrow import ArrowTable, arrow
 from ._check import Check
 from ._data import table
 from ._fit import Fit
+from ._plan import Plan
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
 from ._study import Study, fit
@@ -30,7 +31,7 @@ from ._tools import Comparison, Selection, compare, rainflow, select
 __version__ = _core.version
 
 __all__ = [
-    "ArrowTable", "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
+    "ArrowTable", "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Plan", "Selection", "Study",
     "arrow", "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
-    "inverse_gamma", "jeffreys", "lognormal", "normal", "prior", "rainflow", "select", "student_t", "table", "uniform",
+    "inverse_gamma", "jeffreys", "lognormal", "normal", "plan", "prior", "rainflow", "select", "student_t", "table", "uniform",
 ]

@@ -57,3 +57,13 @@ def rainflow(arg0: Any, arg1: bool, arg2: bool) -> tuple[Any, Any, Any]: ...
 def bearing(
     arg0: str, arg1: str, arg2: Mapping[str, str], arg3: str, arg4: str, arg5: int, arg6: int
 ) -> tuple[str, list[str], str]: ...
+def plan(
+    arg0: str,
+    arg1: str,
+    arg2: Run | None,
+    arg3: ReadStudy | None,
+    arg4: str,
+    arg5: Sequence[tuple[str, Table]],
+    arg6: int,
+    arg7: Callable[[str, int, int, float], object] | None,
+) -> tuple[str, str, str, list[tuple[str, str]], str, bool]: ...

@@ -1,4 +1,4 @@
-"""A fit as a notebook shows it."""
+"""A fit or a plan as a notebook shows it."""
 
 import base64
 import html
@@ -22,7 +22,16 @@ def html_of(fit):
             float_format=lambda x: f"{x:.4g}", border=0, index=False))
     out.append("</div>")
     if "report.json" in fit._files():
-        page = base64.b64encode(fit._page().encode()).decode()
-        out.append('<details><summary>The report</summary><iframe style="width:100%;height:40em;border:0" '
-                   f'sandbox="allow-scripts" src="data:text/html;charset=utf-8;base64,{page}"></iframe></details>')
+        out.append(_page_on_request(fit._page()))
     return "".join(out)
+
+
+def html_of_plan(title, text, page):
+    """What the program prints, and the report's page on request."""
+    return f"<p><b>{html.escape(title)}</b></p><pre>{html.escape(text)}</pre>{_page_on_request(page)}"
+
+
+def _page_on_request(page):
+    page = base64.b64encode(page.encode()).decode()
+    return ('<details><summary>The report</summary><iframe style="width:100%;height:40em;border:0" '
+            f'sandbox="allow-scripts" src="data:text/html;charset=utf-8;base64,{page}"></iframe></details>')

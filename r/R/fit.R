@@ -199,14 +199,18 @@ ww_require_trusted <- function(fit) {
 # ---- Files.
 
 ww_write <- function(fit, folder) {
-  files <- files_of(fit)
-  if (!is.na(files["report.json"])) files <- c(files, report.html = page_of(files))
+  if (inherits(fit, "ww_plan")) {
+    files <- c(plan.json = fit$json, stats::setNames(fit$csv, sprintf("tables/%s.csv", names(fit$csv))), report.html = fit$page)
+  } else {
+    files <- files_of(fit)
+    if (!is.na(files["report.json"])) files <- c(files, report.html = page_of(files))
+  }
   core(C_write_folder, path_of(folder, "folder"), files)
   invisible(folder)
 }
 
 ww_report <- function(fit, path) {
-  if (inherits(fit, c("ww_selection", "ww_comparison"))) {
+  if (inherits(fit, c("ww_selection", "ww_comparison", "ww_plan"))) {
     page <- fit$page
     if (!nzchar(page)) stop_input("there is no page: select again with report = TRUE")
   } else {

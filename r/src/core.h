@@ -85,6 +85,7 @@ R_CallMethodDef door(const char* name) {
 using Doors = std::vector<R_CallMethodDef>;
 void add_tables(Doors& doors);
 void add_studies(Doors& doors);
+void add_plans(Doors& doors);
 void add_tools(Doors& doors);
 
 }  // namespace wearwell::r

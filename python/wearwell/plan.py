@@ -1,0 +1,399 @@
+"""Plans of tests and inspections to come: which test next, how many specimens, for how long, when to inspect.
+
+Each function answers what ``wearwell plan`` answers, with the same numbers to the bit, and returns a ``wearwell.Plan``. Quantities are
+texts with their units ("1e6 cycles"), pint quantities, or numbers where there is no unit; shares and risks are numbers between 0 and
+1, or texts ("90 %").
+"""
+
+import os
+
+from ._errors import InputError
+from ._fit import Fit
+from ._plan import answer, files_and_tables
+from ._study import Study
+
+
+def _require(about, name, kinds, what):
+    if not isinstance(about, (*kinds, str, os.PathLike)):
+        raise InputError(f"{name} is {type(about).__name__}; it is {what}")
+
+
+def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, specimen_cost=None, use_cost=None, measure=None,
+         by="width", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
+         progress=None):
+    """Rank the tests that could be done next by how much they are expected to narrow a goal.
+
+    Expectations are over the posterior of the fit and the outcomes that it predicts. One specimen is computed by
+    quadrature, several by nested Monte Carlo with stated errors. The interpreter's lock is released.
+
+    Parameters
+    ----------
+    fit : Fit, str or path
+        A fit, or the folder of its result.
+    goal : str
+        What the tests are to determine: "B10 at NAME", a quantity, a prediction or a parameter of the study. An unknown
+        goal is refused with the list of the known ones.
+    candidates : table, str or path, optional
+        A row for each test: a column for each condition of the study, and optionally ``specimens``, ``stop`` (time at
+        which a specimen that has not failed is taken off), ``name`` and a column of costs.
+    grid : str or dict, optional
+        Instead of candidates, all combinations: "alternating_stress = 200 to 500 by 25 MPa; stop = 1e6 cycles", or a dict
+        ``{"alternating_stress": "200 to 500 by 25 MPa", "stop": [1e6, 5e6]}``.
+    specimens : int, str or sequence of int, optional
+        Numbers of specimens of each candidate without that column; default 1.
+    cost : str, optional
+        Column of candidates with the cost of all specimens; its heading may name the currency, "cost [EUR]".
+    specimen_cost : float, optional
+        Instead of a column: the cost of each specimen.
+    use_cost : float, optional
+        And of each unit of its expected time on test.
+    measure : str, optional
+        Column that the test measures, where the study has several.
+    by : {"width", "variance", "information"}
+        What ranks: expected width of the 90 % interval of the goal, its expected variance, or the information about all
+        parameters.
+    value : float, optional
+        Worth of one per cent of narrowing, in units of cost: says whether a test is worth its cost.
+    budget : float, optional
+        Cost of a batch at most.
+    batch : int
+        At most so many candidates are chosen together, 1 to 100.
+    until : str, optional
+        Target: "width <= factor 1.5" or "width <= 20 MPa". Says whether it is reached, and how many tests it needs.
+    tests : table or sequence of tables, optional
+        Tests done since the fit, in the columns of the study's data: data frames and their like, or paths of files.
+    samples : int
+        Samples of the nested Monte Carlo, 16 to 100000.
+    nodes : int
+        Nodes of the posterior at most, 50 to 20000.
+    seed : int
+        Seed of the nested Monte Carlo.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds). An exception in it stops the work.
+
+    Returns
+    -------
+    Plan
+        The candidates, best first.
+
+    Raises
+    ------
+    InputError
+        If the goal, a column or an argument is unknown or out of its range, or a candidate cannot be tested; the message
+        names argument, row and column.
+
+    Warns
+    -----
+    CheckWarning
+        If the fit is not trusted.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> fit = ww.fit("examples/spring/sensible.toml", seed=1, method="exact", draws=100, report=False)
+    >>> grid = {"alternating_stress_MPa": [240, 260, 280], "mean_stress_MPa": 1050, "stop": "1e6 cycles"}
+    >>> plan = ww.plan.next(fit, "B10 at softer spring", grid=grid)
+    >>> best = plan.summary["candidates"][0]
+    >>> best["conditions"]["alternating_stress"]
+    240.0
+    >>> all(each["narrowing"] <= best["narrowing"] for each in plan.summary["candidates"])
+    True
+    >>> len(plan.tables["candidates"])
+    3
+    >>> ww.plan.next(fit, "B10 at hanger", grid=grid)
+    Traceback (most recent call last):
+        ...
+    wearwell.InputError: goal: the study has no ...
+    """
+    _require(fit, "fit", (Fit,), "a fit, or the folder of a result")
+    files, tests = files_and_tables(tests)
+    return answer("next", {
+        "goal": goal, "grid": grid, "specimens": specimens, "cost": cost, "specimen_cost": specimen_cost, "use_cost": use_cost,
+        "measure": measure, "by": by, "value": value, "budget": budget, "batch": batch, "until": until, "samples": samples,
+        "nodes": nodes, "seed": seed, "tests": files or None,
+    }, fit, "fit", {"candidates": candidates, "tests": tests}, threads, progress)
+
+
+def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, most=1000, simulations=200, seed=1, threads=0,
+         progress=None):
+    """Find the smallest number of specimens, before any test, with which a goal is known well enough.
+
+    Parameters are drawn from the priors, campaigns are simulated, and each is fitted by quadrature. The interpreter's
+    lock is released.
+
+    Parameters
+    ----------
+    study : Study, str or path
+        A study with proper priors, or its file. Its data are not used; those of a file need not exist.
+    goal : str
+        What the tests are to determine: "B10 at NAME", a quantity, a prediction or a parameter of the study.
+    width : str
+        Largest width of the goal's interval: "factor 2" (upper over lower end), or a difference, "30 um".
+    tests : table, str or path
+        A row for each kind of test: a column for each condition of the study, and optionally ``specimens`` (numbers or
+        proportions), ``stop`` and ``name``.
+    assurance : float or str
+        Probability that the interval is so narrow.
+    level : float or str
+        Level of the interval.
+    measure : str, optional
+        Column that the tests measure, where the study has several.
+    most : int
+        Largest number of specimens tried, 1 to 100000.
+    simulations : int
+        Number of simulated campaigns, 20 to 100000.
+    seed : int
+        Seed of the simulation.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds). An exception in it stops the work.
+
+    Returns
+    -------
+    Plan
+        The number of specimens, and the assurance of other numbers.
+
+    Raises
+    ------
+    InputError
+        If a prior is improper, or an argument, a column or the goal is unknown or wrong; the message names it.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> study = ww.Study(formula="V = k*F*s", data={"F": [100], "s": [4e4], "V": [0.4]}, units={"F": "N", "s": "m", "V": "mm^3"},
+    ...                  priors={"k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=1), "sigma": ww.half_normal("0.1 mm^3")})
+    >>> tests = {"F [N]": [100, 200], "s [m]": [4e4, 4e4]}
+    >>> plan = ww.plan.size(study, "k", width="factor 1.5", tests=tests, most=40, simulations=20)
+    >>> plan.summary["reached"], plan.summary["specimens"] <= 40
+    (True, True)
+    """
+    _require(study, "study", (Study,), "a study, or the path of a study file")
+    return answer("size", {
+        "goal": goal, "width": width, "assurance": assurance, "level": level, "measure": measure, "most": most,
+        "simulations": simulations, "seed": seed,
+    }, study, "study", {"tests": tests}, threads, progress)
+
+
+def demonstrate(goal, *, confidence=0.9, failures=0, specimens=None, time=None, distribution="weibull", shape=None, sigma=None,
+                truth=None, sudden_death=None):
+    """Plan a test that demonstrates a life: specimens, time, failures allowed.
+
+    Without ``specimens`` and ``time``: the number of specimens for tests as long as the life. With one of them the other
+    is found, with both the confidence that is reached.
+
+    Parameters
+    ----------
+    goal : str
+        What to show: "B10 >= 1e6 cycles", or "reliability >= 90 % at 1e6 cycles".
+    confidence : float or str
+        Confidence that a test that passes shows.
+    failures : int or str
+        Failures with which the test still passes: a number, or several like "0 to 3".
+    specimens : int, optional
+        Number of specimens.
+    time : str or pint quantity, optional
+        Length of each test, "2e6 cycles".
+    distribution : {"weibull", "lognormal", "loglogistic"}
+        Distribution of lives.
+    shape : float or str, optional
+        Weibull shape: a number, its 90 % interval "1.5 to 3", or a prior like "lognormal, median = 2, log_sd = 0.2".
+        Without it: success run, tests as long as the life to show.
+    sigma : float or str, optional
+        Of lognormal and loglogistic lives: scale of the natural logarithm of life, as ``shape``.
+    truth : str or sequence of str, optional
+        True lives at which to report the probability to pass, "B10 = 3e6 cycles".
+    sudden_death : int, optional
+        Number of groups of equal size, each tested to its first failure.
+
+    Returns
+    -------
+    Plan
+        The plans, one for each number of failures allowed.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, or no plan reaches the confidence; the message names the argument.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", failures="0 to 2")
+    >>> [each["specimens"] for each in plan.summary["plans"]]
+    [22, 38, 52]
+    >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", shape=2, specimens=10)
+    >>> round(plan.summary["plans"][0]["time"])
+    1478322
+    >>> ww.plan.demonstrate("B10 >= 1e6 cycles", confidence=1.5)
+    Traceback (most recent call last):
+        ...
+    wearwell.InputError: confidence: ...
+    """
+    return answer("demonstrate", {
+        "goal": goal, "confidence": confidence, "failures": failures, "specimens": specimens, "time": time,
+        "distribution": distribution, "shape": shape, "sigma": sigma, "truth": truth, "sudden_death": sudden_death,
+    })
+
+
+def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step=None, unit=None, new=False, inspection_cost=None,
+            failure_cost=None, replacement_cost=None, downtime_cost=None, visit_cost=None, given=None, threads=0, progress=None):
+    """Plan the inspections ahead that keep the risk below a bound with the fewest inspections, or the cheapest ones.
+
+    For one unit, or for all running units of a fleet with common visits. The interpreter's lock is released.
+
+    Parameters
+    ----------
+    lives : Fit, table, str or path
+        A fit of a formula with a failure threshold, of bearings, or of S-N parts; the folder of its result; or a table of
+        lives with the column "life [h]" and optionally weight, unit and population, or its file.
+    risk : float or str, optional
+        Of each interval at most, that a unit reaches its threshold between two inspections; 1 % if neither this,
+        ``total_risk`` nor costs are given.
+    total_risk : float or str, optional
+        At most, of a failure that no inspection foresees, for each unit; needs ``warning``.
+    warning : str or pint quantity, optional
+        An inspection shows a failure that comes within this use after it, "100 h".
+    until : str or pint quantity, optional
+        End of the plan; by default the time by which half of the units reach their threshold.
+    step : str or pint quantity, optional
+        Inspections at multiples of it.
+    unit : str, optional
+        One running unit.
+    new : bool
+        A new unit; also if there is no running one.
+    inspection_cost, failure_cost, replacement_cost : float or str, optional
+        Cost of an inspection, of a failure in service with its replacement, and of a preventive replacement, "60 EUR".
+        With costs the cheapest plan is found.
+    downtime_cost : str, optional
+        Cost of an undetected failure, "5 EUR/h": failures are hidden until an inspection.
+    visit_cost : float or str, optional
+        Cost of a visit, whatever the number of units inspected.
+    given : dict or sequence of str, optional
+        Conditions of the next reading of ``unit``, ``{"force": "20 N"}``.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds). An exception in it stops the work.
+
+    Returns
+    -------
+    Plan
+        The inspection times, with the risk of each interval and expected costs.
+
+    Raises
+    ------
+    InputError
+        If an argument, a unit or a cell of the table is wrong, or no plan keeps the bound; the message names the argument.
+
+    Warns
+    -----
+    CheckWarning
+        If the fit is not trusted.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> plan = ww.plan.inspect("examples/decide/lives.csv", unit="P4", risk=0.1, until="800 h", step="10 h")
+    >>> plan.summary["aim"]
+    'fewest'
+    >>> all(each["risk"] <= 0.1 for each in plan.summary["units"][0]["inspections"])
+    True
+
+    Lives in memory, and the cheapest inspections:
+
+    >>> lives = {"life [h]": [1200, 1500, 1900, 2300, 2600, 3100, 3600]}
+    >>> plan = ww.plan.inspect(lives, until="3000 h", inspection_cost="60 EUR", failure_cost="2000 EUR", downtime_cost="2 EUR/h")
+    >>> plan.summary["aim"], plan.summary["currency"]
+    ('cheapest', 'EUR')
+    """
+    if isinstance(lives, Study):
+        raise InputError("lives is Study; it is a fit, the folder of a result, or a table of lives")
+    return answer("inspect", {
+        "risk": risk, "total_risk": total_risk, "warning": warning, "until": until, "step": step, "unit": unit, "new": new,
+        "inspection_cost": inspection_cost, "failure_cost": failure_cost, "replacement_cost": replacement_cost,
+        "downtime_cost": downtime_cost, "visit_cost": visit_cost, "given": given,
+    }, lives, "lives", None, threads, progress)
+
+
+def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrhenius", family="weibull", shape=None, sigma=None,
+               failing_at_use=None, failing_at_highest=None, life_at_highest=None, activation_energy=None, exponent=None, slope=None,
+               lowest=None, low=None, middle_share=0.2, least_failures=4):
+    """Plan an accelerated life test: levels of stress, specimens at each, and how well they predict a life in use.
+
+    Planning values: ``shape`` or ``sigma``, and two of ``failing_at_use``, ``failing_at_highest`` (or
+    ``life_at_highest``) and ``activation_energy`` (or ``exponent``, ``slope``). Each is a number, its 90 % interval
+    "1.4 to 2", or a prior.
+
+    Parameters
+    ----------
+    use : str or pint quantity
+        Stress in use, "50 degC".
+    highest : str or pint quantity
+        Highest stress to test, "120 degC".
+    until : str or pint quantity
+        Stop time of every test, "183 d".
+    specimens : int
+        Number of specimens in all.
+    goal : str
+        Life to predict at the stress in use, "B10".
+    relation : {"arrhenius", "inverse-power", "linear"}
+        Relation of log life to stress.
+    family : {"weibull", "lognormal", "loglogistic"}
+        Distribution of lives.
+    shape : float or str, optional
+        Weibull shape.
+    sigma : float or str, optional
+        Instead: scale of the natural logarithm of life, of any family.
+    failing_at_use : float or str, optional
+        Share that fails in use by the stop time, "0.1 %".
+    failing_at_highest : float or str, optional
+        Share that fails at the highest stress by the stop time, "90 %".
+    life_at_highest : str, optional
+        Instead: median life there, "60 d", or another one, "B10 = 20 d".
+    activation_energy : str or pint quantity, optional
+        How steeply life falls by the relation of Arrhenius, "0.7 eV".
+    exponent : float or str, optional
+        The same of an inverse power.
+    slope : float or str, optional
+        The same of a linear relation: fall of the natural logarithm of life per unit of stress.
+    lowest : str or pint quantity, optional
+        Lowest stress to test; by default that in use.
+    low : str or pint quantity, optional
+        Lower level of the plans with three levels; by default optimized.
+    middle_share : float or str
+        Share of specimens at the middle level of the compromise plan.
+    least_failures : int
+        Failures wanted at each level: their probability is reported.
+
+    Returns
+    -------
+    Plan
+        An optimum, a compromise, a 4:2:1 and an equal plan.
+
+    Raises
+    ------
+    InputError
+        If an argument is missing or wrong; the message names it.
+
+    Examples
+    --------
+    An adhesive bond (Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 20):
+
+    >>> import wearwell as ww
+    >>> plan = ww.plan.accelerate(use="50 degC", highest="120 degC", until="183 d", specimens=300, sigma=0.6, failing_at_use=0.001,
+    ...                           failing_at_highest=0.9)
+    >>> [each["plan"] for each in plan.summary["plans"]]
+    ['optimum', 'compromise', '4:2:1', 'equal']
+    >>> [sum(level["specimens"] for level in each["levels"]) for each in plan.summary["plans"]]
+    [300, 300, 300, 300]
+    """
+    return answer("accelerate", {
+        "use": use, "highest": highest, "until": until, "specimens": specimens, "goal": goal, "relation": relation, "family": family,
+        "shape": shape, "sigma": sigma, "failing_at_use": failing_at_use, "failing_at_highest": failing_at_highest,
+        "life_at_highest": life_at_highest, "activation_energy": activation_energy, "exponent": exponent, "slope": slope,
+        "lowest": lowest, "low": low, "middle_share": middle_share, "least_failures": least_failures,
+    })

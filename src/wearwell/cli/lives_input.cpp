@@ -1,0 +1,78 @@
+#include "wearwell/cli/lives_input.h"
+
+#include "wearwell/base/error.h"
+#include "wearwell/cli/followed_result.h"
+#include "wearwell/cli/monitored.h"
+#include "wearwell/input/table.h"
+
+namespace wearwell {
+namespace {
+
+// All readings of a unit that its state has processed; the store outlives it.
+prognosis::History history_of(monitor::Store& store, const std::string& name, std::int64_t until) {
+  return [&store, name, until](const std::function<void(const prognosis::Reading&)>& visit) {
+    store.of_unit(name, 0, until, [&](const monitor::StoredReading& each) {
+      visit({each.numbers, each.labels});
+    });
+  };
+}
+
+// Units of a monitored fleet, as its store holds them.
+void read_fleet(const std::filesystem::path& path, Models models, LivesInput& input) {
+  MonitoredFleet fleet = monitored_fleet(path, models);
+  try {
+    input.store = store_to_read(fleet);
+    input.stored =
+        monitor::stored_units(*input.store, {*fleet.tracker, fleet.fingerprint, fleet.trusted});
+  } catch (const monitor::StoreError& error) {
+    throw MachineError(error.what());
+  }
+  input.lives = prognosis::lives_of_new(*fleet.tracker, path.string(), fleet.trusted);
+  for (const auto& [name, record] : input.stored) {
+    // `stored` must stay alive as long as lives are requested.
+    const std::shared_ptr<const prognosis::TrackedUnit> unit(std::shared_ptr<void>(),
+                                                             record.state.get());
+    input.lives.units.push_back(
+        prognosis::known_unit(name, unit, history_of(*input.store, name, record.place)));
+  }
+  input.tracker = std::move(fleet.tracker);
+}
+
+}  // namespace
+
+prognosis::FollowedUnits LivesInput::followed() const {
+  prognosis::FollowedUnits units;
+  units.tracker = tracker.get();
+  if (!tracker) return units;
+  units.names.assign(tracker->seen().begin(), tracker->seen().end());
+  for (const auto& [name, record] : stored) units.names.push_back(name);
+  if (store) units.source = "fleet";
+  units.unit = [this](const std::string& name) {
+    const auto at = stored.find(name);
+    return at == stored.end() ? tracker->begin(name) : tracker->restore(at->second.state->save());
+  };
+  units.history = [this](const std::string& name) -> prognosis::History {
+    const auto at = stored.find(name);
+    if (at == stored.end()) return [](const std::function<void(const prognosis::Reading&)>&) {};
+    return history_of(*store, name, at->second.place);
+  };
+  return units;
+}
+
+LivesInput read_lives(const std::filesystem::path& path, Models models) {
+  LivesInput input;
+  if (path.extension() == ".toml") {
+    read_fleet(path, models, input);
+    return input;
+  }
+  if (!std::filesystem::is_directory(path)) {
+    input.lives = prognosis::lives_of_table(read_table(path));
+    return input;
+  }
+  FollowedResult result = followed_result(path, models);
+  input.tracker = std::move(result.tracker);
+  input.lives = prognosis::lives_of_tracker(*input.tracker, path.string(), result.trusted);
+  return input;
+}
+
+}  // namespace wearwell

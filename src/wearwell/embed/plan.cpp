@@ -1,0 +1,283 @@
+#include "wearwell/embed/plan.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/embed/fork_guard.h"
+#include "wearwell/embed/plan_arguments.h"
+#include "wearwell/models/registry.h"
+#include "wearwell/plan/accelerate.h"
+#include "wearwell/plan/demonstrate.h"
+#include "wearwell/plan/inspect.h"
+#include "wearwell/plan/next_question.h"
+#include "wearwell/plan/size.h"
+#include "wearwell/present/page.h"
+#include "wearwell/prognosis/carried_state.h"
+#include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/new_data.h"
+#include "wearwell/prognosis/next_reading.h"
+#include "wearwell/study/model.h"
+
+namespace wearwell::embed {
+namespace {
+
+using Work = std::function<plan::Answer()>;
+
+std::unique_ptr<const Study> read_any(const Source& source) {
+  return read_study(source, all_models());
+}
+
+std::vector<Table> tables_of(const PlanSubject& subject, const std::string& argument) {
+  std::vector<Table> found;
+  for (const auto& [name, table] : subject.tables)
+    if (name == argument) found.push_back(table);
+  return found;
+}
+
+const Table* table_of(const PlanSubject& subject, const std::string& argument) {
+  for (const auto& [name, table] : subject.tables)
+    if (name == argument) return &table;
+  return nullptr;
+}
+
+// The state that a fit leaves, of a run or a folder of results.
+prognosis::CarriedState carried(const PlanSubject& subject) {
+  if (!subject.run) return prognosis::read_state(subject.path);
+  if (subject.run->state.empty())
+    throw InputError(
+        "the fit holds no state to plan with: its study has no posterior, or its data have changed "
+        "since they were read");
+  return prognosis::state_of_bytes(subject.run->state, "fit");
+}
+
+prognosis::CarriedState carried_posterior(const PlanSubject& subject) {
+  prognosis::CarriedState state = carried(subject);
+  if (state.parameters.empty())
+    throw InputError("the fit has no posterior to plan with: a clutch campaign has none");
+  return state;
+}
+
+Source source_for(const PlanSubject& subject) {
+  return subject.study ? *subject.study->source : source_of(subject.path);
+}
+
+Work size(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
+  plan::SizeQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.text("width", question.width);
+  arguments.table("tests");
+  arguments.text("assurance", question.assurance);
+  arguments.text("level", question.level);
+  arguments.text("measure", question.measure);
+  arguments.whole("most", question.most, 1, 100'000);
+  arguments.whole("simulations", question.simulations, 20, 100'000);
+  arguments.seed("seed", question.seed);
+  const Table* const tests = table_of(subject, "tests");
+  if (!tests) throw InputError("tests is missing: a table with a row for each test");
+  return [question, tests, &subject, monitor] {
+    return plan::size(question, source_for(subject), *tests, &read_any, monitor);
+  };
+}
+
+Work demonstrate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
+  plan::DemonstrateQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.text("confidence", question.confidence);
+  arguments.text("failures", question.failures);
+  arguments.text("distribution", question.distribution);
+  arguments.text("shape", question.shape);
+  arguments.text("sigma", question.sigma);
+  arguments.whole("specimens", question.specimens);
+  arguments.text("time", question.time);
+  arguments.texts("truth", question.truth);
+  arguments.whole("sudden_death", question.sudden_death);
+  arguments.call_option("GOAL", "goal");
+  arguments.call_option("--true", "truth");
+  return [question] { return plan::demonstrate(question); };
+}
+
+// The lives that inspections are planned for, and the units that they are of.
+struct Lives {
+  std::unique_ptr<const prognosis::Tracker> tracker;
+  prognosis::KnownLives lives;
+  prognosis::FollowedUnits followed;
+};
+
+Lives lives_of(const PlanSubject& subject) {
+  Lives result;
+  if (const Table* table = table_of(subject, "lives")) {
+    result.lives = prognosis::lives_of_table(*table);
+    return result;
+  }
+  if (!subject.run && std::filesystem::path(subject.path).extension() == ".toml")
+    throw InputError(fmt::format(
+        "{}: the units of a monitor are planned on the command line: wearwell plan inspect {}",
+        printable(subject.path), printable(subject.path)));
+  if (!subject.run && !std::filesystem::is_directory(subject.path)) {
+    result.lives = prognosis::lives_of_table(read_table(subject.path));
+    return result;
+  }
+  const prognosis::CarriedState state = carried_posterior(subject);
+  const std::string title = subject.run ? subject.run->result->header.title : subject.path;
+  for (const Model& model : all_models())
+    if (model.key == state.model && model.track) result.tracker = model.track(state);
+  if (!result.tracker)
+    throw InputError(fmt::format("single units of a study of model \"{}\" cannot be followed",
+                                 printable(state.model)));
+  const prognosis::Tracker& tracker = *result.tracker;
+  result.lives = prognosis::lives_of_tracker(tracker, title, state.trusted);
+  result.followed.tracker = &tracker;
+  result.followed.names.assign(tracker.seen().begin(), tracker.seen().end());
+  result.followed.unit = [&tracker](const std::string& name) { return tracker.begin(name); };
+  result.followed.history = [](const std::string&) -> prognosis::History {
+    return [](const std::function<void(const prognosis::Reading&)>&) {};
+  };
+  return result;
+}
+
+Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
+  plan::InspectQuestion question;
+  arguments.text("risk", question.risk);
+  arguments.text("total_risk", question.total_risk);
+  arguments.text("warning", question.warning);
+  arguments.text("until", question.until);
+  arguments.text("step", question.step);
+  arguments.text("unit", question.unit);
+  arguments.truth("new", question.fresh);
+  arguments.text("inspection_cost", question.inspection_cost);
+  arguments.text("failure_cost", question.failure_cost);
+  arguments.text("replacement_cost", question.replacement_cost);
+  arguments.text("downtime_cost", question.downtime_cost);
+  arguments.text("visit_cost", question.visit_cost);
+  arguments.texts("given", question.given);
+  return [question, &subject, monitor] {
+    const Lives lives = lives_of(subject);
+    return plan::inspect(question, lives.lives, lives.followed, monitor);
+  };
+}
+
+Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) {
+  plan::NextQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.clauses("grid", question.grid);
+  arguments.list("specimens", question.specimens);
+  arguments.text("cost", question.cost);
+  arguments.number("specimen_cost", question.specimen_cost);
+  arguments.number("use_cost", question.use_cost);
+  arguments.text("measure", question.measure);
+  arguments.text("by", question.by);
+  arguments.number("value", question.value);
+  arguments.number("budget", question.budget);
+  arguments.whole("batch", question.batch);
+  arguments.text("until", question.until);
+  arguments.whole("samples", question.samples);
+  arguments.whole("nodes", question.nodes);
+  arguments.seed("seed", question.seed);
+  arguments.table("candidates");
+  std::vector<std::string> files;
+  arguments.texts("tests", files);
+  if (const Table* candidates = table_of(subject, "candidates")) question.candidates = *candidates;
+  question.tests = tables_of(subject, "tests");
+  return [question, files, &subject]() mutable {
+    prognosis::CarriedState state = carried_posterior(subject);
+    for (const std::string& file : files)
+      question.tests.push_back(prognosis::read_new_data(state.source, file));
+    const std::string result = subject.run ? "fit" : subject.path;
+    return plan::next_test(std::move(state), result, &read_any, question);
+  };
+}
+
+Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
+  plan::AccelerateQuestion question;
+  arguments.text("goal", question.goal);
+  arguments.text("use", question.use);
+  arguments.text("highest", question.highest);
+  arguments.text("until", question.until);
+  arguments.whole("specimens", question.specimens);
+  arguments.text("family", question.family);
+  arguments.text("relation", question.relation);
+  arguments.text("lowest", question.lowest);
+  arguments.text("low", question.low);
+  arguments.text("shape", question.shape);
+  arguments.text("sigma", question.sigma);
+  arguments.text("failing_at_use", question.failing_at_use);
+  arguments.text("failing_at_highest", question.failing_at_highest);
+  arguments.text("life_at_highest", question.life_at_highest);
+  arguments.text("activation_energy", question.activation_energy);
+  arguments.text("exponent", question.exponent);
+  arguments.text("slope", question.slope);
+  arguments.text("middle_share", question.middle_share);
+  arguments.whole("least_failures", question.least_failures);
+  return [question] { return plan::accelerate(question); };
+}
+
+using Reader = Work (*)(PlanArguments&, const PlanSubject&, const Monitor&);
+
+Reader reader_of(const std::string& kind) {
+  if (kind == "next") return &next;
+  if (kind == "size") return &size;
+  if (kind == "demonstrate") return &demonstrate;
+  if (kind == "accelerate") return &accelerate;
+  if (kind == "inspect") return &inspect;
+  throw InputError(
+      fmt::format("there is no plan of kind '{}'; it is next, size, demonstrate, inspect or "
+                  "accelerate",
+                  printable(kind)));
+}
+
+// Options in the texts of a page as arguments.
+void rename(std::vector<present::Block>& blocks, const PlanArguments& arguments) {
+  const auto renamed = [&](std::string& text) { text = arguments.in_arguments(text); };
+  for (present::Block& block : blocks) {
+    if (auto* const prose = std::get_if<present::Prose>(&block.content)) {
+      renamed(prose->text);
+    } else if (auto* const callout = std::get_if<present::Callout>(&block.content)) {
+      renamed(callout->text);
+    } else if (auto* const facts = std::get_if<present::Facts>(&block.content)) {
+      for (auto& [name, value] : facts->facts) renamed(name), renamed(value);
+    } else if (auto* const figures = std::get_if<present::Figures>(&block.content)) {
+      for (html::Figure& figure : figures->figures) renamed(figure.caption);
+    } else if (auto* const details = std::get_if<present::Details>(&block.content)) {
+      renamed(details->summary);
+      rename(details->blocks, arguments);
+    }
+  }
+}
+
+PlanAnswer shown(plan::Answer answer, const PlanArguments& arguments) {
+  for (present::Section& section : answer.sections) rename(section.blocks, arguments);
+  PlanAnswer result{answer.title,
+                    arguments.in_arguments(answer.text),
+                    printable_json(answer.json.dump(2)) + "\n",
+                    {},
+                    html_page({WEARWELL_VERSION, "Plan", answer.title, answer.sections}),
+                    answer.trusted};
+  for (const present::Table* table : present::tables(answer.sections))
+    result.tables.emplace_back(table->id, present::csv(*table));
+  return result;
+}
+
+}  // namespace
+
+PlanAnswer plan(const std::string& kind, const std::string& arguments, const PlanSubject& subject,
+                Monitor monitor) {
+  const ForkGuard guard;
+  monitor.threads = guard.most(monitor.threads);
+  const auto json = nlohmann::ordered_json::parse(arguments, nullptr, false);
+  if (json.is_discarded()) throw InputError(kind + ": an argument is not Unicode");
+  PlanArguments reading(kind, json);
+  const Work work = reader_of(kind)(reading, subject, monitor);
+  reading.finish();
+  try {
+    return shown(work(), reading);
+  } catch (const InputError& error) {
+    throw InputError(reading.in_arguments(error.what()));
+  }
+}
+
+}  // namespace wearwell::embed

@@ -1,0 +1,302 @@
+#include "wearwell/plan/acceleration_question.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/plan/life_requirement.h"
+
+namespace wearwell::plan {
+namespace {
+
+constexpr double boltzmann = 8.617333262e-5;       // eV/K, CODATA 2018
+constexpr double electron_volt = 1.602176634e-19;  // J
+
+std::size_t choice_of(const std::string& option, const std::string& word,
+                      const std::vector<std::string>& words) {
+  const auto at = std::find(words.begin(), words.end(), word);
+  if (at == words.end())
+    throw InputError(fmt::format("{}: '{}' is unknown; it is one of {}{}", option, printable(word),
+                                 fmt::join(words, ", "), did_you_mean(word, words)));
+  return static_cast<std::size_t>(at - words.begin());
+}
+
+const std::string& required_option(const std::string& option, const std::string& text,
+                                   const char* like) {
+  if (text.empty())
+    throw InputError(fmt::format("{}: is missing; give it, like '{}'", option, like));
+  return text;
+}
+
+double goal_share(const std::string& text) {
+  double percent = 0;
+  const char* end = text.data() + text.size();
+  const bool named = text.size() > 1 && std::string_view("BbLl").find(text[0]) != std::string::npos;
+  const auto [at, error] = std::from_chars(text.data() + named, end, percent);
+  if (!named || error != std::errc() || at != end || !(percent > 0 && percent < 100))
+    throw InputError(
+        fmt::format("--goal: '{}' is unknown; a goal is a B-life between B0 and B100, like 'B10'",
+                    printable(text)));
+  return percent / 100;
+}
+
+NamedValue spread_of(const AccelerateQuestion& question) {
+  if (question.shape.empty() == question.sigma.empty())
+    throw InputError("--shape, --sigma: give one of them, the planning value of the scatter");
+  if (!question.sigma.empty())
+    return {"sigma", "--sigma", read_planning_value("--sigma", question.sigma)};
+  if (question.family != "weibull")
+    throw InputError(fmt::format("--shape: a {} distribution has a --sigma", question.family));
+  return {"shape", "--shape", read_planning_value("--shape", question.shape)};
+}
+
+// A stress in SI: a temperature, or a quantity of the dimension of the highest stress.
+double read_stress(const AccelerationTest& test, const std::string& option,
+                   const std::string& text) {
+  return test.relation == Relation::arrhenius ? option_value(option, text, "K")
+                                              : read_like(option, text, test.stress_unit);
+}
+
+void read_stresses(const AccelerateQuestion& question, AccelerationTest& test) {
+  required_option("--use", question.use, "50 degC");
+  required_option("--highest", question.highest, "120 degC");
+  if (test.relation == Relation::arrhenius) option_value("--highest", question.highest, "K");
+  test.stress_unit = read_any_quantity("--highest", question.highest).unit;
+  test.highest = read_stress(test, "--highest", question.highest);
+  test.use = read_stress(test, "--use", question.use);
+  if (test.relation != Relation::linear && !(test.use > 0))
+    throw InputError(fmt::format("--use: '{}' must be positive", printable(question.use)));
+  if (!(test.use < test.highest))
+    throw InputError(
+        fmt::format("--use: '{}' must be below --highest '{}'; an accelerated test is "
+                    "above the use condition",
+                    printable(question.use), printable(question.highest)));
+  const auto level = [&](const std::string& option, const std::string& text) {
+    const double xi = test.xi(read_stress(test, option, text));
+    if (!(xi >= 0 && xi < 0.99))
+      throw InputError(
+          fmt::format("{}: '{}' must lie from --use to below --highest", option, printable(text)));
+    return xi;
+  };
+  if (!question.lowest.empty()) test.lowest_xi = level("--lowest", question.lowest);
+  if (!question.low.empty()) test.low_xi = level("--low", question.low);
+  if (test.low_xi >= 0 && test.low_xi < test.lowest_xi)
+    throw InputError("--low: is below --lowest");
+}
+
+NamedValue life_value(AccelerationTest& test) {
+  std::string text = test.question.life_at_highest;
+  if (const std::size_t sign = text.find('='); sign != std::string::npos) {
+    std::string name = text.substr(0, sign);
+    while (!name.empty() && name.back() == ' ') name.pop_back();
+    try {
+      test.life_share = goal_share(name);
+    } catch (const InputError&) {
+      throw InputError(
+          fmt::format("--life-at-highest: '{}' must be like '60 d' (the median) or "
+                      "'B10 = 20 d'",
+                      printable(text)));
+    }
+    text = text.substr(std::min(text.find_first_not_of(' ', sign + 1), text.size()));
+  }
+  try {
+    return {fmt::format("B{:.6g} at the highest stress", 100 * test.life_share),
+            "--life-at-highest",
+            read_planning_quantity("--life-at-highest", text, test.time_unit.text),
+            test.time_unit.text, 1 / test.time_unit.scale};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; write it in the dimension of --until", error.what()));
+  }
+}
+
+// How steeply life falls, for the relation; another relation's is refused.
+std::optional<NamedValue> slope_value(const AccelerationTest& test) {
+  const AccelerateQuestion& question = test.question;
+  const std::tuple<Relation, const char*, const std::string*, const char*> all[] = {
+      {Relation::arrhenius, "--activation-energy", &question.activation_energy, "arrhenius"},
+      {Relation::inverse_power, "--exponent", &question.exponent, "inverse-power"},
+      {Relation::linear, "--slope", &question.slope, "linear"}};
+  std::optional<NamedValue> found;
+  for (const auto& [relation, option, text, name] : all) {
+    if (text->empty()) continue;
+    if (relation != test.relation)
+      throw InputError(
+          fmt::format("{}: belongs to --relation {}, not {}", option, name, question.relation));
+    if (relation == Relation::arrhenius)
+      found = {"activation energy", option, read_planning_quantity(option, *text, "J"), "eV",
+               1 / electron_volt};
+    else
+      found = {option + 2, option, read_planning_value(option, *text)};
+  }
+  return found;
+}
+
+// Two planning values of the relation, in the order use, highest, slope.
+void read_relation(AccelerationTest& test) {
+  const AccelerateQuestion& question = test.question;
+  std::vector<NamedValue> found;
+  if (!question.failing_at_use.empty())
+    found.push_back(
+        {"failing at use", "--failing-at-use",
+         read_planning_share("--failing-at-use", question.failing_at_use, test.distribution), "%",
+         100});
+  if (!question.failing_at_highest.empty())
+    found.push_back({"failing at highest", "--failing-at-highest",
+                     read_planning_share("--failing-at-highest", question.failing_at_highest,
+                                         test.distribution),
+                     "%", 100});
+  if (!question.life_at_highest.empty()) {
+    if (!question.failing_at_highest.empty())
+      throw InputError(
+          "--life-at-highest and --failing-at-highest say the same in two ways; give one");
+    found.push_back(life_value(test));
+  }
+  if (auto slope = slope_value(test)) found.push_back(std::move(*slope));
+  if (found.size() != 2)
+    throw InputError(
+        fmt::format("the line of life needs two planning values, not {}: two of --failing-at-use, "
+                    "--failing-at-highest or --life-at-highest, and {}",
+                    found.size(),
+                    test.relation == Relation::arrhenius       ? "--activation-energy"
+                    : test.relation == Relation::inverse_power ? "--exponent"
+                                                               : "--slope"));
+  test.values[1] = std::move(found[0]);
+  test.values[2] = std::move(found[1]);
+}
+
+void check_line(const AccelerationTest& test, const AccelerationGoal& goal) {
+  for (const PlanningPoint& point : goal.points)
+    if (!(point.rise > 0 && std::isfinite(point.rise) && std::isfinite(point.at_use)))
+      throw InputError(fmt::format(
+          "{} and {}: life must fall with stress{}; fewer must fail at the use condition than at "
+          "the highest",
+          test.values[1].option, test.values[2].option,
+          goal.points.size() > 1 ? " over the whole of their intervals" : ""));
+}
+
+}  // namespace
+
+double transformed_stress(Relation relation, double stress) {
+  return relation == Relation::arrhenius       ? -1 / (boltzmann * stress)
+         : relation == Relation::inverse_power ? std::log(stress)
+                                               : stress;
+}
+
+double stress_of(Relation relation, double transformed) {
+  return relation == Relation::arrhenius       ? -1 / (boltzmann * transformed)
+         : relation == Relation::inverse_power ? std::exp(transformed)
+                                               : transformed;
+}
+
+double AccelerationTest::xi(double stress) const {
+  const double at_use = transformed_stress(relation, use);
+  return (transformed_stress(relation, stress) - at_use) /
+         (transformed_stress(relation, highest) - at_use);
+}
+
+double AccelerationTest::stress(double at) const {
+  return stress_of(relation, std::lerp(transformed_stress(relation, use),
+                                       transformed_stress(relation, highest), at));
+}
+
+PlanningPoint AccelerationTest::point(const std::array<double, 3>& value) const {
+  const double scale = values[0].name == "shape" ? 1 / value[0] : value[0];
+  const auto is = [&](int i, std::string_view option) { return values[i].option == option; };
+  double at_use = 0, at_highest = 0;
+  bool use_known = false, highest_known = false;
+  for (int i = 1; i < 3; ++i) {
+    if (is(i, "--failing-at-use")) {
+      at_use = quantile(distribution, value[i]);
+      use_known = true;
+    } else if (is(i, "--failing-at-highest")) {
+      at_highest = quantile(distribution, value[i]);
+      highest_known = true;
+    } else if (is(i, "--life-at-highest")) {
+      at_highest = quantile(distribution, life_share) + std::log(until / value[i]) / scale;
+      highest_known = true;
+    }
+  }
+  if (use_known && highest_known) return {at_use, at_highest - at_use, scale, 1};
+  // The slope is the second: of log life by the transformed stress in its usual unit.
+  const double reach = transformed_stress(relation, highest) - transformed_stress(relation, use);
+  const double slope = relation == Relation::arrhenius ? value[2] / electron_volt
+                       : relation == Relation::linear  ? value[2] / stress_unit.scale
+                                                       : value[2];
+  const double rise = slope * reach / scale;
+  return {use_known ? at_use : at_highest - rise, rise, scale, 1};
+}
+
+std::array<double, 3> AccelerationTest::medians() const {
+  return {values[0].value.at(0), values[1].value.at(0), values[2].value.at(0)};
+}
+
+bool AccelerationTest::uncertain() const {
+  return std::any_of(values.begin(), values.end(),
+                     [](const NamedValue& each) { return each.value.uncertain; });
+}
+
+AccelerationGoal AccelerationTest::with(const std::array<double, 3>& value) const {
+  return {distribution, failing, {point(value)}};
+}
+
+AccelerationGoal AccelerationTest::at_medians() const {
+  return with(medians());
+}
+
+AccelerationGoal AccelerationTest::averaged() const {
+  const std::vector<NormalNode> one = {{0, 1}}, many = normal_nodes(7);
+  const auto nodes = [&](int i) -> const std::vector<NormalNode>& {
+    return values[i].value.uncertain ? many : one;
+  };
+  AccelerationGoal goal{distribution, failing, {}};
+  for (const NormalNode& a : nodes(0))
+    for (const NormalNode& b : nodes(1))
+      for (const NormalNode& c : nodes(2)) {
+        PlanningPoint each =
+            point({values[0].value.at(a.z), values[1].value.at(b.z), values[2].value.at(c.z)});
+        each.weight = a.weight * b.weight * c.weight;
+        goal.points.push_back(each);
+      }
+  return goal;
+}
+
+AccelerationTest read_acceleration(const AccelerateQuestion& question) {
+  static constexpr StandardDistribution standards[] = {StandardDistribution::smallest_extreme_value,
+                                                       StandardDistribution::normal,
+                                                       StandardDistribution::logistic};
+  AccelerationTest test;
+  test.question = question;
+  test.distribution =
+      standards[choice_of("--family", question.family, {"weibull", "lognormal", "loglogistic"})];
+  test.relation = static_cast<Relation>(
+      choice_of("--relation", question.relation, {"arrhenius", "inverse-power", "linear"}));
+  read_stresses(question, test);
+  const Quantity until =
+      read_any_quantity("--until", required_option("--until", question.until, "183 d"));
+  test.until = checked_option("--until", question.until, until.si(), Allowed::positive);
+  test.time_unit = until.unit;
+  if (question.specimens < 4 || question.specimens > 1'000'000)
+    throw InputError("--specimens: must lie between 4 and 1 000 000");
+  test.failing = goal_share(question.goal);
+  test.middle_share = read_probability("--middle-share", question.middle_share);
+  if (test.middle_share > 0.8)
+    throw InputError("--middle-share: must be at most 80 %, to leave specimens for the ends");
+  if (question.least_failures < 1 || question.least_failures > 1000)
+    throw InputError("--least-failures: must lie between 1 and 1000");
+  test.values[0] = spread_of(question);
+  read_relation(test);
+  check_line(test, test.at_medians());
+  check_line(test, test.averaged());
+  return test;
+}
+
+}  // namespace wearwell::plan

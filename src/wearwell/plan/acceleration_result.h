@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/plan/acceleration_question.h"
+#include "wearwell/present/html.h"
+#include "wearwell/present/table.h"
+
+namespace wearwell::plan {
+
+/// A plan and how well it does. Averages are over the distributions of the planning values.
+struct AccelerationPlan {
+  PlanKind kind = PlanKind::optimum;
+  std::vector<TestLevel> levels;       ///< with whole numbers of specimens
+  std::vector<std::size_t> specimens;  ///< at each level
+  std::vector<double> failing;         ///< probability to fail by the stop time
+  std::vector<double> enough;          ///< probability of the least number of failures
+  double standard_error = 0;           ///< of the log of the goal: root of the mean variance
+  double curvature_error = 0;          ///< of the coefficient of xi^2; infinite: not determined
+};
+
+/// Standard errors of all plans, and of the optimum for these values, where planning values differ
+/// from what was assumed.
+struct OffValues {
+  std::string what;
+  std::vector<double> standard_errors;  ///< as AccelerationResult::plans
+  double optimum = 0;
+};
+
+struct AccelerationResult {
+  AccelerationTest test;
+  AccelerationGoal goal;  ///< averaged
+  CensoredInformation information;
+  std::vector<AccelerationPlan> plans;
+  std::vector<OffValues> off;
+  double optimum_gain = 0;    ///< the largest gain_at of the optimum plan: 1 if no level is missing
+  double heaviest_share = 0;  ///< of one point in the mean variance of the optimum plan
+};
+AccelerationResult acceleration_of(const AccelerationTest& test);
+
+/// The factor of the 90 % interval of the goal: its ends are the estimate times and divided by it.
+double interval_factor(double standard_error);
+/// The factor on life by which the middle level would have to depart from the line of its
+/// neighbours to be noticed with 80 % probability by a two-sided 5 % test; infinite if never.
+double noticed_departure(const AccelerationPlan& plan);
+
+std::string plan_name(PlanKind kind);
+/// "95.6 degC".
+std::string stress_text(const AccelerationTest& test, double xi);
+
+present::Table acceleration_plans_table(const AccelerationResult& result);
+present::Table levels_table(const AccelerationResult& result);
+present::Table off_values_table(const AccelerationResult& result);
+present::Table planning_values_table(const AccelerationResult& result);
+html::Figure life_stress_figure(const AccelerationResult& result);
+html::Figure lower_level_figure(const AccelerationResult& result);
+
+}  // namespace wearwell::plan

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class PlanAccelerate : public ScratchTest {
+ protected:
+  static json plan(const std::string& arguments) {
+    const CommandResult run = run_wearwell("plan accelerate " + arguments + " --json");
+    EXPECT_EQ(run.exit_code, 0) << arguments << "\n" << run.err;
+    return json::parse(run.out);
+  }
+  static std::string refusal(const std::string& arguments) {
+    const CommandResult run = run_wearwell("plan accelerate " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  }
+};
+
+const std::string test = "--use '50 degC' --highest '120 degC' --until '183 d' --specimens 300 ";
+const std::string shares = "--failing-at-use '0.1 %' --failing-at-highest '90 %' ";
+
+// Meeker and Escobar (1998), ch. 20, adhesive bond.
+TEST_F(PlanAccelerate, ReproducesMeekerAndEscobar) {
+  const json found = plan(test + shares + "--sigma 0.6 --low '78 degC'");
+  const json& optimum = found["plans"][0];
+  EXPECT_EQ(optimum["plan"], "optimum");
+  EXPECT_NEAR(optimum["levels"][0]["stress"].get<double>(), 95, 0.5);
+  EXPECT_EQ(optimum["levels"][0]["specimens"], 212);
+  EXPECT_EQ(optimum["levels"][1]["specimens"], 88);
+  EXPECT_NEAR(optimum["standard_error"].get<double>(), 0.3794, 1e-4);
+  const json& compromise = found["plans"][1];
+  EXPECT_NEAR(compromise["levels"][1]["stress"].get<double>(), 98, 0.5);
+  EXPECT_NEAR(compromise["levels"][0]["specimens"].get<double>(), 155.5, 0.6);
+  EXPECT_EQ(compromise["levels"][1]["specimens"], 60);
+  EXPECT_EQ(compromise["levels"][2]["specimens"], 84);
+  EXPECT_NEAR(compromise["standard_error"].get<double>(), 0.4375, 1e-4);
+}
+
+// The same planning values in other words.
+TEST_F(PlanAccelerate, ReadsPlanningValuesInSeveralWays) {
+  const json known = plan(test + shares + "--sigma 0.6");
+  // 0.7265 eV: the slope through both shares; B63.2 at the highest from 90 % by 183 d at shape 1/0.6.
+  const json slope =
+      plan(test + "--failing-at-use '0.1 %' --activation-energy '0.7265 eV' --shape 1.6667");
+  EXPECT_NEAR(slope["plans"][0]["standard_error"].get<double>(),
+              known["plans"][0]["standard_error"].get<double>(), 1e-3);
+  const double median = 183 * std::pow(std::log(2) / std::log(10), 0.6);
+  const json life = plan(test + "--failing-at-use '0.1 %' --life-at-highest '" +
+                         std::to_string(median) + " d' --sigma 0.6");
+  EXPECT_NEAR(life["plans"][1]["standard_error"].get<double>(),
+              known["plans"][1]["standard_error"].get<double>(), 1e-5);
+  const json kelvin =
+      plan("--use '323.15 K' --highest '393.15 K' --until '4392 h' --specimens 300 " + shares +
+           "--sigma 0.6");
+  EXPECT_NEAR(kelvin["plans"][2]["standard_error"].get<double>(),
+              known["plans"][2]["standard_error"].get<double>(), 1e-9);
+}
+
+TEST_F(PlanAccelerate, AveragesOverIntervals) {
+  const json known = plan(test + shares + "--sigma 0.6");
+  const json wide = plan(test +
+                         "--failing-at-use '0.05 % to 0.2 %' --failing-at-highest '80 % to 95 "
+                         "%' --sigma '0.5 to 0.72'");
+  EXPECT_EQ(known["points"], 1);
+  EXPECT_EQ(wide["points"], 343);
+  EXPECT_GT(wide["plans"][0]["standard_error"], known["plans"][0]["standard_error"]);
+  EXPECT_EQ(wide["planning_values"][0]["known"], false);
+  EXPECT_THAT(run_wearwell("plan accelerate " + test + shares + "--shape '1.4 to 2'").out,
+              HasSubstr("The prior's part"));
+}
+
+TEST_F(PlanAccelerate, PlansOtherRelationsAndWritesAFolder) {
+  const std::string results = (folder() / "plan").string();
+  const CommandResult run = run_wearwell(
+      "plan accelerate --relation inverse-power --family lognormal --use '100 MPa' --highest '200 "
+      "MPa' --lowest '130 MPa' --until '1e7 cycles' --specimens 30 --sigma 0.5 --life-at-highest "
+      "'1e5 cycles' --exponent 8 --json -o " +
+      results);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json found = json::parse(run.out);
+  for (const auto& each : found["plans"]) {
+    EXPECT_GE(each["levels"][0]["stress"], 129.999);
+    int sum = 0;
+    for (const auto& level : each["levels"]) sum += level["specimens"].get<int>();
+    EXPECT_EQ(sum, 30);
+    EXPECT_GE(each["standard_error"].get<double>(),
+              found["plans"][0]["standard_error"].get<double>() * 0.999);
+  }
+  for (const char* name : {"report.html", "plan.json", "tables/plans.csv", "tables/levels.csv",
+                           "tables/sensitivity.csv", "tables/planning-values.csv"})
+    EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
+}
+
+TEST_F(PlanAccelerate, RefusesWhatItCannotPlan) {
+  EXPECT_THAT(refusal("--use '130 degC' --highest '120 degC' --until '183 d' --specimens 300 " +
+                      shares + "--sigma 0.6"),
+              HasSubstr("--use: '130 degC' must be below --highest"));
+  EXPECT_THAT(refusal("--use '50 MPa' --highest '120 degC' --until '183 d' --specimens 300 " +
+                      shares + "--sigma 0.6"),
+              HasSubstr("--use"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --goal MTTF"), HasSubstr("--goal: 'MTTF'"));
+  EXPECT_THAT(refusal(test + shares), HasSubstr("--shape, --sigma"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --shape 2"), HasSubstr("give one of them"));
+  EXPECT_THAT(refusal(test + shares + "--sigma -0.6"), HasSubstr("must be positive"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %' --failing-at-highest '120 %'"),
+              HasSubstr("below 100 %"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '95 %' --failing-at-highest '90 %'"),
+              HasSubstr("life must fall with stress"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %'"), HasSubstr("not 1"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --activation-energy '0.7 eV'"),
+              HasSubstr("not 3"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %' --exponent 4"),
+              HasSubstr("--exponent: belongs to --relation inverse-power"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-highest '90 %' --life-at-highest '60 d'"),
+              HasSubstr("give one"));
+  EXPECT_THAT(refusal(test + "--sigma 0.6 --failing-at-use '0.1 %' --life-at-highest '60 km'"),
+              HasSubstr("dimension of --until"));
+  EXPECT_THAT(refusal("--use '50 degC' --highest '120 degC' --until 'soon' --specimens 300 " +
+                      shares + "--sigma 0.6"),
+              HasSubstr("--until"));
+  EXPECT_THAT(refusal("--use '50 degC' --highest '120 degC' --until '183 d' --specimens 3 " +
+                      shares + "--sigma 0.6"),
+              HasSubstr("--specimens"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --low '40 degC'"), HasSubstr("--low"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --middle-share '95 %'"),
+              HasSubstr("--middle-share"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --relation arhenius"), HasSubstr("arrhenius"));
+}
+
+}  // namespace
+}  // namespace wearwell
