@@ -11,6 +11,7 @@ void add_plan_command(CLI::App& app, Models models, int& exit_code) {
       app.add_subcommand("plan", "Plan tests and inspections: which next, how many, how long");
   command->require_subcommand(1);
   add_inspect_command(*command, models, exit_code);
+  add_next_command(*command, models, exit_code);
 }
 
 }  // namespace wearwell::plan

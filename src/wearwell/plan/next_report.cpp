@@ -1,0 +1,335 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/plan/next_plan.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/text_table.h"
+
+namespace wearwell::plan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_in_terminal = 15;
+
+std::string unit_after(const Unit& unit) {
+  return unit.text == "1" ? "" : " " + unit.text;
+}
+
+// "factor 2.27", or "31 MPa".
+std::string width_text(const NextPlan& plan, double width) {
+  return plan.logarithmic ? fmt::format("factor {}", plain_number(std::exp(width), 3))
+                          : fmt::format("{}{}", plain_number(width, 3), unit_after(plan.goal.unit));
+}
+
+std::string present_text(const NextPlan& plan) {
+  const std::string done = plan.tests_done > 0
+                               ? fmt::format(" (with {} test{} since the fit)", plan.tests_done,
+                                             plan.tests_done == 1 ? "" : "s")
+                               : "";
+  return fmt::format("{}{}: {}, 90 % interval {}{} ({})", plan.goal.name, done,
+                     plain_number(plan.in_unit(plan.now.median)),
+                     plain_range(plan.in_unit(plan.now.low), plan.in_unit(plan.now.high)),
+                     unit_after(plan.goal.unit), width_text(plan, plan.now.width()));
+}
+
+std::string specimens_text(int count) {
+  return count == 1 ? "one specimen" : fmt::format("{} specimens", count);
+}
+
+// The expected width, from the present one of the whole posterior.
+double expected_width(const NextPlan& plan, double narrowing) {
+  return plan.now.width() * (1 - narrowing);
+}
+
+std::string with_error(double percent, double error) {
+  if (error < 0.05) return fmt::format("{:.3g} %", percent);
+  return fmt::format("{:.3g} +- {:.1g} %", percent, error);
+}
+
+std::string best_text(const NextPlan& plan) {
+  if (!plan.worth_it) return plan.why_not;
+  const Judged& best = plan.judged.front();
+  std::string text =
+      fmt::format("Test next: {}, {}. Its expected narrowing of the interval is {}, to {}.",
+                  best.candidate.name, specimens_text(best.candidate.specimens),
+                  with_error(100 * best.narrowing, 100 * best.narrowing_error),
+                  width_text(plan, expected_width(plan, best.narrowing)));
+  if (!best.candidate.outside.empty())
+    text += fmt::format(" It is an extrapolation: {}.", fmt::join(best.candidate.outside, "; "));
+  return text;
+}
+
+std::string batch_text(const NextPlan& plan) {
+  const ChosenBatch& batch = *plan.batch;
+  if (batch.chosen.empty()) return "No batch: no candidate is within the budget, or none helps.";
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < batch.chosen.size();) {
+    std::size_t end = i;
+    while (end < batch.chosen.size() && batch.chosen[end] == batch.chosen[i]) ++end;
+    const Candidate& each = plan.judged[batch.chosen[i]].candidate;
+    const std::size_t specimens = (end - i) * static_cast<std::size_t>(each.specimens);
+    parts.push_back(fmt::format("{} x {}", specimens, each.name));
+    i = end;
+  }
+  std::string text =
+      fmt::format("Together: {}. Expected narrowing {}, to {}", fmt::join(parts, "; "),
+                  with_error(100 * batch.narrowing, 100 * batch.narrowing_error),
+                  width_text(plan, expected_width(plan, batch.narrowing)));
+  if (batch.cost)
+    text += fmt::format(", for {}{}", plain_number(*batch.cost),
+                        plan.currency.empty() ? "" : " " + plan.currency);
+  text += ".";
+  if (batch.shortlist < plan.judged.size())
+    text += fmt::format(
+        " Considered were the {} candidates of {} with the highest gain, or gain "
+        "per cost.",
+        batch.shortlist, plan.judged.size());
+  return text;
+}
+
+std::string target_text(const NextPlan& plan) {
+  const Target& target = *plan.target;
+  if (target.reached)
+    return fmt::format("Reached: the interval ({}) is within '{}'; no further test is needed.",
+                       width_text(plan, plan.now.width()), target.text);
+  if (!target.tests)
+    return fmt::format(
+        "'{}' is not reached: it takes more than {} further specimens of the best "
+        "candidate.",
+        target.text, target.most);
+  return fmt::format(
+      "'{}' is not reached: about {} further specimen{} of the best candidate bring "
+      "the expected width there.",
+      target.text, *target.tests, *target.tests == 1 ? "" : "s");
+}
+
+present::Table candidates_table(const NextPlan& plan) {
+  const bool lives = !plan.use_unit.empty();
+  const bool costs = plan.judged.front().cost.has_value();
+  const bool stops = std::any_of(plan.judged.begin(), plan.judged.end(), [](const Judged& each) {
+    return each.candidate.stop.has_value();
+  });
+  const std::string currency = plan.currency.empty() ? "1" : plan.currency;
+  present::Table table{"candidates",
+              "Candidates, best first",
+              {{"candidate"},
+               {"specimens", "1", present::given},
+               {"narrowing", "%", present::digits(3)},
+               {"error", "%", present::digits(1)},
+               {plan.logarithmic ? "expected factor" : "expected width",
+                plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
+               {"variance left", "%", present::digits(3)},
+               {"information", "nat", present::digits(3)}}};
+  if (lives) table.columns.push_back({"expected test", plan.use_unit, present::life()});
+  if (stops) table.columns.push_back({"run-outs", "%", present::digits(3)});
+  if (costs) {
+    table.columns.push_back({"cost", currency, present::digits(4)});
+    table.columns.push_back({"narrowing per cost", "1", present::digits(3)});
+  }
+  table.columns.push_back({"note"});
+  for (const Judged& each : plan.judged) {
+    const double width = expected_width(plan, each.narrowing);
+    std::vector<present::Cell> row = {each.candidate.name,
+                                      static_cast<double>(each.candidate.specimens),
+                                      100 * each.narrowing,
+                                      100 * each.narrowing_error,
+                                      plan.logarithmic ? std::exp(width) : width,
+                                      100 * each.variance_share,
+                                      each.gain.information};
+    if (lives) row.emplace_back(each.gain.use);
+    if (stops)
+      row.emplace_back(each.candidate.stop ? present::Cell(100 * each.gain.runout)
+                                           : present::Cell());
+    if (costs) {
+      row.emplace_back(*each.cost);
+      row.emplace_back(100 * each.narrowing / *each.cost);
+    }
+    row.emplace_back(each.candidate.outside.empty() ? std::string() : std::string("extrapolation"));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string next_table_text(const present::Table& table) {
+  std::vector<std::vector<std::string>> rows(1);
+  std::vector<std::size_t> shown;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const bool any = std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+      const auto* const words = std::get_if<std::string>(&row[c]);
+      return !std::holds_alternative<std::monostate>(row[c]) && !(words && words->empty());
+    });
+    if (any) shown.push_back(c);
+  }
+  for (const std::size_t c : shown) rows[0].push_back(present::heading(table.columns[c]));
+  for (const auto& row : table.rows) {
+    if (rows.size() > most_in_terminal) break;
+    rows.emplace_back();
+    for (const std::size_t c : shown) {
+      const double* const number = std::get_if<double>(&row[c]);
+      const auto* const words = std::get_if<std::string>(&row[c]);
+      rows.back().push_back(
+          number  ? present::description(*number, table.columns[c].format, Script::terminal)
+          : words ? *words
+                  : "");
+    }
+  }
+  std::string text = "\n" + table.caption + "\n" + text_table(rows);
+  if (table.rows.size() > most_in_terminal)
+    text += fmt::format("... and {} more\n", table.rows.size() - most_in_terminal);
+  return text;
+}
+
+std::string next_text(const NextPlan& plan) {
+  std::string text = wrapped(printable(plan.title), 0, 2) +
+                     wrapped(printable(present_text(plan)), 2, 4) + "\n" +
+                     wrapped(printable(best_text(plan)), 0, 2);
+  if (plan.batch) text += wrapped(printable(batch_text(plan)), 0, 2);
+  if (plan.target) text += wrapped(printable(target_text(plan)), 0, 2);
+  text += next_table_text(candidates_table(plan));
+  for (const std::string& note : plan.notes) text += wrapped("Note: " + printable(note), 2, 4);
+  if (!plan.checks.empty()) text += "\nChecks\n";
+  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
+  for (const Check& check : plan.checks) {
+    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
+                                printable(check.detail)),
+                    2, 8);
+    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
+  }
+  return text;
+}
+
+std::string how_computed(const NextPlan& plan, const NextQuestion& question) {
+  const bool several = std::any_of(plan.judged.begin(), plan.judged.end(),
+                                   [](const Judged& each) { return each.candidate.specimens > 1; });
+  std::string text = fmt::format(
+      "Narrowing is 1 minus the expected width of the 90 % interval over the present one{}. Each "
+      "candidate's outcomes are integrated over {} nodes of the posterior",
+      plan.logarithmic ? ", widths on a logarithmic scale" : "", plan.points.goal.size());
+  if (several || plan.batch)
+    text += fmt::format(
+        "; more than one specimen by {} simulated results, whose standard error is "
+        "stated",
+        question.samples);
+  return text + ".";
+}
+
+std::vector<present::Section> next_sections(const NextPlan& plan, const NextQuestion& question) {
+  present::Section answer{"answer", "Which test next"};
+  answer.add(present::Prose{best_text(plan), true});
+  answer.add(present::Prose{present_text(plan) + "."});
+  if (plan.batch) answer.add(present::Prose{batch_text(plan)});
+  if (plan.target) answer.add(present::Prose{target_text(plan)});
+  for (const Check& check : plan.checks)
+    answer.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+                                html::capital(check.detail) + ". " + check.advice});
+  if (auto figures = next_figures(plan); !figures.empty())
+    answer.add(present::Figures{std::move(figures)});
+  present::Section candidates{"candidates", "Candidates"};
+  candidates.add(candidates_table(plan));
+  candidates.add(present::Prose{how_computed(plan, question)});
+  for (const std::string& note : plan.notes)
+    candidates.add(present::Prose{html::capital(note) + "."});
+  return {answer, candidates};
+}
+
+Json finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json candidate_json(const NextPlan& plan, const Judged& each) {
+  Json json = {{"name", each.candidate.name},
+               {"row", each.candidate.row + 1},
+               {"specimens", each.candidate.specimens},
+               {"stop", each.candidate.stop ? Json(*each.candidate.stop) : Json()}};
+  Json conditions = Json::object();
+  for (const ConditionColumn& condition : plan.conditions) {
+    const present::Cell none;
+    const auto& column = plan.condition_values.column(condition.heading);
+    conditions[condition.name] =
+        condition.words ? Json(cell_word(column, each.candidate.row))
+                        : finite(cell_number(plan.condition_values, column, each.candidate.row));
+  }
+  json["conditions"] = std::move(conditions);
+  const double width = expected_width(plan, each.narrowing);
+  json["narrowing"] = each.narrowing;
+  json["error"] = each.narrowing_error;
+  json["width"] = plan.logarithmic ? std::exp(width) : width;
+  json["variance_left"] = each.variance_share;
+  json["variance_error"] = each.gain.variance_error / (plan.nodes.sd * plan.nodes.sd);
+  json["information"] = each.gain.information;
+  json["information_error"] = each.gain.information_error;
+  json["test"] = plan.use_unit.empty() ? Json() : finite(each.gain.use);
+  json["runouts"] = each.gain.runout;
+  json["cost"] = each.cost ? Json(*each.cost) : Json();
+  json["score"] = each.score;
+  json["effective"] = each.gain.effective;
+  json["outside"] = each.candidate.outside;
+  return json;
+}
+
+Json next_json(const NextPlan& plan, const NextQuestion& question) {
+  Json json = {{"title", plan.title},
+               {"trusted", plan.trusted},
+               {"goal",
+                {{"name", plan.goal.name},
+                 {"unit", plan.goal.unit.text},
+                 {"scale", plan.logarithmic ? "logarithmic" : "linear"},
+                 {"q05", plan.in_unit(plan.now.low)},
+                 {"q50", plan.in_unit(plan.now.median)},
+                 {"q95", plan.in_unit(plan.now.high)},
+                 {"width", plan.logarithmic ? std::exp(plan.now.width()) : plan.now.width()},
+                 {"sd", plan.nodes.sd}}},
+               {"by", question.by},
+               {"worth_it", plan.worth_it},
+               {"why_not", plan.why_not.empty() ? Json() : Json(plan.why_not)},
+               {"test_unit", plan.use_unit.empty() ? Json() : Json(plan.use_unit)},
+               {"currency", plan.currency.empty() ? Json() : Json(plan.currency)},
+               {"nodes", plan.points.goal.size()},
+               {"samples", question.samples},
+               {"seed", question.seed},
+               {"tests_done", plan.tests_done}};
+  Json candidates = Json::array();
+  for (const Judged& each : plan.judged) candidates.push_back(candidate_json(plan, each));
+  json["candidates"] = std::move(candidates);
+  if (plan.batch) {
+    Json chosen = Json::array();
+    for (const std::size_t i : plan.batch->chosen)
+      chosen.push_back({{"name", plan.judged[i].candidate.name},
+                        {"row", plan.judged[i].candidate.row + 1},
+                        {"specimens", plan.judged[i].candidate.specimens}});
+    json["batch"] = {{"chosen", std::move(chosen)},
+                     {"narrowing", plan.batch->narrowing},
+                     {"error", plan.batch->narrowing_error},
+                     {"cost", plan.batch->cost ? Json(*plan.batch->cost) : Json()},
+                     {"considered", plan.batch->shortlist}};
+  }
+  if (plan.target)
+    json["until"] = {{"text", plan.target->text},
+                     {"reached", plan.target->reached},
+                     {"tests", plan.target->tests ? Json(*plan.target->tests) : Json()},
+                     {"most", plan.target->most}};
+  Json checks = Json::array();
+  static constexpr const char* words[] = {"pass", "warn", "fail"};
+  for (const Check& check : plan.checks)
+    checks.push_back({{"name", check.name},
+                      {"verdict", words[static_cast<int>(check.verdict)]},
+                      {"detail", check.detail}});
+  json["checks"] = std::move(checks);
+  json["notes"] = plan.notes;
+  return json;
+}
+
+}  // namespace
+
+Answer answer_of(const NextPlan& plan, const NextQuestion& question) {
+  return {plan.title, next_text(plan), next_sections(plan, question), next_json(plan, question),
+          plan.trusted};
+}
+
+}  // namespace wearwell::plan

@@ -1,0 +1,285 @@
+#include "wearwell/plan/test_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/as_read.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/prob/family_form.h"
+#include "wearwell/study/inference_data.h"
+
+namespace wearwell::plan {
+namespace {
+
+using prognosis::DataRoles;
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Unit unit_of_column(const Column& column, const std::string& stated) {
+  const std::string text = !stated.empty()        ? stated
+                           : !column.unit.empty() ? bare_unit(column.unit)
+                                                  : read_heading(column.name, "").unit;
+  const auto read = text.empty() ? std::nullopt : parse_unit(text);
+  if (!read) return {"1", 1, 0};
+  return {text, read->scale, read->offset};
+}
+
+// [predict] of an S-N study may name types of its data and does not change its likelihood.
+TextFile without_predict(const TextFile& study) {
+  TextFile rest = study;
+  rest.text.clear();
+  bool inside = false;
+  for (std::size_t at = 0; at < study.text.size();) {
+    const std::size_t end = std::min(study.text.find('\n', at), study.text.size() - 1) + 1;
+    const std::string line = study.text.substr(at, end - at);
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != line.npos && line[first] == '[')
+      inside = line.compare(first, 9, "[predict]") == 0 || line.compare(first, 9, "[predict.") == 0;
+    if (!inside) rest.text += line;
+    at = end;
+  }
+  return rest;
+}
+
+const DataRoles::Named* used_as(const DataRoles& roles, const std::string& name) {
+  for (const DataRoles::Named& each : roles.used)
+    if (each.name == name) return &each;
+  return nullptr;
+}
+
+// The column that a test measures; its family decides what values it can have.
+void find_measured(const TomlReader& root, const std::string& measure, TestStudy& study) {
+  const std::string model = root.required_text("model");
+  if (model == "staircase") {
+    if (!measure.empty())
+      throw InputError("--measure: a staircase test shows failure or run-out, not a number");
+    return;
+  }
+  std::vector<std::string> names;
+  for (const DataRoles::Named& each : study.roles.used)
+    if (among(study.roles.measured, each.column)) names.push_back(each.name);
+  if (model == "sn") names = {"life"};
+  if (names.empty() || (model == "archard-joint" && names.size() > 1))
+    throw InputError(
+        "plan: a test of this study is not one row with one measured value, so that its outcome "
+        "cannot be predicted row by row");
+  if (!measure.empty() && !among(names, measure))
+    throw InputError(fmt::format("--measure: there is no measured column '{}'; it is one of {}{}",
+                                 printable(measure), fmt::join(names, ", "),
+                                 did_you_mean(measure, names)));
+  if (measure.empty() && names.size() > 1)
+    throw InputError(
+        fmt::format("--measure is missing: the study measures {}; which of them does "
+                    "a test measure?",
+                    fmt::join(names, ", ")));
+  study.measured_name = measure.empty() ? names.front() : measure;
+  const DataRoles::Named* const named = used_as(study.roles, study.measured_name);
+  study.measured = named->column;
+  study.measured_unit = unit_of_column(study.table().column(named->column), named->unit);
+  study.positive = model == "sn";
+  study.is_life = model == "sn";
+  if (model != "formula") return;
+  const auto predict = root.table("predict");
+  const TomlReader likelihood =
+      root.required_table("likelihood").required_table(study.measured_name);
+  const std::string family = likelihood.required_text("family");
+  const ResponseForm* const form = given_form(
+      response_forms(), family, [&](std::string_view name) { return likelihood.has(name); });
+  if (form && form->counted)
+    throw InputError(fmt::format(
+        "plan: {} is a count (family \"{}\"), and tests that show counts cannot be planned yet",
+        study.measured_name, family));
+  study.positive = form && form->positive;
+  study.is_life = study.positive && !(predict && predict->has("along"));
+}
+
+// What the study's own rows say of a test's conditions.
+ConditionColumn condition_of(const Table& table, const DataRoles::Named& named, bool words) {
+  const Column& column = table.column(named.column);
+  ConditionColumn condition{named.name, named.column, unit_of_column(column, named.unit), words};
+  if (words || !holds_numbers(column)) {
+    condition.words = true;
+    for (std::size_t i = 0; i < table.rows; ++i)
+      if (const std::string word = cell_word(column, i); !among(condition.labels, word))
+        condition.labels.push_back(word);
+    return condition;
+  }
+  condition.low = INFINITY, condition.high = -INFINITY;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const double value = cell_value(table, column, i).number;
+    if (std::isnan(value)) continue;
+    condition.low = std::min(condition.low, value);
+    condition.high = std::max(condition.high, value);
+  }
+  return condition;
+}
+
+void find_conditions(const TomlReader& root, TestStudy& study) {
+  static const std::vector<std::string> of_outcomes = {"status", "lower",      "upper",
+                                                       "entry",  "life_until", "count"};
+  static const std::vector<std::string> of_specimens = {"label", "part"};
+  std::vector<std::string> varying;
+  if (const auto effects = root.table("random_effects")) varying = effects->keys();
+  const bool sn = root.required_text("model") == "sn" || root.required_text("model") == "staircase";
+  for (const DataRoles::Named& each : study.roles.used) {
+    if (each.column == study.measured || among(study.roles.measured, each.column)) continue;
+    if (each.name == "count") study.ones.push_back(each.column);
+    if (among(of_outcomes, each.name)) continue;
+    const bool unit = among(varying, each.name) || (study.roles.unit == each.column);
+    if (unit) study.new_units.push_back(each.column);
+    if (unit || (sn && among(of_specimens, each.name))) {
+      if (!unit) study.names.push_back(each.column);
+      continue;
+    }
+    study.conditions.push_back(
+        condition_of(study.table(), each, among(study.roles.words, each.column)));
+  }
+}
+
+void find_size(TestStudy& study) {
+  if (study.measured.empty()) return;
+  std::vector<double> values;
+  const Table& table = study.table();
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const double value = cell_value(table, table.column(study.measured), i).number;
+    if (std::isfinite(value) && (value > 0 || !study.positive)) values.push_back(value);
+  }
+  if (values.empty())
+    throw InputError(fmt::format("plan: column '{}' of the study has no value", study.measured));
+  std::sort(values.begin(), values.end());
+  study.typical = values[values.size() / 2];
+  study.spread = std::max(values.back() - values.front(), 1e-3 * std::abs(study.typical));
+  if (!(study.spread > 0)) study.spread = 1;
+}
+
+std::string cell_as_text(const Column& column, std::size_t row) {
+  return column.is_number
+             ? (std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]))
+             : column.text[row];
+}
+
+void become_text(Column& column, std::size_t rows) {
+  if (!column.is_number) return;
+  for (std::size_t i = 0; i < rows; ++i) column.text.push_back(cell_as_text(column, i));
+  column.numbers.clear();
+  column.is_number = false;
+  column.marks = NumberMarks{'.', 0};
+}
+
+void push(Column& column, double value) {
+  column.is_number ? column.numbers.push_back(value)
+                   : column.text.push_back(std::isnan(value) ? "" : fmt::format("{}", value));
+}
+
+}  // namespace
+
+TestStudy test_study(const Source& source, const ReadStudy& read, const std::string& measure) {
+  TestStudy study{source, read};
+  const TomlReader root = TomlReader::parse(source.study);
+  const TomlReader data = root.required_table("data");
+  study.key = as_read_name(data);
+  if (!study.source.tables.contains(study.key))
+    study.source.tables[study.key] = read_table(data, source);
+  study.roles = prognosis::data_roles(root, study.table());
+  find_measured(root, measure, study);
+  find_conditions(root, study);
+  if (used_as(study.roles, "status"))
+    study.status = read_life_status(data.required_table("columns"), study.table());
+  find_size(study);
+  const auto whole = read(study.source);
+  const PosteriorStudy& own = require_posterior_study(*whole);
+  for (const DataColumn& each : own.data_columns) {
+    if (each.name != study.measured_name) continue;
+    study.measured_unit = each.unit;
+    study.measured_si = each.si;
+  }
+  study.factor_noun = own.observation;
+  if (root.required_text("model") == "sn") {
+    study.source.study = without_predict(study.source.study);
+    study.own = require_posterior_study(*read(study.source)).likelihood(own.data_rows);
+  } else {
+    study.own = own.likelihood(own.data_rows);
+  }
+  return study;
+}
+
+Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
+                         std::span<const std::size_t> rows, std::span<const TestOutcome> outcomes,
+                         const std::string& prefix) {
+  const Table& like = study.table();
+  Table table{conditions.source, {}, rows.size()};
+  const bool by_limit = !study.status;  // a run-out is a limit: ">1e6"
+  const bool any_runout =
+      std::any_of(outcomes.begin(), outcomes.end(), [](const auto& each) { return each.runout; });
+  for (const Column& of : like.columns) {
+    Column column{of.name, of.is_number, {}, {}, of.unit, of.marks};
+    const bool measured = of.name == study.measured;
+    const bool status = study.status && of.name == study.status->column;
+    if (status || (measured && by_limit && any_runout)) column.is_number = false;
+    if (measured && !column.is_number) column.marks = NumberMarks{'.', 0};
+    const bool condition =
+        std::any_of(study.conditions.begin(), study.conditions.end(),
+                    [&](const ConditionColumn& each) { return each.heading == of.name; });
+    const bool unit = among(study.new_units, of.name), name = among(study.names, of.name);
+    if (unit || name) column.is_number = false;
+    const Column* const from = condition ? &conditions.column(of.name) : nullptr;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const TestOutcome& outcome = outcomes[i];
+      if (measured) {
+        column.is_number ? column.numbers.push_back(outcome.value)
+                         : column.text.push_back(fmt::format(
+                               "{}{}", by_limit && outcome.runout ? ">" : "", outcome.value));
+      } else if (status) {
+        column.text.push_back(outcome.runout ? "runout" : "failure");
+      } else if (unit || name) {
+        column.text.push_back(fmt::format("{} {}", prefix, i + 1));
+      } else if (among(study.ones, of.name)) {
+        push(column, 1);
+      } else if (from && column.is_number) {
+        column.numbers.push_back(cell_value(conditions, *from, rows[i]).number);
+      } else if (from) {
+        column.text.push_back(cell_as_text(*from, rows[i]));
+      } else {
+        push(column, NAN);
+      }
+    }
+    table.columns.push_back(std::move(column));
+  }
+  for (const std::size_t row : rows) table.origins.push_back(row + 1);
+  return table;
+}
+
+Source with_rows(const TestStudy& study, const Table& rows) {
+  Source source = study.source;
+  Table& table = source.tables[study.key];
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    Column& column = table.columns[c];
+    Column more = rows.columns[c];
+    if (column.is_number != more.is_number) {
+      become_text(column, table.rows);
+      become_text(more, rows.rows);
+    }
+    column.numbers.insert(column.numbers.end(), more.numbers.begin(), more.numbers.end());
+    column.text.insert(column.text.end(), more.text.begin(), more.text.end());
+  }
+  // Messages name the row of the tests.
+  table.origins.clear();
+  for (std::size_t i = 0; i < table.rows; ++i) table.origins.push_back(i + 1);
+  table.origins.insert(table.origins.end(), rows.origins.begin(), rows.origins.end());
+  table.rows += rows.rows;
+  table.lines.clear();
+  table.source = rows.source;
+  return source;
+}
+
+}  // namespace wearwell::plan
