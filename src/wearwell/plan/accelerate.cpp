@@ -63,9 +63,10 @@ std::string prior_sentence(const AccelerationResult& result) {
 }
 
 constexpr const char* curvature_note =
+    "Standard error: of the natural logarithm of the goal, of large samples. 90 % factor: the "
+    "interval is the estimate times and divided by it. Variance ratio: against the optimum. "
     "Departure noticed: the factor on life by which the middle level must lie off the line between "
-    "the others to be noticed with 80 % probability (5 % test). Standard errors are those of large "
-    "samples.";
+    "the others to be noticed with 80 % probability (5 % test).";
 
 struct PlanWarning {
   std::string name, text;

@@ -128,7 +128,11 @@ std::string plan_name(PlanKind kind) {
 }
 
 std::string stress_text(const AccelerationTest& test, double xi) {
-  return fmt::format("{} {}", plain_number(from_si(test.stress_unit, test.stress(xi))),
+  const double shown = from_si(test.stress_unit, test.stress(xi));
+  return fmt::format("{} {}",
+                     std::abs(shown) < 9999.5 && std::abs(shown) >= 0.01
+                         ? fmt::format("{:.4g}", shown)
+                         : plain_number(shown),
                      test.stress_unit.text);
 }
 

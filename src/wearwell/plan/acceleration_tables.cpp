@@ -64,11 +64,11 @@ present::Table acceleration_plans_table(const AccelerationResult& result) {
                        fmt::format("Plans: precision of {} at {}", result.test.question.goal,
                                    stress_text(result.test, 0)),
                        {{"plan"},
-                        {"standard error of log life", "1", present::digits(4)},
-                        {"factor of the 90 % interval", "1", present::digits(3)},
-                        {"variance against the optimum", "1", present::digits(3)},
-                        {"standard error of curvature", "1", present::digits(3)},
-                        {"departure noticed, factor on life", "1", present::digits(3)}}};
+                        {"standard error", "1", present::digits(4)},
+                        {"90 % factor", "1", present::digits(3)},
+                        {"variance ratio", "1", present::digits(3)},
+                        {"error of curvature", "1", present::digits(3)},
+                        {"departure noticed", "1", present::digits(3)}}};
   for (const AccelerationPlan& plan : result.plans)
     table.rows.push_back({plan_name(plan.kind), plan.standard_error,
                           interval_factor(plan.standard_error),
@@ -88,9 +88,8 @@ present::Table levels_table(const AccelerationResult& result) {
        {"specimens", "1", present::given},
        {"share", "%", present::digits(3)},
        {"fail", "%", present::digits(3)},
-       {"expected failures", "1", present::digits(3)},
-       {fmt::format("at least {} failures", test.question.least_failures), "%",
-        present::digits(3)}}};
+       {"failures expected", "1", present::digits(3)},
+       {fmt::format("{} or more", test.question.least_failures), "%", present::digits(3)}}};
   for (const AccelerationPlan& plan : result.plans)
     for (std::size_t i = 0; i < plan.levels.size(); ++i)
       table.rows.push_back(
@@ -105,7 +104,7 @@ present::Table off_values_table(const AccelerationResult& result) {
       "sensitivity", "Standard error of log life if the planning values are off", {{"true value"}}};
   for (const AccelerationPlan& plan : result.plans)
     table.columns.push_back({plan_name(plan.kind), "1", present::digits(4)});
-  table.columns.push_back({"optimum for this value", "1", present::digits(4)});
+  table.columns.push_back({"best for this", "1", present::digits(4)});
   for (const OffValues& off : result.off) {
     std::vector<present::Cell> row = {off.what};
     for (const double error : off.standard_errors) row.push_back(finite_cell(error));

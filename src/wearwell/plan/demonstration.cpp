@@ -1,5 +1,6 @@
 #include "wearwell/plan/demonstration.h"
 
+#include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
@@ -81,7 +82,8 @@ std::optional<double> least_time(std::size_t specimens, std::size_t allowed, con
   const double log_time = solve_increasing(
       [&](double x) {
         return std::log1p(-confidence) -
-               std::log(pass_probability({specimens, allowed, std::exp(x)}, scatter, failing));
+               std::log(std::max(
+                   pass_probability({specimens, allowed, std::exp(x)}, scatter, failing), 1e-300));
       },
       0, 0.5, {1e-12, 1e-12}, -widest, widest);
   if (std::abs(log_time) >= widest || std::isnan(log_time)) return std::nullopt;

@@ -124,10 +124,10 @@ std::vector<LifePoint> true_lives(const DemonstrationGoal& goal) {
     if (goal.spread) {
       truth.life *= factor;
       truth.text = fmt::format("{} = {}{}", b_life_name(truth.failing),
-                               plain_number(from_si(truth.unit, truth.life)), unit);
+                               plain_given(from_si(truth.unit, truth.life)), unit);
     } else {
       truth.failing /= factor;
-      truth.text = fmt::format("reliability = {:.6g} %", 100 * (1 - truth.failing));
+      truth.text = fmt::format("reliability = {:.5g} %", 100 * (1 - truth.failing));
     }
     all.push_back(std::move(truth));
   }

@@ -57,15 +57,15 @@ Table plans_table(const Demonstration& result) {
   const DemonstrationGoal& goal = result.goal;
   const std::string unit = goal.goal.unit.text;
   const std::string passing =
-      goal.spread ? fmt::format("passes with 90 % if {} is", b_life_name(goal.goal.failing))
-                  : "passes with 90 % if the reliability is";
+      goal.spread ? fmt::format("90 % pass if {} is", b_life_name(goal.goal.failing))
+                  : "90 % pass if reliability is";
   static constexpr const char* soughts[] = {"specimens", "time", "confidence"};
   const std::string sought = soughts[static_cast<int>(result.sought)];
   Table table{"plans",
               "Plans by the number of failures that are allowed",
-              {{"failures allowed", "1", present::given},
+              {{"failures", "1", present::given},
                {"specimens", "1", present::given},
-               {"time of each", unit, present::life()},
+               {"time each", unit, present::life()},
                {"confidence", "%", present::digits(4)},
                {passing, goal.spread ? unit : "%", present::digits(4)}}};
   const bool known = goal.spread && !goal.spread->uncertain && goal.weibull();
@@ -94,11 +94,12 @@ Table plans_table(const Demonstration& result) {
 }
 
 Table pass_table(const Demonstration& result) {
-  Table table{"probability-to-pass", "Probability to pass [%], if in truth", {{"true life"}}};
+  Table table{"probability-to-pass",
+              "Probability to pass [%] with at most so many failures, by the true life",
+              {{"true life"}}};
   for (const DemonstrationPlan& plan : result.plans)
     table.columns.push_back(
-        {fmt::format("{} of {}", failures_text(plan.test.allowed), plan.test.specimens), "1",
-         present::digits(3)});
+        {fmt::format("{} of {}", plan.test.allowed, plan.test.specimens), "1", present::digits(3)});
   for (const LifePoint& truth : true_lives(result.goal)) {
     std::vector<present::Cell> row = {truth.text};
     for (const DemonstrationPlan& plan : result.plans)
@@ -192,7 +193,8 @@ html::Figure trade_figure(const Demonstration& result) {
   return {"trade", "Sample size against test time",
           "Time of each test that shows the life with the confidence, by the number of specimens. "
           "Points are the plans of the table.",
-          plot::plot("Time of each test against the number of specimens", {"Specimens", true},
+          plot::plot("Time of each test against the number of specimens",
+                     {"Specimens", true, 1.0, 200.0},
                      {fmt::format("Time of each test [{}]", html::unit(goal.goal.unit.text)), true},
                      std::move(marks), 300)};
 }
@@ -228,16 +230,16 @@ html::Figure characteristic_figure(const Demonstration& result) {
   marks.push_back(plot::horizontal_line(100 * (1 - goal.confidence),
                                         {colour::prior, "consumer's risk", 1, 1.5, true}));
   const std::string name = b_life_name(goal.goal.failing);
-  return {
-      "characteristic", "Operating characteristic",
-      "Probability to pass by what is true. At the limit to show it is the consumer's risk, "
-      "at most 1 - confidence; what it lacks to 100 % further right is the producer's risk.",
-      plot::plot(
-          "Probability to pass against the true life",
-          goal.spread
-              ? plot::Axis{fmt::format("True {} [{}]", name, html::unit(goal.goal.unit.text)), true}
-              : plot::Axis{"True reliability at the life to show [%]"},
-          {"Probability to pass [%]", false, 0.0, 100.0}, std::move(marks), 300)};
+  return {"characteristic", "Operating characteristic",
+          "Probability to pass by what is true. At the limit to show it is the consumer's risk, "
+          "at most 1 - confidence; what it lacks to 100 % further right is the producer's risk.",
+          plot::plot("Probability to pass against the true life",
+                     goal.spread ? plot::Axis{fmt::format("True {} [{}]", name,
+                                                          html::unit(goal.goal.unit.text)),
+                                              true, goal.shown(x.front()), goal.shown(x.back())}
+                                 : plot::Axis{"True reliability at the life to show [%]", false,
+                                              100 * (1 - x.back()), 100.0},
+                     {"Probability to pass [%]", false, 0.0, 100.0}, std::move(marks), 300)};
 }
 
 }  // namespace wearwell::plan

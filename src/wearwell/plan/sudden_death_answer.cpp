@@ -42,9 +42,9 @@ present::Table sizes_table(const SuddenDeath& result) {
       fmt::format("{} groups by their size", *goal.groups),
       {{"group size", "1", present::given},
        {"specimens", "1", present::given},
-       {"passes at the earliest at", unit, present::life()},
-       {fmt::format("median first failure if {} is just the goal", name), unit, present::life()},
-       {"which is of single specimens the share", "%", present::digits(4)}}};
+       {"earliest pass", unit, present::life()},
+       {fmt::format("median first failure, {} at the goal", name), unit, present::life()},
+       {"which is the B-life", "%", present::digits(4)}}};
   for (const SuddenDeathTest& test : result.tests)
     table.rows.push_back(
         {present::count(test.size), present::count(test.size * test.groups),
@@ -80,7 +80,7 @@ html::Figure sudden_death_characteristic(const SuddenDeath& result) {
           plot::plot("Probability to pass against the true life",
                      {fmt::format("True {} [{}]", b_life_name(goal.goal.failing),
                                   html::unit(goal.goal.unit.text)),
-                      true},
+                      true, x.front(), x.back()},
                      {"Probability to pass [%]", false, 0.0, 100.0},
                      {plot::line({{"x", x}, {"y", y}}, {colour::posterior}),
                       plot::vertical_line(goal.shown(1), {colour::limit, "to show", 1, 1.5, true}),
@@ -103,7 +103,7 @@ html::Figure time_by_size(const SuddenDeath& result) {
           "Time at which the test passes if no group has failed, and the median first failure of a "
           "group if the goal is just met.",
           plot::plot(
-              "Test time against the size of the groups", {"Group size"},
+              "Test time against the size of the groups", {"Group size", false, 1.0, 20.0},
               {fmt::format("Time [{}]", html::unit(goal.goal.unit.text)), false, 0.0},
               {plot::line({{"x", x}, {"y", earliest}}, {colour::posterior, "earliest pass"}),
                plot::line({{"x", x}, {"y", median}}, {colour::measured, "median first failure"})},
