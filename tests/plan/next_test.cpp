@@ -36,6 +36,8 @@ sd = "noise"
 [prior]
 a = { distribution = "normal", mean = "0 mm", sd = "2 mm" }
 b = { distribution = "normal", mean = "0 mm", sd = "2 mm" }
+[predict]
+given = { x = "3" }
 [predict.quantities]
 at_three = "a + 3*b"
 )"}};

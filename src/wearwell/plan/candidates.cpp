@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -12,6 +13,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/prognosis/matched_rows.h"
 
 namespace wearwell::plan {
@@ -140,7 +142,7 @@ class CandidateReader {
     }
   }
 
-  void read_conditions(Candidates& found) const {
+  void read_conditions(Candidates& found) {
     std::vector<std::string> needed;
     for (const ConditionColumn& each : study_.conditions) needed.push_back(each.heading);
     Table fresh = table_;
@@ -153,6 +155,21 @@ class CandidateReader {
     found.conditions.lines = table_.lines;
     found.notes = std::move(matched.notes);
     for (const ConditionColumn& each : study_.conditions) check(each, found.conditions);
+    // Names leave out conditions that all candidates share.
+    std::vector<std::string> shared;
+    for (const ConditionColumn& each : study_.conditions) {
+      const Column& column = condition_column(found.conditions, each.heading);
+      bool varies = table_.rows == 1;
+      for (std::size_t row = 1; row < table_.rows && !varies; ++row)
+        varies = cell_word(column, row) != cell_word(column, 0);
+      varies_.push_back(varies);
+      if (!varies)
+        shared.push_back(
+            fmt::format("{} {}{}", each.name, cell_word(column, 0),
+                        each.words || each.unit.text == "1" ? "" : " " + each.unit.text));
+    }
+    if (!shared.empty())
+      found.notes.push_back(fmt::format("all candidates are at {}", fmt::join(shared, ", ")));
   }
 
   void check(const ConditionColumn& condition, const Table& table) const {
@@ -210,15 +227,16 @@ class CandidateReader {
 
   void describe_conditions(std::size_t row, const Table& conditions, Candidate& candidate) const {
     std::vector<std::string> words;
-    for (const ConditionColumn& each : study_.conditions) {
-      const Column& column = conditions.column(each.heading);
+    for (std::size_t c = 0; c < study_.conditions.size(); ++c) {
+      const ConditionColumn& each = study_.conditions[c];
+      const Column& column = condition_column(conditions, each.heading);
       if (each.words) {
-        words.push_back(fmt::format("{} {}", each.name, cell_word(column, row)));
+        if (varies_[c]) words.push_back(fmt::format("{} {}", each.name, cell_word(column, row)));
         continue;
       }
       const double value = cell_number(conditions, column, row);
       const std::string unit = each.unit.text == "1" ? "" : " " + each.unit.text;
-      words.push_back(fmt::format("{} {:.6g}{}", each.name, value, unit));
+      if (varies_[c]) words.push_back(fmt::format("{} {:.6g}{}", each.name, value, unit));
       const double slack = 1e-9 * std::max(std::abs(each.low), std::abs(each.high));
       if (value < each.low - slack || value > each.high + slack)
         candidate.outside.push_back(
@@ -227,8 +245,8 @@ class CandidateReader {
     }
     candidate.name = fmt::format("{}", fmt::join(words, ", "));
     if (candidate.stop)
-      candidate.name += fmt::format("{}stop {:.6g} {}", words.empty() ? "" : ", ", *candidate.stop,
-                                    study_.measured_unit.text);
+      candidate.name += (words.empty() ? "stop " : ", stop ") +
+                        with_plain_unit(*candidate.stop, study_.measured_unit.text);
     if (candidate.name.empty()) candidate.name = "one more test";
   }
 
@@ -237,7 +255,7 @@ class CandidateReader {
     for (const Candidate& each : found.all) {
       std::string key = fmt::format("{}|{}|", each.specimens, each.stop.value_or(-1));
       for (const ConditionColumn& condition : study_.conditions)
-        key += cell_word(found.conditions.column(condition.heading), each.row) + "|";
+        key += cell_word(condition_column(found.conditions, condition.heading), each.row) + "|";
       const auto [at, fresh] = known.emplace(key, each.row);
       if (!fresh)
         throw InputError(fmt::format("{}: rows {} and {} are the same candidate; keep one",
@@ -249,9 +267,28 @@ class CandidateReader {
   const Table& table_;
   const Column *specimens_ = nullptr, *stop_ = nullptr, *name_ = nullptr, *cost_ = nullptr;
   std::optional<Unit> stop_unit_;
+  std::vector<bool> varies_;  // of each condition: whether it differs between candidates
 };
 
 }  // namespace
+
+const Column& condition_column(const Table& conditions, const std::string& heading) {
+  for (const Column& each : conditions.columns)
+    if (each.name == heading) return each;
+  return conditions.column(heading);
+}
+
+std::pair<double, std::string> plain_unit(const std::string& unit) {
+  double factor = 1;
+  const auto [end, failure] = std::from_chars(unit.data(), unit.data() + unit.size(), factor);
+  if (failure != std::errc{} || *end != ' ') return {1, unit};
+  return {factor, std::string(end + 1, unit.data() + unit.size())};
+}
+
+std::string with_plain_unit(double value, const std::string& unit) {
+  const auto [factor, rest] = plain_unit(unit);
+  return plain_number(value * factor, 6) + (rest == "1" ? "" : " " + rest);
+}
 
 Candidates read_candidates(const TestStudy& study, const Table& table,
                            const std::optional<std::string>& cost,

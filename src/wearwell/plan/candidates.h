@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wearwell/plan/test_study.h"
@@ -25,6 +26,14 @@ struct Candidates {
   std::string currency = {};  ///< of costs, from the heading "cost [EUR]"; may be empty
   std::vector<std::string> notes = {};
 };
+
+/// The column with exactly this heading, which the table has.
+const Column& condition_column(const Table& conditions, const std::string& heading);
+
+/// A number of the unit of a table as text: "400000 cycles" for 4 of "1e5 cycles".
+std::string with_plain_unit(double value, const std::string& unit);
+/// The factor before a unit, and the rest: 1e5 and "cycles".
+std::pair<double, std::string> plain_unit(const std::string& unit);
 
 /// Columns of a table of candidates, beside conditions and the cost.
 inline constexpr const char* specimens_column = "specimens";

@@ -125,7 +125,7 @@ std::vector<Varying> varying_of(const NextPlan& plan) {
   };
   for (const ConditionColumn& each : plan.conditions) {
     if (each.words) continue;
-    const Column& column = plan.condition_values.column(each.heading);
+    const Column& column = condition_column(plan.condition_values, each.heading);
     add(each.name, each.unit.text, [&](const Candidate& candidate) {
       return cell_number(plan.condition_values, column, candidate.row);
     });
@@ -135,8 +135,14 @@ std::vector<Varying> varying_of(const NextPlan& plan) {
   return all;
 }
 
+std::string plain_name(const Varying& varying) {
+  std::string name = varying.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string axis_title(const Varying& varying) {
-  const std::string name = html::capital(varying.name);
+  const std::string name = html::capital(plain_name(varying));
   return varying.unit.empty() || varying.unit == "1"
              ? name
              : fmt::format("{} [{}]", name, html::unit(varying.unit));
@@ -183,7 +189,7 @@ html::Figure map_figure(const NextPlan& plan, const Varying& x, const Varying& y
   }
   const double high = *std::max_element(gain.begin(), gain.end());
   return {
-      "map", fmt::format("Gain over {} and {}", x.name, y.name),
+      "map", fmt::format("Gain over {} and {}", plain_name(x), plain_name(y)),
       fmt::format("Expected narrowing of the interval by {}, where other conditions differ "
                   "that of the best.",
                   specimens == 1 ? "one specimen" : fmt::format("{} specimens", specimens)),
@@ -210,8 +216,8 @@ html::Figure curve_figure(const NextPlan& plan, const Varying& x) {
         gains.size() == 1 ? "" : fmt::format("{} specimen{}", specimens, specimens == 1 ? "" : "s");
     marks.push_back(plot::line({{"x", at}, {"y", gain}}, {colour::chains[shade++ % 4], label}));
   }
-  return {"gain", fmt::format("Gain over {}", x.name),
-          "Expected narrowing of the interval, where other conditions differ that of the best.",
+  return {"gain", fmt::format("Gain over {}", plain_name(x)),
+          "Expected narrowing of the interval; where other conditions differ, that of the best.",
           plot::plot(fmt::format("Expected narrowing against {}", x.name),
                      {axis_title(x), by_ratio(x.levels)}, {"Expected narrowing [%]", false, 0.0},
                      std::move(marks), 280)};

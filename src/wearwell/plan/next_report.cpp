@@ -28,14 +28,16 @@ std::string width_text(const NextPlan& plan, double width) {
 }
 
 std::string present_text(const NextPlan& plan) {
+  const auto [factor, unit] = plain_unit(plan.goal.unit.text);
   const std::string done = plan.tests_done > 0
                                ? fmt::format(" (with {} test{} since the fit)", plan.tests_done,
                                              plan.tests_done == 1 ? "" : "s")
                                : "";
-  return fmt::format("{}{}: {}, 90 % interval {}{} ({})", plan.goal.name, done,
-                     plain_number(plan.in_unit(plan.now.median)),
-                     plain_range(plan.in_unit(plan.now.low), plan.in_unit(plan.now.high)),
-                     unit_after(plan.goal.unit), width_text(plan, plan.now.width()));
+  return fmt::format(
+      "{}{}: {}, 90 % interval {}{} ({})", plan.goal.name, done,
+      plain_number(factor * plan.in_unit(plan.now.median)),
+      plain_range(factor * plan.in_unit(plan.now.low), factor * plan.in_unit(plan.now.high)),
+      unit == "1" ? "" : " " + unit, width_text(plan, plan.now.width()));
 }
 
 std::string specimens_text(int count) {
@@ -117,16 +119,16 @@ present::Table candidates_table(const NextPlan& plan) {
   });
   const std::string currency = plan.currency.empty() ? "1" : plan.currency;
   present::Table table{"candidates",
-              "Candidates, best first",
-              {{"candidate"},
-               {"specimens", "1", present::given},
-               {"narrowing", "%", present::digits(3)},
-               {"error", "%", present::digits(1)},
-               {plan.logarithmic ? "expected factor" : "expected width",
-                plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
-               {"variance left", "%", present::digits(3)},
-               {"information", "nat", present::digits(3)}}};
-  if (lives) table.columns.push_back({"expected test", plan.use_unit, present::life()});
+                       "Candidates, best first",
+                       {{"candidate"},
+                        {"specimens", "1", present::given},
+                        {"narrowing", "%", present::digits(3)},
+                        {"error", "%", present::digits(1)},
+                        {plan.logarithmic ? "expected factor" : "expected width",
+                         plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
+                        {"variance left", "%", present::digits(3)},
+                        {"information", "nat", present::digits(3)}}};
+  if (lives) table.columns.push_back({"expected test", plan.use_unit, present::digits(3)});
   if (stops) table.columns.push_back({"run-outs", "%", present::digits(3)});
   if (costs) {
     table.columns.push_back({"cost", currency, present::digits(4)});
@@ -135,13 +137,14 @@ present::Table candidates_table(const NextPlan& plan) {
   table.columns.push_back({"note"});
   for (const Judged& each : plan.judged) {
     const double width = expected_width(plan, each.narrowing);
-    std::vector<present::Cell> row = {each.candidate.name,
-                                      static_cast<double>(each.candidate.specimens),
-                                      100 * each.narrowing,
-                                      100 * each.narrowing_error,
-                                      plan.logarithmic ? std::exp(width) : width,
-                                      100 * each.variance_share,
-                                      each.gain.information};
+    std::vector<present::Cell> row = {
+        each.candidate.name,
+        static_cast<double>(each.candidate.specimens),
+        100 * each.narrowing,
+        each.narrowing_error > 5e-5 ? present::Cell(100 * each.narrowing_error) : present::Cell(),
+        plan.logarithmic ? std::exp(width) : width,
+        100 * each.variance_share,
+        each.gain.information};
     if (lives) row.emplace_back(each.gain.use);
     if (stops)
       row.emplace_back(each.candidate.stop ? present::Cell(100 * each.gain.runout)
@@ -249,8 +252,7 @@ Json candidate_json(const NextPlan& plan, const Judged& each) {
                {"stop", each.candidate.stop ? Json(*each.candidate.stop) : Json()}};
   Json conditions = Json::object();
   for (const ConditionColumn& condition : plan.conditions) {
-    const present::Cell none;
-    const auto& column = plan.condition_values.column(condition.heading);
+    const auto& column = condition_column(plan.condition_values, condition.heading);
     conditions[condition.name] =
         condition.words ? Json(cell_word(column, each.candidate.row))
                         : finite(cell_number(plan.condition_values, column, each.candidate.row));

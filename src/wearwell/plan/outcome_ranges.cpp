@@ -9,7 +9,7 @@ namespace wearwell::plan {
 namespace {
 
 constexpr int grid_points = 41;
-constexpr double negligible = 22;  // a log density so far below the highest does not count
+constexpr double negligible = 17;  // a log density so far below the highest does not count
 constexpr int most_rounds = 9;
 
 std::vector<double> even(double low, double high) {
@@ -88,7 +88,7 @@ std::vector<OutcomeRange> outcome_ranges(const TestStudy& study, const Table& co
         rows.outcomes.push_back({scale.value(t), false});
       }
     }
-    const Eigen::MatrixXd log_density = log_densities(
+    const Points log_density = log_densities(
         study, rows_with_outcomes(study, conditions, rows.conditions, rows.outcomes, "planned"),
         scouts);
     std::vector<std::size_t> still;

@@ -29,7 +29,8 @@ std::vector<double> factors_at(const LogDensity& likelihood, const Points& nodes
 }
 
 bool same_factor(double a, double b) {
-  return a == b || std::abs(a - b) <= 1e-9 * (1 + std::abs(a)) || (std::isnan(a) && std::isnan(b));
+  if (!std::isfinite(a) || !std::isfinite(b)) return a == b || (std::isnan(a) && std::isnan(b));
+  return std::abs(a - b) <= 1e-7 * (1 + std::abs(a));
 }
 
 // Where the factors of `count` new rows stand among those of all: the study's own stay as they are
@@ -44,7 +45,7 @@ std::size_t first_new(std::span<const double> own, std::span<const double> all, 
 }
 
 constexpr int panel_nodes = 6;
-constexpr double panel_widths = 2;  // in standard deviations of the narrowest distribution
+constexpr double panel_widths = 2.4;  // in standard deviations of the narrowest distribution
 constexpr int most_panels = 60;
 
 struct Quadrature {
@@ -138,8 +139,9 @@ class Chunk {
       if (grids.back().runout) cells.push_back({*tests_[i].stop, true});
       rows.resize(cells.size(), tests_[i].row);
     }
-    const Eigen::MatrixXd all = log_densities(
+    const Points all = log_densities(
         study_, rows_with_outcomes(study_, conditions_, rows, cells, "planned"), nodes_);
+    require_independent(rows, cells, all);
     std::vector<Outcomes> found(tests_.size());
     tbb::parallel_for(std::size_t{0}, tests_.size(),
                       [&](std::size_t i) { found[i] = outcomes_of(grids[i], i, all, scale); });
@@ -148,6 +150,29 @@ class Chunk {
   }
 
  private:
+  // A few of the rows in reverse order must have the same densities as among all.
+  void require_independent(const std::vector<std::size_t>& rows,
+                           const std::vector<TestOutcome>& cells, const Points& all) const {
+    constexpr std::size_t few = 8;
+    const std::size_t every = std::max<std::size_t>(1, rows.size() / few);
+    std::vector<std::size_t> chosen, some_rows;
+    std::vector<TestOutcome> some_cells;
+    for (std::size_t i = rows.size(); i-- > 0;) {
+      if (i % every != 0) continue;
+      chosen.push_back(i);
+      some_rows.push_back(rows[i]);
+      some_cells.push_back(cells[i]);
+    }
+    const Points one = nodes_.row(nodes_.rows() / 2);
+    const Points again = log_densities(
+        study_, rows_with_outcomes(study_, conditions_, some_rows, some_cells, "planned"), one);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const double before = all(nodes_.rows() / 2, static_cast<Index>(chosen[k]));
+      const double now = again(0, static_cast<Index>(k));
+      if (!same_factor(before, now)) refuse_dependent();
+    }
+  }
+
   Grid grid_of(std::size_t i, const OutcomeScale& scale) const {
     const OutcomeRange& range = ranges_[i];
     Grid grid;
@@ -163,7 +188,7 @@ class Chunk {
     return grid;
   }
 
-  Outcomes outcomes_of(const Grid& grid, std::size_t i, const Eigen::MatrixXd& all,
+  Outcomes outcomes_of(const Grid& grid, std::size_t i, const Points& all,
                        const OutcomeScale& scale) const {
     const Quadrature& quadrature = grid.quadrature;
     const std::size_t n = quadrature.t.size();
@@ -171,18 +196,21 @@ class Chunk {
     outcomes.runout = grid.runout;
     outcomes.log_probability.resize(nodes_.rows(), static_cast<Index>(grid.size()));
     const double log_unit = std::log(study_.measured_unit.scale);  // densities are per SI unit
+    std::vector<double> shift;
     for (std::size_t m = 0; m < n; ++m) {
       outcomes.value.push_back(scale.value(quadrature.t[m]));
       outcomes.cell_begin.push_back(quadrature.begin[m]);
       outcomes.cell_end.push_back(quadrature.end[m]);
-      const double shift = quadrature.log_weight[m] + scale.log_slope(quadrature.t[m]) + log_unit;
-      outcomes.log_probability.col(static_cast<Index>(m)) =
-          (all.col(static_cast<Index>(grid.first + m)).array() + shift).cast<float>();
+      shift.push_back(quadrature.log_weight[m] + scale.log_slope(quadrature.t[m]) + log_unit);
     }
     if (grid.runout) {
       outcomes.value.push_back(*tests_[i].stop);
-      outcomes.log_probability.col(static_cast<Index>(n)) =
-          all.col(static_cast<Index>(grid.first + n)).cast<float>();
+      shift.push_back(0);
+    }
+    for (Index j = 0; j < nodes_.rows(); ++j) {
+      for (std::size_t m = 0; m < shift.size(); ++m)
+        outcomes.log_probability(j, static_cast<Index>(m)) =
+            static_cast<float>(all(j, static_cast<Index>(grid.first + m)) + shift[m]);
     }
     scale_to_one(outcomes, weights_);
     return outcomes;
@@ -270,7 +298,7 @@ std::size_t Outcomes::drawn_index(Index node, double u) const {
   return size() - 1;
 }
 
-Eigen::MatrixXd log_densities(const TestStudy& study, const Table& rows, const Points& nodes) {
+Points log_densities(const TestStudy& study, const Table& rows, const Points& nodes) {
   const auto read = study.read(with_rows(study, rows));
   const PosteriorStudy& joined = require_posterior_study(*read);
   if (static_cast<Index>(joined.parameters.size()) != nodes.cols())
@@ -280,7 +308,7 @@ Eigen::MatrixXd log_densities(const TestStudy& study, const Table& rows, const P
   const auto likelihood = joined.likelihood(joined.data_rows);
   const std::vector<double> own = factors_at(*study.own, nodes, 0);
   const std::size_t first = first_new(own, factors_at(*likelihood, nodes, 0), rows.rows);
-  Eigen::MatrixXd all(nodes.rows(), static_cast<Index>(rows.rows));
+  Points all(nodes.rows(), static_cast<Index>(rows.rows));
   tbb::parallel_for(Index{0}, nodes.rows(), [&](Index j) {
     const std::vector<double> factors = factors_at(*likelihood, nodes, j);
     for (std::size_t i = 0; i < rows.rows; ++i) {

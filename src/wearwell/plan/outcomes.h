@@ -48,7 +48,7 @@ struct Outcomes {
 /// own rows and the study is read again, so this holds for every model whose rows (or new units)
 /// are independent given the parameters. `nodes` are natural parameters, SI. Throws InputError
 /// where the model refuses a row (naming it), or where rows are not independent.
-Eigen::MatrixXd log_densities(const TestStudy& study, const Table& rows, const Points& nodes);
+Points log_densities(const TestStudy& study, const Table& rows, const Points& nodes);
 
 /// The outcomes of each test. `weights` of the nodes sum to 1. A test under which the model has no
 /// value, with more than 0.1 % of the weight, throws InputError that names its row; so does a test
