@@ -107,7 +107,7 @@ TEST_F(PlanInspect, CostsNoMoreThanEqualIntervalsAndNone) {
 }
 
 TEST_F(PlanInspect, GroupsVisitsThatCost) {
-  const std::string asked = lives + " --until '1500 h'" + hidden;
+  const std::string asked = lives + " --until '4000 h'" + hidden;
   const json free = answered(asked), costly = answered(asked + " --visit-cost '500 EUR'");
   EXPECT_LT(costly["visits"].size(), free["visits"].size());
   EXPECT_GE(costly["joint"]["cost"], costly["joint"]["least_possible"]);

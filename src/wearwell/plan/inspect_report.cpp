@@ -12,8 +12,6 @@
 namespace wearwell::plan {
 namespace {
 
-using present::Table;
-
 std::string inspect_percent(double share) {
   if (share > 0 && share < 0.0001) return "< 0.01 %";
   return fmt::format("{:.3g} %", 100 * share);
@@ -172,23 +170,23 @@ std::string next_text(const InspectReport& report) {
   return text;
 }
 
-std::string short_table(const Table& table) {
+std::string short_table(const present::Table& table) {
   constexpr std::size_t most = 25;
   if (table.rows.size() <= most) return "\n" + present::text(table);
-  Table few = table;
+  present::Table few = table;
   few.rows.resize(most);
   return "\n" + present::text(few) +
          fmt::format("  ... and {} more rows: -o writes all to tables/{}.csv\n",
                      table.rows.size() - most, table.id);
 }
 
-std::vector<Table> tables_of(const InspectReport& report) {
+std::vector<present::Table> tables_of(const InspectReport& report) {
   if (report.fleet) {
-    std::vector<Table> tables = {inspected_units_table(report)};
+    std::vector<present::Table> tables = {inspected_units_table(report)};
     if (!report.visits.empty()) tables.insert(tables.begin(), visits_table(report));
     return tables;
   }
-  std::vector<Table> tables = {inspections_table(report, report.units[0])};
+  std::vector<present::Table> tables = {inspections_table(report, report.units[0])};
   if (report.units[0].cost) tables.push_back(costs_table(report, report.units[0]));
   return tables;
 }
@@ -197,7 +195,7 @@ std::string inspect_text(const InspectReport& report) {
   std::string text =
       wrapped(printable(report.lives->title), 0, 2) + wrapped(asked_text(report), 2, 4) + "\n" +
       wrapped(printable(report.fleet ? fleet_answer(report) : unit_answer(report)), 0, 2);
-  for (const Table& each : tables_of(report)) text += short_table(each);
+  for (const present::Table& each : tables_of(report)) text += short_table(each);
   if (report.next) text += "\n" + wrapped(printable(next_text(report)), 0, 2);
   if (!report.no_next.empty())
     text += "\n" + wrapped("How the next reading moves the plan is not computed: " +
@@ -230,7 +228,7 @@ std::vector<present::Section> inspect_sections(const InspectReport& report) {
     const UnitInspections& unit = report.units[0];
     plan.add(present::Figures{{interval_risk_figure(report, unit), reached_figure(report, unit)}});
   }
-  for (Table& each : tables_of(report)) plan.add(std::move(each));
+  for (present::Table& each : tables_of(report)) plan.add(std::move(each));
   std::vector<present::Section> sections = {plan};
   if (report.next) {
     present::Section next{"next", "Next reading"};

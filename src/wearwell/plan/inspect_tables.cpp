@@ -10,8 +10,6 @@
 namespace wearwell::plan {
 namespace {
 
-using present::Cell;
-using present::Table;
 namespace colour = plot::colour;
 
 double in_axis(const InspectReport& report, double si) {
@@ -35,16 +33,16 @@ std::vector<double> curve_times(const UnitInspections& unit) {
 
 }  // namespace
 
-Table inspections_table(const InspectReport& report, const UnitInspections& unit) {
+present::Table inspections_table(const InspectReport& report, const UnitInspections& unit) {
   const std::string& axis = report.lives->unit.text;
-  Table table{"inspections",
-              "Inspections ahead",
-              {{"inspection"},
-               {"from now", axis},
-               {report.lives->axis, axis},
-               {"interval", axis},
-               {"risk in it", "%", present::digits(3)},
-               {"threshold reached by then", "%", present::digits(3)}}};
+  present::Table table{"inspections",
+                       "Inspections ahead",
+                       {{"inspection"},
+                        {"from now", axis},
+                        {report.lives->axis, axis},
+                        {"interval", axis},
+                        {"risk in it", "%", present::digits(3)},
+                        {"threshold reached by then", "%", present::digits(3)}}};
   const std::vector<double> risks = risks_between(unit.life, unit.times, unit.bounds.until);
   const bool placed = std::isfinite(unit.now) && unit.now > 0;
   for (std::size_t k = 0; k <= unit.times.size(); ++k) {
@@ -53,8 +51,8 @@ Table inspections_table(const InspectReport& report, const UnitInspections& unit
     const double before = k == 0 ? 0 : unit.times[k - 1];
     table.rows.push_back(
         {end ? std::string("end") : fmt::format("{}", k + 1), in_axis(report, time),
-         placed ? Cell(in_axis(report, unit.now + time)) : Cell(), in_axis(report, time - before),
-         100 * risks[k], 100 * unit.life.reached(time)});
+         placed ? present::Cell(in_axis(report, unit.now + time)) : present::Cell(),
+         in_axis(report, time - before), 100 * risks[k], 100 * unit.life.reached(time)});
   }
   if (!placed) {
     table.columns.erase(table.columns.begin() + 2);
@@ -63,20 +61,21 @@ Table inspections_table(const InspectReport& report, const UnitInspections& unit
   return table;
 }
 
-Table costs_table(const InspectReport& report, const UnitInspections& unit) {
+present::Table costs_table(const InspectReport& report, const UnitInspections& unit) {
   const std::string money = report.currency.empty() ? "1" : report.currency;
   const bool hidden = report.prices.downtime.has_value();
   const std::string& axis = report.lives->unit.text;
-  Table table{"costs",
-              "Expected until the end of the plan",
-              {{"inspections at"},
-               {"every", axis},
-               {"inspections", "1", present::digits(3)},
-               {"fails in service", "%", present::digits(3)},
-               {hidden ? "use after failure" : "use lost", axis, present::digits(3)},
-               {"cost", money}}};
+  present::Table table{"costs",
+                       "Expected until the end of the plan",
+                       {{"inspections at"},
+                        {"every", axis},
+                        {"inspections", "1", present::digits(3)},
+                        {"fails in service", "%", present::digits(3)},
+                        {hidden ? "use after failure" : "use lost", axis, present::digits(3)},
+                        {"cost", money}}};
   const auto add = [&](const std::string& name, double interval, const InspectionCost& cost) {
-    table.rows.push_back({name, interval > 0 ? Cell(in_axis(report, interval)) : Cell(),
+    table.rows.push_back({name,
+                          interval > 0 ? present::Cell(in_axis(report, interval)) : present::Cell(),
                           cost.inspections, 100 * cost.failing,
                           in_axis(report, hidden ? cost.downtime : cost.lost), cost.total});
   };
@@ -85,18 +84,18 @@ Table costs_table(const InspectReport& report, const UnitInspections& unit) {
   return table;
 }
 
-Table inspected_units_table(const InspectReport& report) {
+present::Table inspected_units_table(const InspectReport& report) {
   const std::string& axis = report.lives->unit.text;
-  Table table{"units",
-              fmt::format("Each {}, next inspection first", report.lives->noun),
-              {{report.lives->noun},
-               {"next inspection", axis},
-               {"inspections", "1", present::given},
-               {"highest risk between", "%", present::digits(3)},
-               {"RUL, 5 %", axis, present::life()},
-               {"50 %", axis, present::life()},
-               {"plan ends", axis},
-               {"cost", report.currency.empty() ? "1" : report.currency}}};
+  present::Table table{"units",
+                       fmt::format("Each {}, next inspection first", report.lives->noun),
+                       {{report.lives->noun},
+                        {"next inspection", axis},
+                        {"inspections", "1", present::given},
+                        {"highest risk between", "%", present::digits(3)},
+                        {"RUL, 5 %", axis, present::life()},
+                        {"50 %", axis, present::life()},
+                        {"plan ends", axis},
+                        {"cost", report.currency.empty() ? "1" : report.currency}}};
   std::vector<const UnitInspections*> order;
   for (const UnitInspections& each : report.units) order.push_back(&each);
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
@@ -114,12 +113,13 @@ Table inspected_units_table(const InspectReport& report) {
     const auto quantile = [&](double p) {
       return in_axis(report, each->life.latest(std::max(p, each->life.passed())));
     };
-    table.rows.push_back(
-        {each->name,
-         each->times.empty() ? Cell(std::string("none")) : Cell(in_axis(report, each->times[0])),
-         present::count(each->times.size()), 100 * *std::max_element(risks.begin(), risks.end()),
-         quantile(0.05), quantile(0.5), in_axis(report, each->bounds.until),
-         each->cost ? Cell(each->cost->total) : Cell()});
+    table.rows.push_back({each->name,
+                          each->times.empty() ? present::Cell(std::string("none"))
+                                              : present::Cell(in_axis(report, each->times[0])),
+                          present::count(each->times.size()),
+                          100 * *std::max_element(risks.begin(), risks.end()), quantile(0.05),
+                          quantile(0.5), in_axis(report, each->bounds.until),
+                          each->cost ? present::Cell(each->cost->total) : present::Cell()});
   }
   if (report.aim != InspectAim::cheapest) {
     table.columns.pop_back();
@@ -128,16 +128,16 @@ Table inspected_units_table(const InspectReport& report) {
   return table;
 }
 
-Table visits_table(const InspectReport& report) {
+present::Table visits_table(const InspectReport& report) {
   const std::string& axis = report.lives->unit.text;
-  Table table{"visits",
-              "Visits ahead",
-              {{"visit"},
-               {"from now", axis},
-               {"inspects", "1", present::given},
-               {fmt::format("{}s", report.lives->noun)},
-               {"reach the threshold by then", "1", present::digits(3)},
-               {"at least one", "%", present::digits(3)}}};
+  present::Table table{"visits",
+                       "Visits ahead",
+                       {{"visit"},
+                        {"from now", axis},
+                        {"inspects", "1", present::given},
+                        {fmt::format("{}s", report.lives->noun)},
+                        {"reach the threshold by then", "1", present::digits(3)},
+                        {"at least one", "%", present::digits(3)}}};
   for (std::size_t v = 0; v < report.visits.size(); ++v) {
     std::string names;
     std::size_t count = 0;

@@ -129,6 +129,17 @@ class VisitSearch {
         more.push_back(c);
         attempt(std::move(more));
       }
+      // Two neighbours as one.
+      for (std::size_t k = 0; k + 1 < visits.size(); ++k) {
+        const std::size_t high = k + 2 < visits.size() ? visits[k + 2] : count_;
+        for (std::size_t c = k == 0 ? 0 : visits[k - 1] + 1; c < high && k + 1 < visits.size();
+             ++c) {
+          std::vector<std::size_t> merged = visits;
+          merged.erase(merged.begin() + static_cast<std::ptrdiff_t>(k));
+          merged[k] = c;
+          attempt(std::move(merged));
+        }
+      }
     }
     return cost;
   }
@@ -149,14 +160,18 @@ std::vector<std::size_t> all_of(std::size_t count) {
   return all;
 }
 
-// Sets of visits to start from: none, those of units planned alone, and every second, fourth, ... of
-// all candidates.
+// Sets of visits to start from: none, all, those of all units planned alone and of each of them, and
+// every second, eighth, ... candidate.
 std::vector<std::vector<std::size_t>> starts(const VisitSearch& search,
                                              const std::vector<BestOfUnit>& alone) {
+  constexpr std::size_t most_units = 8, dense = 24;
   std::vector<std::vector<std::size_t>> sets = {{}};
+  if (search.count() <= dense) sets.push_back(all_of(search.count()));
   std::vector<std::size_t> together;
-  for (const BestOfUnit& each : alone)
+  for (const BestOfUnit& each : alone) {
     together.insert(together.end(), each.chosen.begin(), each.chosen.end());
+    if (alone.size() <= most_units) sets.push_back(each.chosen);
+  }
   std::sort(together.begin(), together.end());
   together.erase(std::unique(together.begin(), together.end()), together.end());
   sets.push_back(together);
