@@ -121,7 +121,7 @@ def liners():
 
 def test_inspections_of_a_table_are_the_programs(same, examples):
     table = os.path.join(examples, "decide", "lives.csv")
-    same(ww.plan.inspect(table, risk=0.02, step="50 h"), "inspect", table, "--risk", 0.02, "--step", "50 h")
+    same(ww.plan.inspect(table, risk=0.1, until="1000 h"), "inspect", table, "--risk", 0.1, "--until", "1000 h")
     costs = {"inspection_cost": "60 EUR", "failure_cost": "12000 EUR", "replacement_cost": "900 EUR"}
     options = [each for key, value in costs.items() for each in ("--" + key.replace("_", "-"), value)]
     same(ww.plan.inspect(table, new=True, **costs), "inspect", table, "--new", *options)
@@ -130,7 +130,7 @@ def test_inspections_of_a_table_are_the_programs(same, examples):
 def test_a_frame_of_lives_is_its_file(examples):
     table = os.path.join(examples, "decide", "lives.csv")
     frame = pd.read_csv(table)
-    of_file, of_frame = (ww.plan.inspect(each, risk=0.02).summary for each in (table, frame))
+    of_file, of_frame = (ww.plan.inspect(each, risk=0.1).summary for each in (table, frame))
     assert {key: value for key, value in of_frame.items() if of_file[key] != value}.keys() <= {"lives", "title"}
 
 
@@ -292,7 +292,7 @@ mean = "k * force * distance"
 sd = "sigma"
 [prior]
 k = { distribution = "lognormal", median = "1e-7 mm^3/(N m)", log_sd = 1 }
-sigma = { distribution = "half-normal", scale = "0.1 mm^3" }
+sigma = { distribution = "lognormal", median = "0.1 mm^3", log_sd = 0.3 }
 """
 size_options = {"width": "factor 1.3", "simulations": 20, "most": 40, "seed": 3}
 

@@ -66,9 +66,9 @@ test_that("errors name the argument", {
 
 test_that("inspections are the program's, of tables, folders and fits", {
   table <- example("decide", "lives.csv")
-  same(ww_plan_inspect(table, risk = 0.02, step = "50 h"), "inspect", table, "--risk", 0.02, "--step", "50 h")
+  same(ww_plan_inspect(table, risk = 0.1, until = "1000 h"), "inspect", table, "--risk", 0.1, "--until", "1000 h")
   frame <- read.csv(table, check.names = FALSE)
-  expect_identical(ww_plan_inspect(frame, risk = 0.02)$tables, ww_plan_inspect(table, risk = 0.02)$tables)
+  expect_identical(ww_plan_inspect(frame, risk = 0.1)$tables, ww_plan_inspect(table, risk = 0.1)$tables)
   fit <- quiet(ww_fit(example("formula", "study.toml"), seed = 1, report = FALSE))
   folder <- tempfile("results")
   ww_write(fit, folder)
@@ -124,7 +124,7 @@ test_that("sizes are the program's", {
                'wear = { column = "V", unit = "mm^3" }', 'force = { column = "F", unit = "N" }', 'distance = { column = "s", unit = "m" }',
                "[likelihood.wear]", 'family = "normal"', 'mean = "k * force * distance"', 'sd = "sigma"', "[prior]",
                'k = { distribution = "lognormal", median = "1e-7 mm^3/(N m)", log_sd = 1 }',
-               'sigma = { distribution = "half-normal", scale = "0.1 mm^3" }'), study)
+               'sigma = { distribution = "lognormal", median = "0.1 mm^3", log_sd = 0.3 }'), study)
   tests <- data.frame("F [N]" = c(100, 200), "s [m]" = 4e4, specimens = c(1, 2), check.names = FALSE)
   file <- tempfile(fileext = ".csv")
   write.csv(tests, file, row.names = FALSE)
