@@ -105,6 +105,8 @@ TEST_F(PlanDemonstrate, RefusesWhatItCannotPlan) {
   EXPECT_THAT(refusal("'B10 <= 1e6 cycles'"), HasSubstr("must have '>='"));
   EXPECT_THAT(refusal("'B120 >= 1e6 cycles'"), HasSubstr("below 100 %"));
   EXPECT_THAT(refusal("'B10 >= -5 h'"), HasSubstr("must be positive"));
+  EXPECT_THAT(refusal("'B10 >= 5 degC'"), HasSubstr("is not a life"));
+  EXPECT_THAT(refusal("'B10 >= 1e6 bananas'"), HasSubstr("'bananas' is not a unit"));
   EXPECT_THAT(refusal("'reliability >= 90 %'"), HasSubstr("at which life"));
   EXPECT_THAT(refusal(b10 + "--confidence 90"), HasSubstr("--confidence: '90'"));
   EXPECT_THAT(refusal(b10 + "--failures -1"), HasSubstr("--failures"));
