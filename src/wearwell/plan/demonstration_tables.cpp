@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wearwell/plan/demonstration_result.h"
@@ -150,7 +151,7 @@ html::Figure confidence_by_specimens(const Demonstration& result) {
   }
   marks.push_back(plot::horizontal_line(100 * goal.confidence,
                                         {colour::limit, "confidence to show", 1, 1.5, true}));
-  return {"trade", "Confidence by the number of specimens",
+  return {"test-time", "Confidence by the number of specimens",
           "Confidence that a test shows if it passes, each specimen tested for the life to show.",
           plot::plot("Confidence against the number of specimens", {"Specimens", false, 0.0},
                      {"Confidence [%]", false, 0.0, 100.0}, std::move(marks), 300)};
@@ -190,7 +191,7 @@ html::Figure trade_figure(const Demonstration& result) {
   }
   marks.push_back(
       plot::horizontal_line(goal.shown(1), {colour::limit, "life to show", 1, 1.5, true}));
-  return {"trade", "Sample size against test time",
+  return {"test-time", "Sample size against test time",
           "Time of each test that shows the life with the confidence, by the number of specimens. "
           "Points are the plans of the table.",
           plot::plot("Time of each test against the number of specimens",
