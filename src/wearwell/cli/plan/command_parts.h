@@ -25,6 +25,7 @@ void add_answer_options(CLI::App& command, AnswerOptions& options);
 int give_answer(const AnswerOptions& options, const std::function<Answer()>& work);
 
 void add_inspect_command(CLI::App& plan, Models models, int& exit_code);
+void add_size_command(CLI::App& plan, Models models, int& exit_code);
 void add_next_command(CLI::App& plan, Models models, int& exit_code);
 
 }  // namespace wearwell::plan

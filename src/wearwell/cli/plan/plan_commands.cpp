@@ -12,6 +12,7 @@ void add_plan_command(CLI::App& app, Models models, int& exit_code) {
   command->require_subcommand(1);
   add_inspect_command(*command, models, exit_code);
   add_next_command(*command, models, exit_code);
+  add_size_command(*command, models, exit_code);
 }
 
 }  // namespace wearwell::plan
