@@ -222,9 +222,9 @@ html::Figure characteristic_figure(const Demonstration& result) {
                              ? pass_probability(plan.test, goal.scatter, goal.goal.failing, each)
                              : pass_probability(plan.test, goal.scatter, each)));
     }
-    marks.push_back(plot::line({{"x", at}, {"y", y}},
-                               {plan_colour(i), failures_text(plan.test.allowed) +
-                                                    fmt::format(" of {}", plan.test.specimens)}));
+    marks.push_back(plot::line(
+        {{"x", at}, {"y", y}},
+        {plan_colour(i), fmt::format("{} of {}", plan.test.allowed, plan.test.specimens)}));
   }
   marks.push_back(plot::vertical_line(goal.spread ? goal.shown(1) : 100 * (1 - goal.goal.failing),
                                       {colour::limit, "to show", 1, 1.5, true}));
@@ -232,7 +232,8 @@ html::Figure characteristic_figure(const Demonstration& result) {
                                         {colour::prior, "consumer's risk", 1, 1.5, true}));
   const std::string name = b_life_name(goal.goal.failing);
   return {"characteristic", "Operating characteristic",
-          "Probability to pass by what is true. At the limit to show it is the consumer's risk, "
+          "Probability to pass with at most so many failures. At the limit to show it is the "
+          "consumer's risk, "
           "at most 1 - confidence; what it lacks to 100 % further right is the producer's risk.",
           plot::plot("Probability to pass against the true life",
                      goal.spread ? plot::Axis{fmt::format("True {} [{}]", name,
