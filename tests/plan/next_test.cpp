@@ -90,7 +90,8 @@ TEST(NextTest, IsTheClosedFormForANormalLine) {
       next_test(state, "line", reading(), line_question("x = -1, 0, 1, 3, 5")).json;
   EXPECT_EQ(json["goal"]["scale"], "linear");
   const double before = goal_variance({});
-  EXPECT_NEAR(json["goal"]["sd"].get<double>(), std::sqrt(before), 0.01 * std::sqrt(before));
+  EXPECT_NEAR(1e3 * json["goal"]["sd"].get<double>(), std::sqrt(before),
+              0.01 * std::sqrt(before));  // quantities are reported in SI: m
   const double x[] = {-1, 0, 1, 3, 5};
   for (int i = 0; i < 5; ++i) {
     const ordered_json& each = at_row(json, i + 1);
@@ -156,7 +157,7 @@ TEST(NextTest, CountsTestsDoneSinceTheFit) {
   question.tests = {table_of("log.csv", {numbers_column("y_mm", {1.5}), numbers_column("x", {2})})};
   const ordered_json json = next_test(state, "line", reading(), question).json;
   EXPECT_EQ(json["tests_done"], 1);
-  EXPECT_NEAR(json["goal"]["sd"].get<double>(), std::sqrt(goal_variance({2})),
+  EXPECT_NEAR(1e3 * json["goal"]["sd"].get<double>(), std::sqrt(goal_variance({2})),
               0.01 * std::sqrt(goal_variance({2})));
 }
 
@@ -285,7 +286,7 @@ TEST(NextTest, NamesWhatIsWrong) {
     };
   };
   EXPECT_THAT(refusal([](auto& q) { q.goal = "B10 at hanger"; }), HasSubstr("no life"));
-  EXPECT_THAT(refusal([](auto& q) { q.goal = "at_thre"; }), HasSubstr("did you mean"));
+  EXPECT_THAT(refusal([](auto& q) { q.goal = "at_thre"; }), HasSubstr("at_three of population"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = ""; }), HasSubstr("either --candidates"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "z = 1"; }), HasSubstr("'z' is unknown"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "x = 5 to 1 by 1"; }), HasSubstr("does not lead"));
