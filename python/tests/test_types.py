@@ -36,11 +36,14 @@ def test_use_is_checked(tmp_path):
         "reveal_type(fit.trusted)\n"
         "fit.life(limit='100 mm^3', b=[1, 10], unit='J7')\n"
         "fit.trustet\n"
-        "ww.half_normal()\n")
+        "ww.half_normal()\n"
+        "reveal_type(ww.plan.next(fit, 'k', grid='F = 200').trusted)\n"
+        "ww.plan.size(fit, 'k', width='factor 2')\n")
     said = mypy("mypy", "--config-file", config, "use.py", folder=tmp_path).stdout
     assert 'Revealed type is "builtins.bool"' in said
     assert 'use.py:5: error: "Fit" has no attribute "trustet"' in said
     assert "use.py:6: error" in said and "use.py:4: error" not in said
+    assert "use.py:8: error" in said and "use.py:7: error" not in said
 
 
 def test_everything_public_is_documented():

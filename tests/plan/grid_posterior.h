@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wearwell/bayes/posterior.h"
+#include "wearwell/input/as_read.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/prognosis/carried_state.h"
@@ -64,6 +65,9 @@ inline prognosis::CarriedState state_of(const Source& source, const WeightedDraw
   prognosis::CarriedState state{"formula", true, source, {}, draws};
   for (const Parameter& each : require_posterior_study(*study).parameters)
     state.parameters.push_back(each.name);
+  // As a fit saves it.
+  const TomlReader data = TomlReader::parse(source.study).required_table("data");
+  state.source.tables[as_read_name(data)] = read_table(data, source);
   return state;
 }
 

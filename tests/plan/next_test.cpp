@@ -90,7 +90,8 @@ TEST(NextTest, IsTheClosedFormForANormalLine) {
       next_test(state, "line", reading(), line_question("x = -1, 0, 1, 3, 5")).json;
   EXPECT_EQ(json["goal"]["scale"], "linear");
   const double before = goal_variance({});
-  EXPECT_NEAR(json["goal"]["sd"].get<double>(), std::sqrt(before), 0.01 * std::sqrt(before));
+  EXPECT_NEAR(1e3 * json["goal"]["sd"].get<double>(), std::sqrt(before),
+              0.01 * std::sqrt(before));  // quantities are reported in SI: m
   const double x[] = {-1, 0, 1, 3, 5};
   for (int i = 0; i < 5; ++i) {
     const ordered_json& each = at_row(json, i + 1);
@@ -156,7 +157,7 @@ TEST(NextTest, CountsTestsDoneSinceTheFit) {
   question.tests = {table_of("log.csv", {numbers_column("y_mm", {1.5}), numbers_column("x", {2})})};
   const ordered_json json = next_test(state, "line", reading(), question).json;
   EXPECT_EQ(json["tests_done"], 1);
-  EXPECT_NEAR(json["goal"]["sd"].get<double>(), std::sqrt(goal_variance({2})),
+  EXPECT_NEAR(1e3 * json["goal"]["sd"].get<double>(), std::sqrt(goal_variance({2})),
               0.01 * std::sqrt(goal_variance({2})));
 }
 
@@ -185,7 +186,7 @@ b_lives = [10]
 
 constexpr Grid weibull_grid{3600.0 * 40, 3600.0 * 260, 0.4, 7.5, 40};
 
-double width_after(const Source& source, std::span<const double> values) {
+double variance_after(const Source& source, std::span<const double> values) {
   const WeightedDraws draws = on_grid(posterior_of(source), weibull_grid);
   std::vector<std::pair<double, double>> nodes;
   for (Eigen::Index j = 0; j < draws.values.rows(); ++j)
@@ -193,7 +194,8 @@ double width_after(const Source& source, std::span<const double> values) {
   std::sort(nodes.begin(), nodes.end());
   std::vector<double> value, weight;
   for (const auto& [v, w] : nodes) value.push_back(v), weight.push_back(w);
-  return goal_spread(value, weight).width();
+  const double sd = goal_spread(value, weight).sd;
+  return sd * sd;
 }
 
 TEST(NextTest, AgreesWithSimulatedTablesThatAreReadAsData) {
@@ -207,7 +209,7 @@ TEST(NextTest, AgreesWithSimulatedTablesThatAreReadAsData) {
   EXPECT_NEAR(std::exp(values.value[700]),
               draws.values(700, 0) / 3600 * std::pow(-std::log(0.9), 1 / draws.values(700, 1)),
               1e-6 * std::exp(values.value[700]));
-  const double now = width_after(source, values.value);
+  const double now = variance_after(source, values.value);
   NextQuestion question;
   question.goal = "B10";
   question.grid = "stop = 90 h";
@@ -236,15 +238,15 @@ TEST(NextTest, AgreesWithSimulatedTablesThatAreReadAsData) {
     const std::vector<std::size_t> rows(3, 0);
     const Source joined =
         with_rows(study, rows_with_outcomes(study, conditions, rows, outcomes, "planned"));
-    const double narrowing = 1 - width_after(joined, values.value) / now;
-    sum += narrowing;
-    squares += narrowing * narrowing;
+    const double left = variance_after(joined, values.value) / now;
+    sum += left;
+    squares += left * left;
   }
   const double mean = sum / simulations;
-  const double error =
-      std::sqrt((squares / simulations - mean * mean) / simulations) + best["error"].get<double>();
-  EXPECT_NEAR(best["narrowing"].get<double>(), mean, 3 * error);
-  EXPECT_GT(mean, 4 * error);
+  const double error = std::sqrt((squares / simulations - mean * mean) / simulations) +
+                       best["variance_error"].get<double>();
+  EXPECT_NEAR(best["variance_left"].get<double>(), mean, 3 * error);
+  EXPECT_LT(mean, 1 - 4 * error);
   EXPECT_NEAR(best["runouts"].get<double>(), runouts / (3 * simulations), 0.09);
 }
 
@@ -284,7 +286,7 @@ TEST(NextTest, NamesWhatIsWrong) {
     };
   };
   EXPECT_THAT(refusal([](auto& q) { q.goal = "B10 at hanger"; }), HasSubstr("no life"));
-  EXPECT_THAT(refusal([](auto& q) { q.goal = "at_thre"; }), HasSubstr("did you mean"));
+  EXPECT_THAT(refusal([](auto& q) { q.goal = "at_thre"; }), HasSubstr("at_three of population"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = ""; }), HasSubstr("either --candidates"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "z = 1"; }), HasSubstr("'z' is unknown"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "x = 5 to 1 by 1"; }), HasSubstr("does not lead"));

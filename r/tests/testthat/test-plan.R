@@ -31,7 +31,7 @@ test_that("demonstrations are the program's", {
   same(ww_plan_demonstrate(goal, failures = "0 to 3"), "demonstrate", goal, "--failures", "0 to 3")
   same(ww_plan_demonstrate(goal, shape = 2, specimens = 10), "demonstrate", goal, "--shape", 2, "--specimens", 10)
   same(ww_plan_demonstrate(goal, shape = "1.5 to 3", time = "2e6 cycles", confidence = 0.95), "demonstrate", goal, "--shape", "1.5 to 3",
-       "--time", "2e6 cycles", "--confidence", "95 %")
+       "--time", "2e6 cycles", "--confidence", 0.95)
   same(ww_plan_demonstrate(goal, distribution = "lognormal", sigma = 0.5, specimens = 4L, truth = c("B10 = 2e6 cycles", "B10 = 3e6 cycles")),
        "demonstrate", goal, "--distribution", "lognormal", "--sigma", 0.5, "--specimens", 4, "--true", "B10 = 2e6 cycles", "--true",
        "B10 = 3e6 cycles")
@@ -66,13 +66,13 @@ test_that("errors name the argument", {
 
 test_that("inspections are the program's, of tables, folders and fits", {
   table <- example("decide", "lives.csv")
-  same(ww_plan_inspect(table, risk = 0.02, step = "50 h"), "inspect", table, "--risk", "2 %", "--step", "50 h")
+  same(ww_plan_inspect(table, risk = 0.1, until = "1000 h"), "inspect", table, "--risk", 0.1, "--until", "1000 h")
   frame <- read.csv(table, check.names = FALSE)
-  expect_identical(ww_plan_inspect(frame, risk = 0.02)$tables, ww_plan_inspect(table, risk = 0.02)$tables)
+  expect_identical(ww_plan_inspect(frame, risk = 0.1)$tables, ww_plan_inspect(table, risk = 0.1)$tables)
   fit <- quiet(ww_fit(example("formula", "study.toml"), seed = 1, report = FALSE))
   folder <- tempfile("results")
   ww_write(fit, folder)
-  same(ww_plan_inspect(folder, risk = 0.05), "inspect", folder, "--risk", "5 %")
+  same(ww_plan_inspect(folder, risk = 0.05), "inspect", folder, "--risk", 0.05)
   same(ww_plan_inspect(fit, unit = "1", given = list(force = "20 N")), "inspect", folder, "--unit", 1, "--given", "force = 20 N",
        but_title = TRUE)
 })
@@ -89,7 +89,7 @@ test_that("errors of inspections name the argument", {
 test_that("accelerated tests are the program's", {
   given <- list(use = "50 degC", highest = "120 degC", until = "183 d", specimens = 300, failing_at_use = "0.1 %")
   flags <- c("accelerate", "--use", "50 degC", "--highest", "120 degC", "--until", "183 d", "--specimens", 300, "--failing-at-use", "0.1 %")
-  same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9)), flags, "--sigma", 0.6, "--failing-at-highest", "90 %")
+  same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9)), flags, "--sigma", 0.6, "--failing-at-highest", 0.9)
   refused(do.call(ww_plan_accelerate, given), "shape, sigma: give one of them")
   refused(do.call(ww_plan_accelerate, c(given, sigma = 0.6, activation_energy = "0.7 eV", exponent = 4)),
           "exponent: belongs to relation inverse-power, not arrhenius")
@@ -124,7 +124,7 @@ test_that("sizes are the program's", {
                'wear = { column = "V", unit = "mm^3" }', 'force = { column = "F", unit = "N" }', 'distance = { column = "s", unit = "m" }',
                "[likelihood.wear]", 'family = "normal"', 'mean = "k * force * distance"', 'sd = "sigma"', "[prior]",
                'k = { distribution = "lognormal", median = "1e-7 mm^3/(N m)", log_sd = 1 }',
-               'sigma = { distribution = "half-normal", scale = "0.1 mm^3" }'), study)
+               'sigma = { distribution = "lognormal", median = "0.1 mm^3", log_sd = 0.3 }'), study)
   tests <- data.frame("F [N]" = c(100, 200), "s [m]" = 4e4, specimens = c(1, 2), check.names = FALSE)
   file <- tempfile(fileext = ".csv")
   write.csv(tests, file, row.names = FALSE)

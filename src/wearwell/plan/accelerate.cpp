@@ -75,16 +75,19 @@ struct PlanWarning {
 std::vector<PlanWarning> acceleration_warnings(const AccelerationResult& result) {
   std::vector<PlanWarning> all;
   const AccelerationTest& test = result.test;
+  std::vector<std::string> few;
   for (const AccelerationPlan& plan : result.plans)
     for (std::size_t i = 0; i < plan.levels.size(); ++i)
       if (plan.enough[i] < 0.9)
-        all.push_back(
-            {"few failures",
-             fmt::format("{} plan: fewer than {} failures at {} with probability {:.3g} "
-                         "%. The standard errors of large samples are then too small; "
-                         "test longer, more specimens, or at a higher stress.",
-                         plan_name(plan.kind), test.question.least_failures,
-                         stress_text(test, plan.levels[i].xi), 100 * (1 - plan.enough[i]))});
+        few.push_back(fmt::format("{} plan at {} ({:.3g} %)", plan_name(plan.kind),
+                                  stress_text(test, plan.levels[i].xi),
+                                  100 * (1 - plan.enough[i])));
+  if (!few.empty())
+    all.push_back({"few failures",
+                   fmt::format("levels that may have fewer than {} failures, with their "
+                               "probability: {}. The standard errors of large samples are then too "
+                               "small; test longer, more specimens, or at a higher stress.",
+                               test.question.least_failures, fmt::join(few, ", "))});
   if (result.optimum_gain > 1.01)
     all.push_back(
         {"levels", fmt::format("A third level could reduce the variance of the optimum plan: at "

@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/plan/life_requirement.h"
 
@@ -284,6 +285,8 @@ AccelerationTest read_acceleration(const AccelerateQuestion& question) {
       read_any_quantity("--until", required_option("--until", question.until, "183 d"));
   test.until = checked_option("--until", question.until, until.si(), Allowed::positive);
   test.time_unit = until.unit;
+  if (const auto unit = parse_unit(until.unit.text); unit && unit->offset != 0)
+    throw InputError(fmt::format("--until: '{}' is not a time", printable(question.until)));
   if (question.specimens < 4 || question.specimens > 1'000'000)
     throw InputError("--specimens: must lie between 4 and 1 000 000");
   test.failing = goal_share(question.goal);

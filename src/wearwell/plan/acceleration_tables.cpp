@@ -174,7 +174,7 @@ html::Figure life_stress_figure(const AccelerationResult& result) {
           "Lives at the medians of the planning values, and the levels of two plans with their "
           "expected failures of so many specimens. The stress axis is even in the transformed "
           "stress.",
-          plot::plot("Life against stress", stress_axis(test, "Stress", -0.03, 1.06),
+          plot::plot("Life against stress", stress_axis(test, "Stress", -0.15, 1.06),
                      {fmt::format("Life [{}]", unit), true}, std::move(marks), 320),
           {},
           true};

@@ -46,8 +46,9 @@ class BatchChoice {
     batch.shortlist = considered_.size();
     if (chosen.empty()) return batch;
     batch.gain = gain_of(chosen);
-    batch.narrowing = 1 - batch.gain.width / plan_.nodes.width();
-    batch.narrowing_error = batch.gain.width_error / plan_.nodes.width();
+    batch.narrowing = 1 - std::sqrt(batch.gain.variance) / plan_.nodes.sd;
+    batch.narrowing_error =
+        0.5 * batch.gain.variance_error / (std::sqrt(batch.gain.variance) * plan_.nodes.sd);
     if (plan_.judged.front().cost) batch.cost = cost(chosen);
     return batch;
   }
@@ -76,8 +77,7 @@ class BatchChoice {
   // What is to be small.
   double left(const Gain& gain) const {
     if (question_.by == "information") return -gain.information;
-    if (question_.by == "variance") return gain.variance / (plan_.nodes.sd * plan_.nodes.sd);
-    return gain.width / plan_.nodes.width();
+    return std::sqrt(gain.variance) / plan_.nodes.sd;
   }
 
   double left_now() const { return question_.by == "information" ? 0 : 1; }

@@ -156,9 +156,9 @@ std::vector<present::Section> demonstration_sections(const Demonstration& result
   passing.add(pass_table(result));
   std::vector<present::Section> sections = {plan, passing};
   if (!result.trade.empty()) {
-    present::Section trade{"trade-off", "Sample size against time"};
-    trade.add(trade_table(result));
-    sections.push_back(trade);
+    present::Section sample{"sample-size", "Sample size against time"};
+    sample.add(trade_table(result));
+    sections.push_back(sample);
   }
   return sections;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wearwell/plan/demonstration_result.h"
@@ -150,7 +151,7 @@ html::Figure confidence_by_specimens(const Demonstration& result) {
   }
   marks.push_back(plot::horizontal_line(100 * goal.confidence,
                                         {colour::limit, "confidence to show", 1, 1.5, true}));
-  return {"trade", "Confidence by the number of specimens",
+  return {"test-time", "Confidence by the number of specimens",
           "Confidence that a test shows if it passes, each specimen tested for the life to show.",
           plot::plot("Confidence against the number of specimens", {"Specimens", false, 0.0},
                      {"Confidence [%]", false, 0.0, 100.0}, std::move(marks), 300)};
@@ -190,7 +191,7 @@ html::Figure trade_figure(const Demonstration& result) {
   }
   marks.push_back(
       plot::horizontal_line(goal.shown(1), {colour::limit, "life to show", 1, 1.5, true}));
-  return {"trade", "Sample size against test time",
+  return {"test-time", "Sample size against test time",
           "Time of each test that shows the life with the confidence, by the number of specimens. "
           "Points are the plans of the table.",
           plot::plot("Time of each test against the number of specimens",
@@ -221,9 +222,9 @@ html::Figure characteristic_figure(const Demonstration& result) {
                              ? pass_probability(plan.test, goal.scatter, goal.goal.failing, each)
                              : pass_probability(plan.test, goal.scatter, each)));
     }
-    marks.push_back(plot::line({{"x", at}, {"y", y}},
-                               {plan_colour(i), failures_text(plan.test.allowed) +
-                                                    fmt::format(" of {}", plan.test.specimens)}));
+    marks.push_back(plot::line(
+        {{"x", at}, {"y", y}},
+        {plan_colour(i), fmt::format("{} of {}", plan.test.allowed, plan.test.specimens)}));
   }
   marks.push_back(plot::vertical_line(goal.spread ? goal.shown(1) : 100 * (1 - goal.goal.failing),
                                       {colour::limit, "to show", 1, 1.5, true}));
@@ -231,7 +232,8 @@ html::Figure characteristic_figure(const Demonstration& result) {
                                         {colour::prior, "consumer's risk", 1, 1.5, true}));
   const std::string name = b_life_name(goal.goal.failing);
   return {"characteristic", "Operating characteristic",
-          "Probability to pass by what is true. At the limit to show it is the consumer's risk, "
+          "Probability to pass with at most so many failures. At the limit to show it is the "
+          "consumer's risk, "
           "at most 1 - confidence; what it lacks to 100 % further right is the producer's risk.",
           plot::plot("Probability to pass against the true life",
                      goal.spread ? plot::Axis{fmt::format("True {} [{}]", name,

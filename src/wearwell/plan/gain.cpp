@@ -192,7 +192,7 @@ Gain gain_of_batch(const GoalNodes& nodes, const Batch& batch, const NestedSetti
 }
 
 std::vector<double> typical_posterior(const GoalNodes& nodes, const Batch& batch,
-                                      const NestedSettings& settings, double width) {
+                                      const NestedSettings& settings, double sd) {
   const Nested nested(nodes, batch, settings);
   const double median = goal_spread(nodes.goal, nodes.weight).median;
   std::vector<double> best;
@@ -200,8 +200,7 @@ std::vector<double> typical_posterior(const GoalNodes& nodes, const Batch& batch
   for (int s = 0; s < settings.samples; ++s) {
     Simulated each = nested.sample(s);
     const GoalSpread after = goal_spread(nodes.goal, each.weight);
-    const double off =
-        std::abs(after.width() / width - 1) + std::abs(after.median - median) / width;
+    const double off = std::abs(after.sd / sd - 1) + std::abs(after.median - median) / sd;
     if (!(off < least)) continue;
     least = off;
     best = std::move(each.weight);

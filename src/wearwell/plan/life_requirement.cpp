@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 
@@ -55,6 +56,9 @@ Quantity read_any_quantity(const std::string& option, const std::string& text) {
           ? without_blanks_around(all.substr(static_cast<std::size_t>(at - all.data())))
           : "";
   const bool known = !unit.empty() && parse_unit(unit).has_value();
+  if (!unit.empty() && !known)
+    throw InputError(fmt::format("{}: '{}': '{}' is not a unit{}", option, printable(text),
+                                 printable(unit), unit_hint(unit, std::nullopt)));
   Quantity quantity;
   try {
     quantity = read_quantity(all, known ? unit : "1");
@@ -113,6 +117,8 @@ LifePoint read_life_point(const std::string& option, const std::string& text,
   const Quantity life = read_any_quantity(option, value);
   point.life = checked_option(option, value, life.si(), Allowed::positive);
   point.unit = life.unit;
+  if (const auto unit = parse_unit(life.unit.text); unit && unit->offset != 0)
+    refuse_point(option, text, relation, "is not a life");
   return point;
 }
 

@@ -52,7 +52,7 @@ html::Figure posterior_figure(const NextPlan& plan) {
                             after = smoothed(plan.points.goal, plan.typical, at);
   return {"goal", "The goal today and after the best candidate",
           "Posterior density today, and a typical one after the best candidate: of all simulated "
-          "results the one whose width is nearest to the expected width.",
+          "results the one whose spread is nearest to the expected one.",
           plot::plot("Density of the goal today and after the best candidate",
                      {goal_title(plan), plan.logarithmic, x.front(), x.back()},
                      {"Density", false, 0.0, {}, {}, false},

@@ -32,9 +32,9 @@ void check_question(const NextQuestion& question) {
     throw InputError("give either --candidates, a table, or --grid");
   if (question.goal.empty())
     throw InputError("--goal is missing: what are the tests to determine?");
-  if (question.by != "width" && question.by != "variance" && question.by != "information")
+  if (question.by != "variance" && question.by != "information")
     throw InputError(
-        fmt::format("--by: '{}' must be width, variance or information", printable(question.by)));
+        fmt::format("--by: '{}' must be variance or information", printable(question.by)));
   const auto positive = [](const char* option, const std::optional<double>& value) {
     if (value && !(*value > 0 && std::isfinite(*value)))
       throw InputError(fmt::format("{}: {:.6g} must be positive", option, *value));
@@ -154,21 +154,22 @@ std::optional<double> cost_of(const Candidate& candidate, const Gain& gain,
 
 double gain_by(const std::string& by, const NextPlan& plan, const Gain& gain) {
   if (by == "information") return gain.information;
-  if (by == "variance") return 1 - gain.variance / (plan.nodes.sd * plan.nodes.sd);
-  return 1 - gain.width / plan.nodes.width();
+  return 1 - std::sqrt(gain.variance) / plan.nodes.sd;
 }
 
 void judge(const NextQuestion& question, NextPlan& plan) {
-  const double width = plan.nodes.width(), variance = plan.nodes.sd * plan.nodes.sd;
+  const double variance = plan.nodes.sd * plan.nodes.sd;
   tbb::parallel_for(std::size_t{0}, plan.judged.size(), [&](std::size_t i) {
     Judged& each = plan.judged[i];
     each.gain = each.candidate.specimens == 1
                     ? gain_of_one(plan.points, *each.outcomes)
                     : gain_of_batch(plan.points, {{each.outcomes}, {each.candidate.specimens}},
                                     {question.samples, question.seed});
-    each.narrowing = 1 - each.gain.width / width;
-    each.narrowing_error = each.gain.width_error / width + each.outcomes->defect;
     each.variance_share = each.gain.variance / variance;
+    each.narrowing = 1 - std::sqrt(each.variance_share);
+    each.narrowing_error =
+        0.5 * each.gain.variance_error / variance / std::sqrt(each.variance_share) +
+        each.outcomes->defect;
     each.cost = cost_of(each.candidate, each.gain, question);
     each.score = gain_by(question.by, plan, each.gain) / each.cost.value_or(1);
   });
@@ -183,7 +184,7 @@ void find_worth(const NextQuestion& question, NextPlan& plan) {
       plan.judged.begin(), plan.judged.end(), [](const Judged& a, const Judged& b) {
         return a.narrowing - 2 * a.narrowing_error < b.narrowing - 2 * b.narrowing_error;
       });
-  if (question.by == "width" && best->narrowing - 2 * best->narrowing_error < least) {
+  if (question.by == "variance" && best->narrowing - 2 * best->narrowing_error < least) {
     plan.worth_it = false;
     plan.why_not =
         "No candidate narrows the interval of the goal by more than 0.1 % and twice its error.";
@@ -209,11 +210,11 @@ void find_worth(const NextQuestion& question, NextPlan& plan) {
 void find_further_tests(const NextQuestion& question, NextPlan& plan) {
   Target& target = *plan.target;
   const Judged& best = plan.judged.front();
-  // The target is judged on the nodes, whose present width may differ a little.
-  const double wanted = target.width / plan.now.width() * plan.nodes.width();
+  const double wanted = target.width / plan.now.width() * plan.nodes.sd;
   const auto width_after = [&](int n) {
-    return gain_of_batch(plan.points, {{best.outcomes}, {n}}, {question.samples, question.seed})
-        .width;
+    return std::sqrt(
+        gain_of_batch(plan.points, {{best.outcomes}, {n}}, {question.samples, question.seed})
+            .variance);
   };
   int below = 0, enough = 1;
   while (enough <= target.most && width_after(enough) > wanted) {
@@ -331,8 +332,9 @@ Answer next_test(prognosis::CarriedState state, const std::string& result, const
   add_checks(plan);
   find_worth(question, plan);
   const Judged& best = plan.judged.front();
-  plan.typical = typical_posterior(plan.points, {{best.outcomes}, {best.candidate.specimens}},
-                                   {question.samples, question.seed}, best.gain.width);
+  plan.typical =
+      typical_posterior(plan.points, {{best.outcomes}, {best.candidate.specimens}},
+                        {question.samples, question.seed}, std::sqrt(best.gain.variance));
   if (question.batch > 1 || question.budget) plan.batch = choose_batch(plan, question);
   if (plan.target) {
     plan.target->reached = plan.now.width() <= plan.target->width;

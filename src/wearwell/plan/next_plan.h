@@ -17,7 +17,7 @@ struct Judged {
   Candidate candidate;
   const Outcomes* outcomes = nullptr;  ///< of one specimen
   Gain gain;
-  double narrowing = 0, narrowing_error = 0;  ///< 1 - expected width over the present one
+  double narrowing = 0, narrowing_error = 0;  ///< 1 - root of `variance_share`
   double variance_share = 0;                  ///< expected variance over the present one
   std::optional<double> cost = {};            ///< of all specimens
   double score = 0;                           ///< what the ranking maximizes: gain, or gain / cost

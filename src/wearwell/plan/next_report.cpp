@@ -211,9 +211,11 @@ std::string how_computed(const NextPlan& plan, const NextQuestion& question) {
   const bool several = std::any_of(plan.judged.begin(), plan.judged.end(),
                                    [](const Judged& each) { return each.candidate.specimens > 1; });
   std::string text = fmt::format(
-      "Narrowing is 1 minus the expected width of the 90 % interval over the present one{}. Each "
-      "candidate's outcomes are integrated over {} nodes of the posterior",
-      plan.logarithmic ? ", widths on a logarithmic scale" : "", plan.points.goal.size());
+      "Narrowing is 1 minus the ratio of standard deviations of the goal{}: the root of the "
+      "expected "
+      "posterior variance over the present one. The expected width is the present one times that "
+      "ratio. Each candidate's outcomes are integrated over {} nodes of the posterior",
+      plan.logarithmic ? "'s logarithm" : "", plan.points.goal.size());
   if (several || plan.batch)
     text += fmt::format(
         "; more than one specimen by {} simulated results, whose standard error is "

@@ -46,7 +46,7 @@ std::size_t first_new(std::span<const double> own, std::span<const double> all, 
 
 constexpr int panel_nodes = 6;
 constexpr double panel_widths = 2.4;  // in standard deviations of the narrowest distribution
-constexpr int most_panels = 60;
+constexpr int most_panels = 200;
 
 struct Quadrature {
   std::vector<double> t, log_weight, begin, end;

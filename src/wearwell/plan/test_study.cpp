@@ -99,7 +99,9 @@ void find_measured(const TomlReader& root, const std::string& measure, TestStudy
     throw InputError(fmt::format(
         "plan: {} is a count (family \"{}\"), and tests that show counts cannot be planned yet",
         study.measured_name, family));
-  study.positive = form && form->positive;
+  // Paths of these processes rise from 0; with errors of readings they may also be below it.
+  const bool rising = family == "gamma-process" || family == "inverse-gaussian-process";
+  study.positive = (form && form->positive) || (rising && !likelihood.has("noise"));
   study.is_life = study.positive && !(predict && predict->has("along"));
 }
 

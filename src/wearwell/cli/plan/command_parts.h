@@ -24,8 +24,9 @@ void add_answer_options(CLI::App& command, AnswerOptions& options);
 /// trusted.
 int give_answer(const AnswerOptions& options, const std::function<Answer()>& work);
 
-void add_next_command(CLI::App& plan, Models models, int& exit_code);
 void add_inspect_command(CLI::App& plan, Models models, int& exit_code);
+void add_size_command(CLI::App& plan, Models models, int& exit_code);
+void add_next_command(CLI::App& plan, Models models, int& exit_code);
 void add_accelerate_command(CLI::App& plan, int& exit_code);
 void add_demonstrate_command(CLI::App& plan, int& exit_code);
 

@@ -59,7 +59,7 @@ void add_next_command(CLI::App& plan, Models models, int& exit_code) {
   command->add_option("--batch", question.batch, "Choose up to so many candidates together")
       ->capture_default_str();
   command->add_option("--budget", question.budget, "Most that they may cost together");
-  command->add_option("--by", question.by, "Rank by width, variance or information")
+  command->add_option("--by", question.by, "Rank by the variance of the goal or by information")
       ->capture_default_str();
   command->add_option("--tests", options->tests,
                       "Tables of tests done since the fit, in the columns of its data");

@@ -14,6 +14,7 @@ void add_plan_command(CLI::App& app, [[maybe_unused]] Models models, int& exit_c
   add_inspect_command(*command, models, exit_code);
   add_accelerate_command(*command, exit_code);
   add_demonstrate_command(*command, exit_code);
+  add_size_command(*command, models, exit_code);
 }
 
 }  // namespace wearwell::plan

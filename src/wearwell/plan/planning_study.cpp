@@ -1,0 +1,231 @@
+#include "wearwell/plan/planning_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/infer/exact.h"
+#include "wearwell/infer/posterior_shape.h"
+#include "wearwell/input/as_read.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/study/inference_data.h"
+
+namespace wearwell::plan {
+namespace {
+
+using prognosis::DataRoles;
+
+// The column of the tests for one of the study: by its heading, or by its name.
+const Column* column_for(const Table& rows, const DataRoles::Named& named) {
+  for (const Column& each : rows.columns)
+    if (each.name == named.column) return &each;
+  for (const Column& each : rows.columns)
+    if (each.name == named.name || read_heading(each.name, "").name == named.name) return &each;
+  return nullptr;
+}
+
+Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, bool positive_only,
+                bool label) {
+  Column column{named.column, !label && named.name != "status"};
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (named.name == "status") {
+      column.text.push_back("failure");
+    } else if (label) {
+      column.text.push_back(fmt::format("stand-in {}", i + 1));
+    } else if (named.name == "count") {
+      column.numbers.push_back(1);
+    } else if (measured) {
+      // Far apart: the search for the range of outcomes begins from their spread.
+      column.numbers.push_back(positive_only ? (i % 2 ? 10 : 1) : (i % 2 ? 1e6 : -1e6));
+    } else {
+      column.numbers.push_back(0);
+    }
+  }
+  return column;
+}
+
+bool is_positive_family(const TomlReader& root, const std::string& name) {
+  if (root.required_text("model") != "formula") return true;
+  const std::string family =
+      root.required_table("likelihood").required_table(name).required_text("family");
+  return family != "normal" && family != "student-t" && family != "logistic" &&
+         family != "gumbel" && family != "sev";
+}
+
+// Rows that let the study be read before there are data: the conditions are those of the tests.
+Table stand_in_rows(const TomlReader& root, const Table& rows) {
+  const TomlReader columns = root.required_table("data").required_table("columns");
+  const bool formula = root.required_text("model") == "formula";
+  std::vector<std::string> measured, random;
+  if (formula) measured = root.required_table("likelihood").keys();
+  if (const auto effects = root.table("random_effects")) random = effects->keys();
+  if (!formula) measured = {"life", "depth", "volume", "dx", "dy"};
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  Table table{rows.source, {}, std::max<std::size_t>(2, rows.rows)};
+  for (const std::string& name : columns.keys()) {
+    const DataRoles::Named named = prognosis::named_column(columns, name);
+    if (name == "lower" || name == "upper" || name == "life_until" || name == "entry")
+      throw InputError(
+          fmt::format("plan size: [data.columns] has '{}'; tests with intervals or late entry "
+                      "cannot be planned "
+                      "before any test; leave it out",
+                      name));
+    const bool is_measured = among(measured, name);
+    const Column* given = is_measured ? nullptr : column_for(rows, named);
+    if (!given) {
+      // A column of words has no unit in the study.
+      const bool label = among(random, name) || (!is_measured && named.unit.empty());
+      table.columns.push_back(stand_in(named, table.rows, is_measured,
+                                       is_measured && is_positive_family(root, name), label));
+      continue;
+    }
+    Column column = *given;
+    column.name = named.column;
+    for (std::size_t i = rows.rows; i < table.rows; ++i)
+      column.is_number ? column.numbers.push_back(column.numbers.back())
+                       : column.text.push_back(column.text.back());
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+void refuse_improper(const PosteriorStudy& study) {
+  std::vector<std::string> improper, defaults;
+  for (const Parameter& each : study.parameters) {
+    if (!each.prior.proper) improper.push_back(each.name);
+    if (each.is_default) defaults.push_back(each.name);
+  }
+  if (!improper.empty())
+    throw InputError(
+        fmt::format("plan size: the prior of {} is improper, so no test can be simulated from it; "
+                    "give a proper "
+                    "one under [prior] that says what is known before the tests",
+                    fmt::join(improper, ", ")));
+  if (!defaults.empty())
+    throw InputError(fmt::format(
+        "plan size: the prior of {} is the model's default; give one under [prior] that says what "
+        "is known before the tests",
+        fmt::join(defaults, ", ")));
+  if (study.parameters.size() > max_exact_dimension)
+    throw InputError(fmt::format("plan size: {} parameters exceed the limit of quadrature ({})",
+                                 study.parameters.size(), max_exact_dimension));
+}
+
+// Proportions as whole numbers, which candidates are read with.
+Table with_whole_specimens(const Table& rows) {
+  Table whole = rows;
+  for (Column& each : whole.columns) {
+    if (each.name != specimens_column || !each.is_number) continue;
+    const bool fractions = std::any_of(each.numbers.begin(), each.numbers.end(),
+                                       [](double x) { return x != std::floor(x); });
+    if (!fractions) continue;
+    for (double& x : each.numbers) x = std::isfinite(x) && x > 0 ? std::round(1000 * x) : x;
+  }
+  return whole;
+}
+
+}  // namespace
+
+const PosteriorStudy& PlanningStudy::study() const {
+  return require_posterior_study(*whole);
+}
+
+PlanningStudy planning_study(const Source& source, const ReadStudy& read, const Table& rows,
+                             const std::string& measure) {
+  PlanningStudy planning;
+  const TomlReader root = TomlReader::parse(source.study);
+  Source stand_in = source;
+  stand_in.tables[as_read_name(root.required_table("data"))] = stand_in_rows(root, rows);
+  planning.whole = read(stand_in);
+  refuse_improper(planning.study());
+  planning.tests = test_study(stand_in, read, measure);
+  planning.conditions = read_candidates(planning.tests, with_whole_specimens(rows), {});
+  double sum = 0;
+  for (const Candidate& each : planning.conditions.all) sum += each.specimens;
+  for (const Candidate& each : planning.conditions.all)
+    planning.shares.push_back(each.specimens / sum);
+  return planning;
+}
+
+std::vector<std::size_t> allocation(std::span<const double> shares, std::size_t count) {
+  std::vector<std::size_t> specimens;
+  std::vector<double> placed(shares.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t best = 0;
+    double missing = -1;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      const double lack = shares[k] * static_cast<double>(i + 1) - placed[k];
+      if (lack > missing + 1e-12) missing = lack, best = k;
+    }
+    placed[best] += 1;
+    specimens.push_back(best);
+  }
+  return specimens;
+}
+
+std::vector<SimulatedCampaign> simulated_campaigns(const PlanningStudy& planning,
+                                                   std::span<const std::size_t> specimens,
+                                                   std::size_t count, std::uint64_t seed) {
+  const std::vector<Parameter>& parameters = planning.study().parameters;
+  const auto n = static_cast<Eigen::Index>(count);
+  Points truths(n, static_cast<Eigen::Index>(parameters.size()));
+  std::vector<Rng> streams;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Rng rng(seed, static_cast<std::uint64_t>(i));
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      truths(i, static_cast<Eigen::Index>(p)) = quantile(parameters[p].prior, rng.uniform());
+    streams.push_back(rng);
+  }
+  std::vector<PlannedTest> tests;
+  for (const Candidate& each : planning.conditions.all) tests.push_back({each.row, each.stop});
+  const std::vector<double> weights(count, 1 / static_cast<double>(count));
+  const std::vector<Outcomes> possible =
+      possible_outcomes(planning.tests, planning.conditions.conditions, tests, truths, weights);
+  std::vector<SimulatedCampaign> campaigns(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    campaigns[i].truth.assign(truths.row(row).data(), truths.row(row).data() + truths.cols());
+    for (const std::size_t k : specimens)
+      campaigns[i].outcomes.push_back(
+          possible[k].drawn(row, streams[i].uniform(), planning.tests.positive));
+  }
+  return campaigns;
+}
+
+std::optional<GoalInterval> goal_interval(const PlanningStudy& planning, const Goal& goal,
+                                          std::span<const std::size_t> specimens,
+                                          const SimulatedCampaign& campaign, std::size_t size,
+                                          double level) {
+  std::vector<std::size_t> rows;
+  for (const std::size_t each : specimens.first(size))
+    rows.push_back(planning.conditions.all[each].row);
+  Source source = planning.tests.source;
+  source.tables[planning.tests.key] =
+      rows_with_outcomes(planning.tests, planning.conditions.conditions, rows,
+                         std::span(campaign.outcomes).first(size), "specimen");
+  const auto read = planning.tests.read(source);
+  const PosteriorStudy& study = require_posterior_study(*read);
+  const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
+  const PosteriorShape shape = posterior_shape(posterior);
+  ExactSettings settings;
+  settings.tolerance = 1e-3;
+  for (std::size_t k = 1; k < shape.maxima.found.size(); ++k)
+    settings.maxima.push_back(shape.maxima.found[k].mode);
+  const ExactPosterior exact = integrate(posterior, whitening_at(shape.mode), settings);
+  if (!exact.failure.empty()) return {};
+  const QuantityDistribution distribution(exact.nodes, goal.value);
+  const auto at = [&](double p) { return from_si(goal.unit, distribution.quantile(p)); };
+  const GoalInterval interval{at((1 - level) / 2), at(0.5), at((1 + level) / 2)};
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return {};
+  return interval;
+}
+
+}  // namespace wearwell::plan
