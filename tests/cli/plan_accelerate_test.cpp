@@ -48,6 +48,26 @@ TEST_F(PlanAccelerate, ReproducesMeekerAndEscobar) {
   EXPECT_NEAR(compromise["standard_error"].get<double>(), 0.4375, 1e-4);
 }
 
+// Twice the stop time in the table is the plan of a test that is twice as long; its whole numbers of specimens change little.
+TEST_F(PlanAccelerate, OtherStopTimesAreThoseOfOtherTests) {
+  const std::string rest =
+      "--use '50 degC' --highest '120 degC' --specimens 300 --sigma 0.6 --life-at-highest '90 d' "
+      "--activation-energy '0.7 eV' --until ";
+  const json found = plan(rest + "'183 d'"), longer = plan(rest + "'366 d'");
+  const json& times = found["stop_times"];
+  ASSERT_EQ(times.size(), 5u);
+  EXPECT_DOUBLE_EQ(times[3]["until"], 366);
+  for (const auto& [key, kind] : {std::pair{"optimum", 0}, {"compromise", 1}}) {
+    EXPECT_NEAR(times[3][key].get<double>(), longer["plans"][kind]["standard_error"].get<double>(),
+                2e-4);
+    EXPECT_NEAR(times[2][key].get<double>(), found["plans"][kind]["standard_error"].get<double>(),
+                2e-4);
+  }
+  EXPECT_EQ(times[2]["specimens"], 300);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_LT(times[i]["specimens"], times[i - 1]["specimens"]);
+}
+
 // The same planning values in other words.
 TEST_F(PlanAccelerate, ReadsPlanningValuesInSeveralWays) {
   const json known = plan(test + shares + "--sigma 0.6");

@@ -155,6 +155,11 @@ Json acceleration_json(const AccelerationResult& result) {
     json["sensitivity"].push_back(
         {{"true", off.what}, {"standard_errors", errors}, {"optimum", finite_json(off.optimum)}});
   }
+  for (const StopTime& each : result.stop_times)
+    json["stop_times"].push_back({{"until", each.until / test.time_unit.scale},
+                                  {"optimum", finite_json(each.optimum)},
+                                  {"compromise", finite_json(each.compromise)},
+                                  {"specimens", finite_json(each.specimens)}});
   json["optimum_gain"] = result.optimum_gain;
   json["warnings"] = Json::array();
   for (const PlanWarning& each : acceleration_warnings(result))
@@ -172,6 +177,7 @@ std::vector<present::Section> acceleration_sections(const AccelerationResult& re
   plan.add(acceleration_plans_table(result));
   plan.add(present::Prose{curvature_note});
   plan.add(levels_table(result));
+  plan.add(stop_times_table(result));
   present::Section values{"planning-values", "Planning values"};
   values.add(present::Prose{prior_sentence(result)});
   values.add(planning_values_table(result));
@@ -186,7 +192,8 @@ std::string acceleration_text(const AccelerationResult& result) {
       wrapped(printable(settings_sentence(result)), 2, 4) + "\n" +
       wrapped(printable(acceleration_sentence(result)), 0, 2) + "\n" +
       present::text(acceleration_plans_table(result)) + wrapped(curvature_note, 2, 2) + "\n" +
-      present::text(levels_table(result)) + "\n" + present::text(off_values_table(result)) +
+      present::text(levels_table(result)) + "\n" +
+      present::text(stop_times_table(result)) + "\n" + present::text(off_values_table(result)) +
       wrapped(printable(prior_sentence(result)), 2, 2);
   const std::vector<PlanWarning> warnings = acceleration_warnings(result);
   if (!warnings.empty()) text += "\nChecks\n";

@@ -14,18 +14,39 @@ namespace {
 constexpr PlanKind plan_kinds[] = {PlanKind::optimum, PlanKind::compromise, PlanKind::four_two_one,
                                    PlanKind::equal};
 
-std::vector<TestLevel> levels_for(const AccelerationResult& result, PlanKind kind) {
+std::vector<TestLevel> levels_for(const AccelerationResult& result, const AccelerationGoal& goal,
+                                  PlanKind kind) {
   const AccelerationTest& test = result.test;
   if (kind != PlanKind::optimum && test.low_xi >= 0)
-    return best_allocation(kind, result.goal, result.information, test.low_xi, test.middle_share);
-  return best_plan(kind, result.goal, result.information, test.lowest_xi, test.middle_share);
+    return best_allocation(kind, goal, result.information, test.low_xi, test.middle_share);
+  return best_plan(kind, goal, result.information, test.lowest_xi, test.middle_share);
+}
+
+std::vector<StopTime> all_stop_times(const AccelerationResult& result) {
+  const auto size = static_cast<double>(result.test.question.specimens);
+  std::vector<StopTime> all;
+  for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    AccelerationGoal goal = result.goal;
+    for (PlanningPoint& each : goal.points) each.at_use += std::log(factor) / each.scale;
+    const auto error = [&](PlanKind kind) {
+      return std::sqrt(goal_variance(goal, result.information, levels_for(result, goal, kind)) /
+                       size);
+    };
+    StopTime at{factor * result.test.until, error(PlanKind::optimum), error(PlanKind::compromise),
+                0};
+    at.specimens = size * std::pow(at.compromise, 2);
+    all.push_back(at);
+  }
+  const double as_given = std::pow(all[2].compromise, 2);
+  for (StopTime& each : all) each.specimens = std::ceil(each.specimens / as_given - 1e-9);
+  return all;
 }
 
 AccelerationPlan evaluated_plan(const AccelerationResult& result, PlanKind kind) {
   const std::size_t n = result.test.question.specimens;
   AccelerationPlan plan;
   plan.kind = kind;
-  plan.levels = levels_for(result, kind);
+  plan.levels = levels_for(result, result.goal, kind);
   plan.specimens = whole_allocation(plan.levels, n);
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const double xi = plan.levels[i].xi;
@@ -94,7 +115,7 @@ std::vector<OffValues> all_off_values(const AccelerationResult& result) {
 AccelerationResult acceleration_of(const AccelerationTest& test) {
   AccelerationResult result{test, test.averaged(), CensoredInformation(test.distribution), {}, {}};
   for (const PlanKind kind : plan_kinds) result.plans.push_back(evaluated_plan(result, kind));
-  const std::vector<TestLevel> best = levels_for(result, PlanKind::optimum);
+  const std::vector<TestLevel> best = levels_for(result, result.goal, PlanKind::optimum);
   for (int i = 0; i <= 100; ++i)
     result.optimum_gain = std::max(
         result.optimum_gain,
@@ -108,6 +129,7 @@ AccelerationResult acceleration_of(const AccelerationTest& test) {
   }
   result.heaviest_share /= sum;
   result.off = all_off_values(result);
+  result.stop_times = all_stop_times(result);
   return result;
 }
 

@@ -28,12 +28,21 @@ struct OffValues {
   double optimum = 0;
 };
 
+/// The same test with another stop time, its plans chosen for it.
+struct StopTime {
+  double until = 0;    ///< SI
+  double optimum = 0;  ///< standard errors with as many specimens
+  double compromise = 0;
+  double specimens = 0;  ///< of the compromise plan, for its standard error at the given stop time
+};
+
 struct AccelerationResult {
   AccelerationTest test;
   AccelerationGoal goal;  ///< averaged
   CensoredInformation information;
   std::vector<AccelerationPlan> plans;
   std::vector<OffValues> off;
+  std::vector<StopTime> stop_times;  ///< a quarter to four times the given one
   double optimum_gain = 0;    ///< the largest gain_at of the optimum plan: 1 if no level is missing
   double heaviest_share = 0;  ///< of one point in the mean variance of the optimum plan
 };
@@ -52,6 +61,7 @@ std::string stress_text(const AccelerationTest& test, double xi);
 present::Table acceleration_plans_table(const AccelerationResult& result);
 present::Table levels_table(const AccelerationResult& result);
 present::Table off_values_table(const AccelerationResult& result);
+present::Table stop_times_table(const AccelerationResult& result);
 present::Table planning_values_table(const AccelerationResult& result);
 html::Figure life_stress_figure(const AccelerationResult& result);
 html::Figure lower_level_figure(const AccelerationResult& result);

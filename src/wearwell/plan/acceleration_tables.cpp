@@ -99,6 +99,23 @@ present::Table levels_table(const AccelerationResult& result) {
   return table;
 }
 
+present::Table stop_times_table(const AccelerationResult& result) {
+  const AccelerationTest& test = result.test;
+  present::Table table{"stop-times",
+                       fmt::format("Stop time against specimens: precision of {} at {}",
+                                   test.question.goal, stress_text(test, 0)),
+                       {{"stop time", test.time_unit.text, present::digits(4)},
+                        {"optimum", "1", present::digits(4)},
+                        {"compromise", "1", present::digits(4)},
+                        {"90 % factor", "1", present::digits(3)},
+                        {"specimens for the planned precision", "1", present::given}}};
+  for (const StopTime& each : result.stop_times)
+    table.rows.push_back(
+        {each.until / test.time_unit.scale, finite_cell(each.optimum), finite_cell(each.compromise),
+         finite_cell(interval_factor(each.compromise)), finite_cell(each.specimens)});
+  return table;
+}
+
 present::Table off_values_table(const AccelerationResult& result) {
   present::Table table{
       "sensitivity", "Standard error of log life if the planning values are off", {{"true value"}}};
