@@ -287,7 +287,9 @@ TEST(NextTest, NamesWhatIsWrong) {
     };
   };
   EXPECT_THAT(refusal([](auto& q) { q.goal = "B10 at hanger"; }), HasSubstr("no life"));
-  EXPECT_THAT(refusal([](auto& q) { q.goal = "at_thre"; }), HasSubstr("at_three of population"));
+  EXPECT_THAT(
+      refusal([](auto& q) { q.goal = "at_thre"; }),
+      testing::AllOf(HasSubstr("did you mean 'at_three'"), HasSubstr("at_three of population")));
   EXPECT_THAT(refusal([](auto& q) { q.grid = ""; }), HasSubstr("either --candidates"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "z = 1"; }), HasSubstr("'z' is unknown"));
   EXPECT_THAT(refusal([](auto& q) { q.grid = "x = 5 to 1 by 1"; }), HasSubstr("does not lead"));
