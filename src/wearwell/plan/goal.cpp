@@ -280,8 +280,8 @@ Goal goal_of(const PosteriorStudy& study, const std::string& text) {
                                printable(text), did_you_mean(text, near), fmt::join(known, "; ")));
 }
 
-double GoalValues::in_unit(double value) const {
-  return logarithmic ? std::exp(value) : value;
+double GoalValues::in_unit(double on_scale) const {
+  return logarithmic ? std::exp(on_scale) : on_scale;
 }
 
 GoalValues goal_values(const Goal& goal, const Points& nodes, std::span<const double> weights) {
