@@ -273,12 +273,15 @@ Goal goal_of(const PosteriorStudy& study, const std::string& text) {
     throw InputError(fmt::format("--goal: '{}' may be {}; write one of them in full",
                                  printable(text), fmt::join(names, "; or ")));
   }
+  std::vector<std::string> near = known;
+  for (const NamedGoal& each : all)
+    if (!each.of.empty()) near.push_back(each.of);
   throw InputError(fmt::format("--goal: the study has no '{}'{}; its goals are: {}",
-                               printable(text), did_you_mean(text, known), fmt::join(known, "; ")));
+                               printable(text), did_you_mean(text, near), fmt::join(known, "; ")));
 }
 
-double GoalValues::in_unit(double value) const {
-  return logarithmic ? std::exp(value) : value;
+double GoalValues::in_unit(double on_scale) const {
+  return logarithmic ? std::exp(on_scale) : on_scale;
 }
 
 GoalValues goal_values(const Goal& goal, const Points& nodes, std::span<const double> weights) {

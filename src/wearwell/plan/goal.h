@@ -42,7 +42,7 @@ struct GoalValues {
       value;  ///< ln of the value in its unit if `logarithmic`, else the value itself
   bool logarithmic = false;  ///< all values are positive (and not logarithms already)
 
-  double in_unit(double value) const;
+  double in_unit(double on_scale) const;
 };
 
 /// In parallel; nodes x parameters. Throws InputError if the goal has no value at more than 0.1 %
