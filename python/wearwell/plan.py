@@ -23,7 +23,7 @@ def _require(about, name, kinds, what):
 
 
 def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, specimen_cost=None, use_cost=None, measure=None,
-         by="width", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
+         by="variance", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
          progress=None):
     """Rank the tests that could be done next by how much they are expected to narrow a goal.
 
@@ -53,8 +53,8 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
         And of each unit of its expected time on test.
     measure : str, optional
         Column that the test measures, where the study has several.
-    by : {"width", "variance", "information"}
-        What ranks: expected width of the 90 % interval of the goal, its expected variance, or the information about all
+    by : {"variance", "information"}
+        What ranks: the expected variance of the goal (of its logarithm, where it is positive), or the information about all
         parameters.
     value : float, optional
         Worth of one per cent of narrowing, in units of cost: says whether a test is worth its cost.
