@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string planned = PROJECT_SOURCE_DIR
+    "/examples/life/study.toml --tests " PROJECT_SOURCE_DIR "/examples/life/planned.csv --goal B10";
+
+class PlanSize : public ScratchTest {
+ protected:
+  static std::string refusal(const std::string& arguments) {
+    const CommandResult run = run_wearwell("plan size " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  }
+};
+
+TEST_F(PlanSize, TellsTheSameAsJsonAndInAFolder) {
+  const std::string results = (folder() / "size").string();
+  const CommandResult run =
+      run_wearwell("plan size " + planned +
+                   " --width 'factor 9' --most 16 --simulations 20 --json -o " + results);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json reported = json::parse(run.out);
+  std::ifstream file(results + "/plan.json");
+  EXPECT_EQ(json::parse(file), reported);
+  double narrow = 0;
+  for (const json& each : reported["sizes"]) {
+    EXPECT_NEAR(each["failures"].get<double>() + each["runouts"].get<double>(),
+                each["specimens"].get<double>(), 1e-9);
+    EXPECT_GE(each["assurance"].get<double>(), narrow - 0.15);
+    narrow = each["assurance"];
+  }
+  for (const char* name : {"report.html", "tables/sizes.csv", "results.sha1"})
+    EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
+}
+
+TEST_F(PlanSize, RefusesWhatItCannotPlan) {
+  EXPECT_THAT(refusal(planned + " --width 'factor 1'"), HasSubstr("must be above 1"));
+  EXPECT_THAT(refusal(planned + " --width '3 kg'"), HasSubstr("--width"));
+  EXPECT_THAT(refusal(planned + " --width 'factor 2' --assurance '120 %'"),
+              HasSubstr("--assurance"));
+  EXPECT_THAT(refusal(planned + "x --width 'factor 2'"), HasSubstr("--goal"));
+}
+
+}  // namespace
+}  // namespace wearwell
