@@ -129,8 +129,18 @@ std::vector<Outcome> possible_outcomes(const Tracker& tracker, const TrackedUnit
                                        const History& history, std::size_t strata) {
   const Asked asked(tracker, unit, reading, column, history);
   const Forecast now = unit.forecast();
-  const double width = std::max(now.level95 - now.level05, 1e-9 * std::abs(now.level50));
-  const double center = middle(asked, now.level50, width > 0 ? width : 1);
+  double guess = now.level50, spread = now.level95 - now.level05;
+  // The search begins where the quantity is expected at the position of the reading.
+  for (std::size_t i = 0; i < tracker.columns().size(); ++i) {
+    const double position = reading.numbers[i];
+    if (tracker.columns()[i].name != tracker.axis().name || !(position > now.now)) continue;
+    const std::vector<ForecastBand> band = unit.ahead({&position, 1});
+    if (band.empty() || !std::isfinite(band[0].level95 - band[0].level05)) continue;
+    guess = band[0].level50;
+    spread = std::max(spread, band[0].level95 - band[0].level05);
+  }
+  const double width = std::max(spread, 1e-9 * std::abs(guess));
+  const double center = middle(asked, guess, width > 0 ? width : 1);
   std::vector<Outcome> outcomes;
   for (std::size_t i = 0; i < strata; ++i) {
     const double p = (static_cast<double>(i) + 0.5) / static_cast<double>(strata);
