@@ -62,12 +62,12 @@ double goal_variance(const std::vector<double>& more) {
   return c.dot(line_precision(more).inverse() * c);
 }
 
-prognosis::CarriedState line_state() {
+prognosis::CarriedState line_state(int count = 60) {
   const Source source = line_source();
   const Eigen::Matrix2d covariance = line_precision({}).inverse();
   const double sa = 1e-3 * std::sqrt(covariance(0, 0)), sb = 1e-3 * std::sqrt(covariance(1, 1));
   return state_of(source, on_grid(posterior_of(source),
-                                  {-6 * sa, 6 * sa, 0.75e-3 - 6 * sb, 0.75e-3 + 6 * sb, 60}));
+                                  {-6 * sa, 6 * sa, 0.75e-3 - 6 * sb, 0.75e-3 + 6 * sb, count}));
 }
 
 NextQuestion line_question(const std::string& grid) {
@@ -152,7 +152,8 @@ TEST(NextTest, BatchesAndTargets) {
 }
 
 TEST(NextTest, CountsTestsDoneSinceTheFit) {
-  const prognosis::CarriedState state = line_state();
+  // Reweighting needs some hundred effective nodes.
+  const prognosis::CarriedState state = line_state(200);
   NextQuestion question = line_question("x = 3");
   question.tests = {table_of("log.csv", {numbers_column("y_mm", {1.5}), numbers_column("x", {2})})};
   const ordered_json json = next_test(state, "line", reading(), question).json;
