@@ -265,7 +265,7 @@ def test_errors_of_next_tests_name_the_argument(springs, candidates):
 
     refused("goal: the study has no", "B10 at hanger", candidates=candidates)
     refused("grid: 'stress'", goal, grid="stress")
-    refused("by: 'size' must be width, variance or information", goal, candidates=candidates, by="size")
+    refused("by: 'size' must be variance or information", goal, candidates=candidates, by="size")
     refused("cost: candidates has no column 'price'", goal, candidates=candidates, cost="price")
     refused("specimen_cost", goal, candidates=candidates, specimen_cost=-1)
     refused("batch is 2.5; it is a whole number", goal, candidates=candidates, batch=2.5)

@@ -10,7 +10,11 @@ import os
 from ._errors import InputError
 from ._fit import Fit
 from ._plan import answer, files_and_tables
+from ._plan_lives import accelerate, demonstrate
 from ._study import Study
+
+for _each in (accelerate, demonstrate):
+    _each.__module__ = __name__
 
 
 def _require(about, name, kinds, what):
@@ -19,7 +23,7 @@ def _require(about, name, kinds, what):
 
 
 def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, specimen_cost=None, use_cost=None, measure=None,
-         by="width", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
+         by="variance", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
          progress=None):
     """Rank the tests that could be done next by how much they are expected to narrow a goal.
 
@@ -49,8 +53,8 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
         And of each unit of its expected time on test.
     measure : str, optional
         Column that the test measures, where the study has several.
-    by : {"width", "variance", "information"}
-        What ranks: expected width of the 90 % interval of the goal, its expected variance, or the information about all
+    by : {"variance", "information"}
+        What ranks: the expected variance of the goal (of its logarithm, where it is positive), or the information about all
         parameters.
     value : float, optional
         Worth of one per cent of narrowing, in units of cost: says whether a test is worth its cost.
@@ -178,67 +182,6 @@ def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, m
     }, study, "study", {"tests": tests}, threads, progress)
 
 
-def demonstrate(goal, *, confidence=0.9, failures=0, specimens=None, time=None, distribution="weibull", shape=None, sigma=None,
-                truth=None, sudden_death=None):
-    """Plan a test that demonstrates a life: specimens, time, failures allowed.
-
-    Without ``specimens`` and ``time``: the number of specimens for tests as long as the life. With one of them the other
-    is found, with both the confidence that is reached.
-
-    Parameters
-    ----------
-    goal : str
-        What to show: "B10 >= 1e6 cycles", or "reliability >= 90 % at 1e6 cycles".
-    confidence : float or str
-        Confidence that a test that passes shows.
-    failures : int or str
-        Failures with which the test still passes: a number, or several like "0 to 3".
-    specimens : int, optional
-        Number of specimens.
-    time : str or pint quantity, optional
-        Length of each test, "2e6 cycles".
-    distribution : {"weibull", "lognormal", "loglogistic"}
-        Distribution of lives.
-    shape : float or str, optional
-        Weibull shape: a number, its 90 % interval "1.5 to 3", or a prior like "lognormal, median = 2, log_sd = 0.2".
-        Without it: success run, tests as long as the life to show.
-    sigma : float or str, optional
-        Of lognormal and loglogistic lives: scale of the natural logarithm of life, as ``shape``.
-    truth : str or sequence of str, optional
-        True lives at which to report the probability to pass, "B10 = 3e6 cycles".
-    sudden_death : int, optional
-        Number of groups of equal size, each tested to its first failure.
-
-    Returns
-    -------
-    Plan
-        The plans, one for each number of failures allowed.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, or no plan reaches the confidence; the message names the argument.
-
-    Examples
-    --------
-    >>> import wearwell as ww
-    >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", failures="0 to 2")
-    >>> [each["specimens"] for each in plan.summary["plans"]]
-    [22, 38, 52]
-    >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", shape=2, specimens=10)
-    >>> round(plan.summary["plans"][0]["time"])
-    1479000
-    >>> ww.plan.demonstrate("B10 >= 1e6 cycles", confidence=1.5)
-    Traceback (most recent call last):
-        ...
-    wearwell.InputError: confidence: ...
-    """
-    return answer("demonstrate", {
-        "goal": goal, "confidence": confidence, "failures": failures, "specimens": specimens, "time": time,
-        "distribution": distribution, "shape": shape, "sigma": sigma, "truth": truth, "sudden_death": sudden_death,
-    })
-
-
 def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step=None, unit=None, new=False, inspection_cost=None,
             failure_cost=None, replacement_cost=None, downtime_cost=None, visit_cost=None, given=None, threads=0, progress=None):
     """Plan the inspections ahead that keep the risk below a bound with the fewest inspections, or the cheapest ones.
@@ -317,83 +260,3 @@ def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step
         "inspection_cost": inspection_cost, "failure_cost": failure_cost, "replacement_cost": replacement_cost,
         "downtime_cost": downtime_cost, "visit_cost": visit_cost, "given": given,
     }, lives, "lives", None, threads, progress)
-
-
-def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrhenius", family="weibull", shape=None, sigma=None,
-               failing_at_use=None, failing_at_highest=None, life_at_highest=None, activation_energy=None, exponent=None, slope=None,
-               lowest=None, low=None, middle_share=0.2, least_failures=4):
-    """Plan an accelerated life test: levels of stress, specimens at each, and how well they predict a life in use.
-
-    Planning values: ``shape`` or ``sigma``, and two of ``failing_at_use``, ``failing_at_highest`` (or
-    ``life_at_highest``) and ``activation_energy`` (or ``exponent``, ``slope``). Each is a number, its 90 % interval
-    "1.4 to 2", or a prior.
-
-    Parameters
-    ----------
-    use : str or pint quantity
-        Stress in use, "50 degC".
-    highest : str or pint quantity
-        Highest stress to test, "120 degC".
-    until : str or pint quantity
-        Stop time of every test, "183 d".
-    specimens : int
-        Number of specimens in all.
-    goal : str
-        Life to predict at the stress in use, "B10".
-    relation : {"arrhenius", "inverse-power", "linear"}
-        Relation of log life to stress.
-    family : {"weibull", "lognormal", "loglogistic"}
-        Distribution of lives.
-    shape : float or str, optional
-        Weibull shape.
-    sigma : float or str, optional
-        Instead: scale of the natural logarithm of life, of any family.
-    failing_at_use : float or str, optional
-        Share that fails in use by the stop time, "0.1 %".
-    failing_at_highest : float or str, optional
-        Share that fails at the highest stress by the stop time, "90 %".
-    life_at_highest : str, optional
-        Instead: median life there, "60 d", or another one, "B10 = 20 d".
-    activation_energy : str or pint quantity, optional
-        How steeply life falls by the relation of Arrhenius, "0.7 eV".
-    exponent : float or str, optional
-        The same of an inverse power.
-    slope : float or str, optional
-        The same of a linear relation: fall of the natural logarithm of life per unit of stress.
-    lowest : str or pint quantity, optional
-        Lowest stress to test; by default that in use.
-    low : str or pint quantity, optional
-        Lower level of the plans with three levels; by default optimized.
-    middle_share : float or str
-        Share of specimens at the middle level of the compromise plan.
-    least_failures : int
-        Failures wanted at each level: their probability is reported.
-
-    Returns
-    -------
-    Plan
-        An optimum, a compromise, a 4:2:1 and an equal plan.
-
-    Raises
-    ------
-    InputError
-        If an argument is missing or wrong; the message names it.
-
-    Examples
-    --------
-    An adhesive bond (Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 20):
-
-    >>> import wearwell as ww
-    >>> plan = ww.plan.accelerate(use="50 degC", highest="120 degC", until="183 d", specimens=300, sigma=0.6, failing_at_use=0.001,
-    ...                           failing_at_highest=0.9)
-    >>> [each["plan"] for each in plan.summary["plans"]]
-    ['optimum', 'compromise', '4:2:1', 'equal']
-    >>> [sum(level["specimens"] for level in each["levels"]) for each in plan.summary["plans"]]
-    [300, 300, 300, 300]
-    """
-    return answer("accelerate", {
-        "use": use, "highest": highest, "until": until, "specimens": specimens, "goal": goal, "relation": relation, "family": family,
-        "shape": shape, "sigma": sigma, "failing_at_use": failing_at_use, "failing_at_highest": failing_at_highest,
-        "life_at_highest": life_at_highest, "activation_energy": activation_energy, "exponent": exponent, "slope": slope,
-        "lowest": lowest, "low": low, "middle_share": middle_share, "least_failures": least_failures,
-    })

@@ -19,7 +19,7 @@ def next(
     specimen_cost: float | None = ...,
     use_cost: float | None = ...,
     measure: str | None = ...,
-    by: Literal["width", "variance", "information"] = ...,
+    by: Literal["variance", "information"] = ...,
     value: float | None = ...,
     budget: float | None = ...,
     batch: int = ...,

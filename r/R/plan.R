@@ -82,7 +82,7 @@ ww_plan_inspect <- function(lives, risk = NULL, total_risk = NULL, warning = NUL
 }
 
 ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = NULL, cost = NULL, specimen_cost = NULL, use_cost = NULL,
-                         measure = NULL, by = "width", value = NULL, budget = NULL, batch = 1, until = NULL, tests = NULL,
+                         measure = NULL, by = "variance", value = NULL, budget = NULL, batch = 1, until = NULL, tests = NULL,
                          samples = 256, nodes = 800, seed = 1, threads = 0, progress = FALSE) {
   about <- fit_or_folder(fit)
   several <- if (is.list(tests) && !is.data.frame(tests) && is.null(names(tests))) tests else if (!is.null(tests)) list(tests)
