@@ -32,7 +32,7 @@ const Column* column_for(const Table& rows, const DataRoles::Named& named) {
 
 Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, bool positive_only,
                 bool label) {
-  Column column{named.column, !label && named.name != "status"};
+  Column column{named.column, !label && named.name != "status", {}, {}};
   for (std::size_t i = 0; i < rows; ++i) {
     if (named.name == "status") {
       column.text.push_back("failure");
