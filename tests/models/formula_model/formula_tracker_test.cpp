@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/models/formula_model/formula_first_passage.h"
+#include "wearwell/prognosis/information.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -117,6 +118,29 @@ TEST(FormulaTracker, ThePathAheadByBruteForce) {
   const double behind[] = {1.9 * h};
   EXPECT_THROW(unit.unit->ahead(behind), std::invalid_argument);
   expect_path_ahead(*watched.tracker, *unit.unit, false);
+}
+
+// A reading far ahead may show what the path there may be, not what it is today: 3 um now, some 350 um at 200 h.
+TEST(FormulaTracker, ReadingsFarAheadAreOfThePathThere) {
+  const Watched watched(straight, lines(rates, 5, 0.3),
+                        points(std::vector<std::vector<double>>(40, {1 * um / h, 0.3, 0.3 * um})));
+  FollowedUnit unit(*watched.tracker, "new");
+  const std::vector<std::pair<double, double>> readings = {{1.9 * um, 1 * h}, {3.4 * um, 2 * h}};
+  for (const auto& [depth, time] : readings) unit.update({depth, time});
+  const prognosis::History history = [&](const auto& visit) {
+    for (const auto& [depth, time] : readings) visit({{depth, time}, {}});
+  };
+  const double place[] = {200 * h};
+  const prognosis::ForecastBand band = unit.unit->ahead(place).front();
+  const auto outcomes = prognosis::possible_outcomes(*watched.tracker, *unit.unit,
+                                                     {{std::nan(""), place[0]}, {}}, 0, history);
+  ASSERT_EQ(outcomes.size(), 40u);
+  // The strata end at 5, 50 and 95 %; noise of 0.3 um adds nothing to a band of tens.
+  EXPECT_NEAR(0.5 * (outcomes[1].reading + outcomes[2].reading), band.level05, 0.02 * band.level05);
+  EXPECT_NEAR(0.5 * (outcomes[19].reading + outcomes[20].reading), band.level50,
+              0.01 * band.level50);
+  EXPECT_NEAR(0.5 * (outcomes[37].reading + outcomes[38].reading), band.level95,
+              0.02 * band.level95);
 }
 
 // Nothing but the chance of the increments to come: normal about b t, gamma with mean b t; variance s b t.
