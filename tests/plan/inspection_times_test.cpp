@@ -129,7 +129,9 @@ TEST(FewestVisits, AreTheFewestOfAllPlans) {
         std::vector<double> some;
         for (std::size_t k = 0; k < plan.visits.times.size(); ++k)
           if (bits >> k & 1U) some.push_back(plan.visits.times[k]);
-        if (some.size() < plan.of_unit[u].size()) EXPECT_FALSE(kept(u, some));
+        if (some.size() < plan.of_unit[u].size()) {
+          EXPECT_FALSE(kept(u, some));
+        }
       }
     }
   }

@@ -69,7 +69,7 @@ TEST(SearchAssurance, FindsAJump) {
 
 Table table(const std::vector<std::pair<std::string, double>>& cells) {
   Table rows{"tests.csv", {}, 1};
-  for (const auto& [name, value] : cells) rows.columns.push_back({name, true, {value}});
+  for (const auto& [name, value] : cells) rows.columns.push_back({name, true, {value}, {}});
   return rows;
 }
 

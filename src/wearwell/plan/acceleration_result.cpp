@@ -113,7 +113,8 @@ std::vector<OffValues> all_off_values(const AccelerationResult& result) {
 }  // namespace
 
 AccelerationResult acceleration_of(const AccelerationTest& test) {
-  AccelerationResult result{test, test.averaged(), CensoredInformation(test.distribution), {}, {}};
+  AccelerationResult result{test, test.averaged(), CensoredInformation(test.distribution), {}, {},
+                            {}};
   for (const PlanKind kind : plan_kinds) result.plans.push_back(evaluated_plan(result, kind));
   const std::vector<TestLevel> best = levels_for(result, result.goal, PlanKind::optimum);
   for (int i = 0; i <= 100; ++i)
