@@ -17,17 +17,26 @@ double mean_beyond(const std::function<double(double x)>& log_survival, double m
   if (!(middle > 0) || !std::isfinite(middle)) return nan;
   const double at_from = from > 0 ? log_survival(from) : 0;
   if (!std::isfinite(at_from)) return nan;
-  // ln of the integrand in u, with x = from + exp(u).
-  const auto log_integrand = [&](double u) {
-    return u + log_survival(from + std::exp(u)) - at_from;
+  const auto left = [&](double x) { return log_survival(x) - at_from; };
+  // Where half of those that survive `from` are left, within a factor of two, beyond `origin`.
+  double origin = from, scale = std::log(middle);
+  const auto find_scale = [&] {
+    const double ln2 = std::log(2.0);
+    while (scale < farthest && left(origin + std::exp(scale)) > -ln2) scale += ln2;
+    while (scale > -farthest && left(origin + std::exp(scale)) < -2 * ln2) scale -= ln2;
   };
-  // Where half of those that survive `from` are left, within a factor of two.
-  double scale = std::log(middle);
-  while (scale < farthest && log_survival(from + std::exp(scale)) - at_from > -std::log(2.0))
-    scale += std::log(2.0);
-  while (scale > -farthest && log_survival(from + std::exp(scale)) - at_from < -2 * std::log(2.0))
-    scale -= std::log(2.0);
+  find_scale();
   if (scale >= farthest) return infinity;
+  // All survive to there: a threshold, from which the integrand is smooth in the logarithm.
+  constexpr double all = -1e-13;
+  double high_end = from + std::exp(scale);
+  for (int i = 0; i < 60; ++i) {
+    const double between = origin + 0.5 * (high_end - origin);
+    (left(between) >= all ? origin : high_end) = between;
+  }
+  find_scale();
+  // ln of the integrand in u, with x = origin + exp(u).
+  const auto log_integrand = [&](double u) { return u + left(origin + std::exp(u)); };
   const double least = log_integrand(scale) - negligible;
   double high = scale, step = 1, beyond = 0;
   while (log_integrand(high) > least) {
@@ -43,11 +52,10 @@ double mean_beyond(const std::function<double(double x)>& log_survival, double m
     break;
   }
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  constexpr unsigned depth = 30;
+  constexpr unsigned depth = 12;
   constexpr double tolerance = 1e-10;
   const auto integrand = [&](double u) { return std::exp(log_integrand(u)); };
-  // Below its scale the integrand is nearly exp(u); a threshold is a kink anywhere.
-  return Rule::integrate(integrand, scale - negligible, scale, depth, tolerance) +
+  return (origin - from) + Rule::integrate(integrand, scale - negligible, scale, depth, tolerance) +
          Rule::integrate(integrand, scale, high, depth, tolerance) + beyond;
 }
 
