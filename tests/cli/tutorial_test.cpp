@@ -66,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         "README.md", "docs/how-to/b10-from-field-data.md", "docs/how-to/compare.md",
         "docs/how-to/decisions.md", "docs/how-to/edge.md", "docs/how-to/failed-check.md",
-        "docs/how-to/fleet.md", "docs/how-to/material-factor.md",
-        "docs/how-to/plan-next.md",
+        "docs/how-to/fleet.md", "docs/how-to/material-factor.md", "docs/how-to/plan-next.md",
         "docs/how-to/prior-from-a-study.md", "docs/how-to/rul-of-one-machine.md",
         "docs/how-to/select.md", "docs/how-to/sn-design-value.md", "docs/how-to/spectrum.md",
         "docs/how-to/state.md", "docs/reference/bearing.md", "docs/reference/clutch.md",
@@ -75,8 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
         "docs/reference/life.md", "docs/reference/staircase.md", "docs/reference/tables.md",
         "docs/reference/units.md", "docs/tutorials/joint-wear.md", "docs/tutorials/monitoring.md",
         "docs/tutorials/own-formula.md", "docs/tutorials/plan-springs.md",
-        "docs/tutorials/several-units.md",
-        "docs/tutorials/sn-design-value.md", "docs/tutorials/weibull-life-data.md"),
+        "docs/tutorials/several-units.md", "docs/tutorials/sn-design-value.md",
+        "docs/tutorials/weibull-life-data.md"),
     [](const auto& each) {
       const std::filesystem::path page = each.param;
       std::string name = page.parent_path().filename() / page.stem();

@@ -391,9 +391,9 @@ rate = { value = "b", unit = "um/h" }
       {"formula", formula_model("exponentiated-weibull",
                                 "scale = \"a + b * time\"\nshape = \"q\"\nexponent = 2", "")},
       {"formula",
-       formula_model(
-           "weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
-           "[predict]\ngiven = { time = \"2 h\" }\nmean_life = true\nhazard_at = \"9 um\"\n")},
+       formula_model("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
+                     "[predict]\ngiven = { time = \"2 h\" }\ncompared_with = { time = \"3 h\" "
+                     "}\nmean_life = true\nhazard_at = \"9 um\"\n")},
       {"formula", R"toml(model = "formula"
 [data]
 file = "wear.csv"

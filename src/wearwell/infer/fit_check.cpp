@@ -333,11 +333,9 @@ Check fit_check(const FitOutcome& outcome) {
                  fmt::format("{} (p = {:.1g})", test.finding, test.p), test.advice);
   }
   if (outcome.copies) add_copies(*outcome.copies, findings);
-  const std::string of_what = outcome.residuals.size() > most_judged
-                                  ? fmt::format("the residuals of {} rows, sampled from {},",
-                                                most_judged, outcome.residuals.size())
-                              : outcome.residuals.empty() ? "the outcomes"
-                                                          : "the residuals";
+  std::string of_what = outcome.residuals.empty() ? "the outcomes" : "the residuals";
+  if (outcome.residuals.size() > most_judged)
+    of_what += fmt::format(" of {} rows, sampled from {},", most_judged, outcome.residuals.size());
   const FitTest& least = *std::min_element(
       sorted.begin(), sorted.end(), [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
   std::string passed =

@@ -192,9 +192,8 @@ std::string acceleration_text(const AccelerationResult& result) {
       wrapped(printable(settings_sentence(result)), 2, 4) + "\n" +
       wrapped(printable(acceleration_sentence(result)), 0, 2) + "\n" +
       present::text(acceleration_plans_table(result)) + wrapped(curvature_note, 2, 2) + "\n" +
-      present::text(levels_table(result)) + "\n" +
-      present::text(stop_times_table(result)) + "\n" + present::text(off_values_table(result)) +
-      wrapped(printable(prior_sentence(result)), 2, 2);
+      present::text(levels_table(result)) + "\n" + present::text(stop_times_table(result)) + "\n" +
+      present::text(off_values_table(result)) + wrapped(printable(prior_sentence(result)), 2, 2);
   const std::vector<PlanWarning> warnings = acceleration_warnings(result);
   if (!warnings.empty()) text += "\nChecks\n";
   for (const PlanWarning& each : warnings)

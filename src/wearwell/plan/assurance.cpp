@@ -38,7 +38,7 @@ std::optional<ProbitLine> probit_line(const std::vector<AssurancePoint>& points)
   line.slope = (sxy - sx * sy / n) / spread;
   line.intercept = (sy - line.slope * sx) / n;
   for (int i = 0; i < 100; ++i) {
-    double ga = 0, gb = 0, haa = 0, hab = 0, hbb = 0;
+    double ga = 0, gb = 0, h_aa = 0, h_ab = 0, h_bb = 0;
     for (const AssurancePoint& each : points) {
       const double x = std::log(static_cast<double>(each.size));
       const double z = std::clamp(line.intercept + line.slope * x, -6.0, 6.0);
@@ -47,12 +47,12 @@ std::optional<ProbitLine> probit_line(const std::vector<AssurancePoint>& points)
       const double score = (static_cast<double>(each.narrow) - static_cast<double>(each.runs) * p) *
                            density / (p * (1 - p));
       ga += score, gb += score * x;
-      haa += information, hab += information * x, hbb += information * x * x;
+      h_aa += information, h_ab += information * x, h_bb += information * x * x;
     }
-    const double determinant = haa * hbb - hab * hab;
-    if (!(determinant > 1e-12 * haa * hbb)) return {};
-    const double da = (hbb * ga - hab * gb) / determinant;
-    const double db = (haa * gb - hab * ga) / determinant;
+    const double determinant = h_aa * h_bb - h_ab * h_ab;
+    if (!(determinant > 1e-12 * h_aa * h_bb)) return {};
+    const double da = (h_bb * ga - h_ab * gb) / determinant;
+    const double db = (h_aa * gb - h_ab * ga) / determinant;
     line.intercept += da;
     line.slope += db;
     if (std::abs(da) + std::abs(db) < 1e-10) break;
