@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -32,8 +33,11 @@ constexpr double mean_stress = 1000;                                           /
 constexpr double stop = 1e7, unit = 1e5;                                       // cycles
 // Equal spacing: each six tests have all levels, and the first four the whole range.
 constexpr std::array<std::size_t, alternating.size()> in_turn = {5, 0, 3, 1, 4, 2};
-constexpr std::size_t first = 4, most_planned = 16, most_spaced = 28;
+constexpr std::size_t first = 4, most_planned = 16, most_spaced = 24;
 constexpr double level = 0.9;
+// A posterior takes about 10,000.
+constexpr long most_evaluations = 200'000;
+constexpr const char* goal_text = "B10 at softer spring";
 
 Table tests_of_grid() {
   return table_of(
@@ -57,79 +61,95 @@ struct Specimens {
   std::array<std::vector<TestOutcome>, alternating.size()> of_level;
 };
 
+// Drawn until three of the first tests fail: who sees only run-outs begins again at higher stress.
+// What is selected by is data of both campaigns, so the posterior is that without selection.
 Specimens specimens_of(const std::vector<Parameter>& parameters, int index) {
-  Rng of_truth(seed, static_cast<std::uint64_t>(index) * 2);
-  Rng of_lives(seed, static_cast<std::uint64_t>(index) * 2 + 1);
-  Specimens specimens;
-  for (const Parameter& each : parameters)
-    specimens.truth.push_back(quantile(each.prior, of_truth.uniform()));
+  constexpr int fewest_failures = 3;
+  Rng rng(seed, static_cast<std::uint64_t>(index));
   const fatigue::SnLaw law;  // Basquin, Goodman, log10-normal
-  for (std::size_t k = 0; k < most_spaced; ++k) {
-    for (std::size_t l = 0; l < alternating.size(); ++l) {
-      const fatigue::Stress stress{alternating[l] * 1e6, mean_stress * 1e6};
-      const double* const x = specimens.truth.data();
-      const double log10_life = law.log10_life(x, law.log10_reversed(x, stress)) +
-                                x[law.sigma_index()] * of_lives.normal();
-      const bool runout = log10_life > std::log10(stop);
-      specimens.of_level[l].push_back({(runout ? stop : std::pow(10, log10_life)) / unit, runout});
-    }
-  }
-  return specimens;
-}
-
-// The intervals of one campaign after `first`, `first` + 1, ... tests; fewer if quadrature does not
-// resolve a posterior.
-struct Campaign {
-  std::vector<GoalInterval> intervals;
-  std::vector<std::size_t> levels;  // of its tests
-  int runouts = 0;
-};
-
-struct Choice {
-  const Source& source;
-  const ExactPosterior& posterior;
-  const std::vector<std::size_t>& levels;  // so far
-};
-
-template <class Next>
-Campaign campaign_of(const PlanningStudy& planning, const Goal& goal, const Specimens& specimens,
-                     std::size_t most, const Next& next) {
-  Campaign campaign;
-  std::array<std::size_t, alternating.size()> used{};
-  std::vector<TestOutcome> outcomes;
-  const auto test = [&](std::size_t l) {
-    campaign.levels.push_back(l);
-    outcomes.push_back(specimens.of_level[l].at(used[l]++));
-    campaign.runouts += outcomes.back().runout;
-  };
-  for (std::size_t i = 0; i < first; ++i) test(in_turn[i]);
   while (true) {
-    const Source source = with_tests(planning, campaign.levels, outcomes);
-    const auto read = planning.tests.read(source);
-    const ExactPosterior posterior = tested_posterior(require_posterior_study(*read));
-    const auto interval = goal_interval(posterior, goal, level);
-    if (!interval) return campaign;
-    campaign.intervals.push_back(*interval);
-    if (outcomes.size() == most) return campaign;
-    test(next(Choice{source, posterior, campaign.levels}));
+    Specimens specimens;
+    for (const Parameter& each : parameters)
+      specimens.truth.push_back(quantile(each.prior, rng.uniform()));
+    const double* const x = specimens.truth.data();
+    for (std::size_t k = 0; k < most_spaced; ++k) {
+      for (std::size_t l = 0; l < alternating.size(); ++l) {
+        const fatigue::Stress stress{alternating[l] * 1e6, mean_stress * 1e6};
+        const double log10_life =
+            law.log10_life(x, law.log10_reversed(x, stress)) + x[law.sigma_index()] * rng.normal();
+        const bool runout = log10_life > std::log10(stop);
+        specimens.of_level[l].push_back(
+            {(runout ? stop : std::pow(10, log10_life)) / unit, runout});
+      }
+    }
+    int failures = 0;
+    for (std::size_t i = 0; i < first; ++i)
+      failures += !specimens.of_level[in_turn[i]].front().runout;
+    if (failures >= fewest_failures) return specimens;
   }
 }
 
-std::size_t planned(const Choice& choice) {
+// Numbers of tests after which the intervals of a campaign are computed.
+constexpr std::size_t every = 2;
+bool counts(std::size_t tests) {
+  return (tests - first) % every == 0;
+}
+
+struct Campaign {
+  std::vector<GoalInterval> intervals;  // after `first`, `first` + `every`, ... tests
+  std::vector<std::size_t> levels;      // of its tests
+  std::vector<TestOutcome> outcomes;
+  std::string failure;  // of the quadrature; then without the rest of its intervals
+
+  void test(std::size_t l, const Specimens& specimens) {
+    const auto used = static_cast<std::size_t>(std::count(levels.begin(), levels.end(), l));
+    levels.push_back(l);
+    outcomes.push_back(specimens.of_level[l].at(used));
+  }
+  const GoalInterval& after(std::size_t tests) const {
+    return intervals.at((tests - first) / every);
+  }
+};
+
+// The best candidate of `plan next` for the posterior after these tests.
+std::size_t best_next(Source tests, const ExactPosterior& posterior) {
+  tests.study = spring_study().study;  // with [predict], which tests are read without
   NextQuestion question;
-  question.goal = "B10 at softer spring";
+  question.goal = goal_text;
   question.candidates = tests_of_grid();
   question.nodes = 300;
   question.samples = 16;  // of the typical posterior, which is not used here
-  Source source = choice.source;
-  source.study = spring_study().study;  // with [predict], which tests are read without
   const Answer answer =
-      next_test(state_of(source, choice.posterior.nodes), "campaign", reading(), question);
+      next_test(state_of(tests, posterior.nodes), "campaign", reading(), question);
   return answer.json["candidates"][0]["row"].get<std::size_t>() - 1;
 }
 
-std::size_t spaced(const Choice& choice) {
-  return in_turn[choice.levels.size() % in_turn.size()];
+Campaign campaign_of(const PlanningStudy& planning, const Goal& goal, const Specimens& specimens,
+                     bool planned) {
+  Campaign campaign;
+  const std::size_t most = planned ? most_planned : most_spaced;
+  std::size_t next = in_turn[0];
+  while (campaign.levels.size() < most) {
+    campaign.test(next, specimens);
+    const std::size_t n = campaign.levels.size();
+    next = in_turn[n % in_turn.size()];
+    if (n < first || (!planned && !counts(n))) continue;
+    const Source tests = with_tests(planning, campaign.levels, campaign.outcomes);
+    const auto read = planning.tests.read(tests);
+    const ExactPosterior posterior =
+        tested_posterior(require_posterior_study(*read), most_evaluations);
+    if (!posterior.failure.empty()) {
+      campaign.failure = fmt::format("after {} tests: {}", n, posterior.failure);
+      return campaign;
+    }
+    if (counts(n)) {
+      const auto interval = goal_interval(posterior, goal, level);
+      if (!interval) return campaign;
+      campaign.intervals.push_back(*interval);
+    }
+    if (planned && n < most) next = best_next(tests, posterior);
+  }
+  return campaign;
 }
 
 struct Pair {
@@ -137,49 +157,59 @@ struct Pair {
   double truth = 0;  // B10, unit of the goal
 
   bool resolved() const {
-    return planned.intervals.size() == most_planned - first + 1 &&
-           spaced.intervals.size() == most_spaced - first + 1;
+    return planned.intervals.size() == (most_planned - first) / every + 1 &&
+           spaced.intervals.size() == (most_spaced - first) / every + 1;
   }
 };
 
-double log_factor(const GoalInterval& interval) {
-  return std::log(interval.high / interval.low);
-}
-
 // ln of the width of ln B10 after n tests.
+double log_width(const GoalInterval& interval) {
+  return std::log(std::log(interval.high / interval.low));
+}
 double planned_at(const Pair& pair, std::size_t n) {
-  return std::log(log_factor(pair.planned.intervals[n - first]));
+  return log_width(pair.planned.after(n));
 }
 double spaced_at(const Pair& pair, std::size_t n) {
-  return std::log(log_factor(pair.spaced.intervals[n - first]));
+  return log_width(pair.spaced.after(n));
 }
 
 // A line for each campaign, so that a run that is stopped has shown what it found.
 void print(int index, const Pair& pair) {
   std::string line = fmt::format("campaign {}; levels", index);
   for (const std::size_t l : pair.planned.levels) line += fmt::format(" {}", alternating[l]);
-  line += fmt::format("; run-outs {} {}; planned", pair.planned.runouts, pair.spaced.runouts);
-  for (const auto& each : pair.planned.intervals) line += fmt::format(" {:.4f}", log_factor(each));
-  line += "; spaced";
-  for (const auto& each : pair.spaced.intervals) line += fmt::format(" {:.4f}", log_factor(each));
+  line += fmt::format("; ln B10 {:.4f}", std::log(pair.truth));
+  for (const Campaign* each : {&pair.planned, &pair.spaced}) {
+    const auto runouts = std::count_if(each->outcomes.begin(), each->outcomes.end(),
+                                       [](const TestOutcome& outcome) { return outcome.runout; });
+    line +=
+        fmt::format("; {}: run-outs {};", each == &pair.planned ? "planned" : "in turn", runouts);
+    for (const GoalInterval& of : each->intervals)
+      line += fmt::format(" {:.4f} {:.4f}", std::log(of.low), std::log(of.high));
+    line += each->failure.empty() ? "" : "; " + each->failure;
+  }
   fmt::print("{}\n", line);
   std::fflush(stdout);
 }
 
 std::vector<Pair> simulate(int count) {
   const PlanningStudy planning = planning_study(spring_study(), reading(), tests_of_grid(), "");
-  const Goal goal = goal_of(planning.study(), "B10 at softer spring");
+  const Goal goal = goal_of(planning.study(), goal_text);
   std::vector<Pair> pairs(static_cast<std::size_t>(count));
   std::mutex printing;
-  tbb::parallel_for(0, count, [&](int i) {
+  const auto run = [&](int i) {
     const Specimens specimens = specimens_of(planning.study().parameters, i);
     Pair& pair = pairs[static_cast<std::size_t>(i)];
     pair.truth = from_si(goal.unit, goal.value(specimens.truth.data()));
-    pair.planned = campaign_of(planning, goal, specimens, most_planned, planned);
-    pair.spaced = campaign_of(planning, goal, specimens, most_spaced, spaced);
+    pair.planned = campaign_of(planning, goal, specimens, true);
+    pair.spaced = campaign_of(planning, goal, specimens, false);
     const std::lock_guard lock(printing);
     print(i, pair);
-  });
+  };
+  // In blocks: a run that is stopped has the first campaigns.
+  constexpr int block = 10;
+  for (int begin = 0; begin < count; begin += block)
+    tbb::parallel_for(begin, std::min(begin + block, count),
+                      [&](int i) { tbb::this_task_arena::isolate([&] { run(i); }); });
   return pairs;
 }
 
@@ -204,11 +234,12 @@ double saved(const std::vector<Pair>& pairs, std::span<const std::size_t> chosen
     return all;
   };
   const double wanted = sum(planned_at, n);
-  std::size_t upper = first + 1;
-  while (upper < most_spaced && sum(spaced_at, upper) > wanted) ++upper;
-  // Beyond: along the chord of the last third, over which the noise of single steps averages.
-  const std::size_t lower =
-      upper == most_spaced && sum(spaced_at, upper) > wanted ? 2 * most_spaced / 3 : upper - 1;
+  std::size_t upper = first + every;
+  while (upper < most_spaced && sum(spaced_at, upper) > wanted) upper += every;
+  // Beyond: along a chord over which the noise of single steps averages.
+  constexpr std::size_t chord = 8;
+  const bool beyond = upper == most_spaced && sum(spaced_at, upper) > wanted;
+  const std::size_t lower = upper - (beyond ? chord : every);
   const double a = sum(spaced_at, lower), b = sum(spaced_at, upper);
   const double ln_lower = std::log(static_cast<double>(lower));
   const double ln_upper = std::log(static_cast<double>(upper));
@@ -236,14 +267,14 @@ Mean tests_saved(const std::vector<Pair>& pairs, std::size_t n) {
 
 int misses(const std::vector<Pair>& pairs, const Campaign Pair::*arm, std::size_t n) {
   return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const Pair& each) {
-    const GoalInterval& interval = (each.*arm).intervals[n - first];
+    const GoalInterval& interval = (each.*arm).after(n);
     return each.truth < interval.low || each.truth > interval.high;
   }));
 }
 
 void print_table(const std::vector<Pair>& pairs) {
   fmt::print("tests, factor planned, factor in turn, ratio of ln factor, its standard error\n");
-  for (std::size_t n = first; n <= most_spaced; n += 2) {
+  for (std::size_t n = first; n <= most_spaced; n += every) {
     const Mean in_turn_of = mean(pairs, [&](const Pair& each) { return spaced_at(each, n); });
     if (n > most_planned) {
       fmt::print("{} | | {:.3f}\n", n, std::exp(std::exp(in_turn_of.value)));

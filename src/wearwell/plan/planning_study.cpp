@@ -209,11 +209,12 @@ Source with_tests(const PlanningStudy& planning, std::span<const std::size_t> sp
   return source;
 }
 
-ExactPosterior tested_posterior(const PosteriorStudy& study) {
+ExactPosterior tested_posterior(const PosteriorStudy& study, long max_evaluations) {
   const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
   const PosteriorShape shape = posterior_shape(posterior);
   ExactSettings settings;
   settings.tolerance = 1e-3;
+  settings.max_evaluations = max_evaluations;
   for (std::size_t k = 1; k < shape.maxima.found.size(); ++k)
     settings.maxima.push_back(shape.maxima.found[k].mode);
   return integrate(posterior, whitening_at(shape.mode), settings);

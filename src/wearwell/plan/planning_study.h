@@ -51,8 +51,9 @@ Source with_tests(const PlanningStudy& planning, std::span<const std::size_t> sp
                   std::span<const TestOutcome> outcomes);
 
 /// The posterior of a study by the same quadrature as a fit, with moments to 0.1 %; `failure` is
-/// not empty where quadrature does not resolve it.
-ExactPosterior tested_posterior(const PosteriorStudy& study);
+/// not empty where quadrature does not resolve it within `max_evaluations` of the density.
+ExactPosterior tested_posterior(const PosteriorStudy& study,
+                                long max_evaluations = ExactSettings{}.max_evaluations);
 
 struct GoalInterval {
   double low = 0, middle = 0, high = 0;  ///< unit of the goal
