@@ -301,8 +301,11 @@ TEST(PlanCampaign, PlannedOneByOneBesideEqualSpacing) {
   const auto count = static_cast<int>(pairs.size());
   constexpr double sure = 3;  // standard errors
   for (const std::size_t n : {std::size_t{8}, std::size_t{12}, most_planned}) {
-    const Mean of = tests_saved(pairs, n);
-    fmt::print("{} planned tests save {:.1f} +- {:.1f}\n", n, of.value, of.error);
+    // After the last ones equal spacing may need more tests than were simulated.
+    if (n < most_planned) {
+      const Mean of = tests_saved(pairs, n);
+      fmt::print("{} planned tests save {:.1f} +- {:.1f}\n", n, of.value, of.error);
+    }
     const Mean ratio =
         mean(pairs, [&](const Pair& each) { return planned_at(each, n) - spaced_at(each, n); });
     EXPECT_LT(ratio.value, sure * ratio.error) << n << " tests";
