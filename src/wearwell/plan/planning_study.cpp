@@ -10,7 +10,6 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/base/unit_system.h"
-#include "wearwell/infer/exact.h"
 #include "wearwell/infer/posterior_shape.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/heading.h"
@@ -200,32 +199,44 @@ std::vector<SimulatedCampaign> simulated_campaigns(const PlanningStudy& planning
   return campaigns;
 }
 
-std::optional<GoalInterval> goal_interval(const PlanningStudy& planning, const Goal& goal,
-                                          std::span<const std::size_t> specimens,
-                                          const SimulatedCampaign& campaign, std::size_t size,
-                                          double level) {
+Source with_tests(const PlanningStudy& planning, std::span<const std::size_t> specimens,
+                  std::span<const TestOutcome> outcomes) {
   std::vector<std::size_t> rows;
-  for (const std::size_t each : specimens.first(size))
-    rows.push_back(planning.conditions.all[each].row);
+  for (const std::size_t each : specimens) rows.push_back(planning.conditions.all[each].row);
   Source source = planning.tests.source;
-  source.tables[planning.tests.key] =
-      rows_with_outcomes(planning.tests, planning.conditions.conditions, rows,
-                         std::span(campaign.outcomes).first(size), "specimen");
-  const auto read = planning.tests.read(source);
-  const PosteriorStudy& study = require_posterior_study(*read);
+  source.tables[planning.tests.key] = rows_with_outcomes(
+      planning.tests, planning.conditions.conditions, rows, outcomes, "specimen");
+  return source;
+}
+
+ExactPosterior tested_posterior(const PosteriorStudy& study, long max_evaluations) {
   const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
   const PosteriorShape shape = posterior_shape(posterior);
   ExactSettings settings;
   settings.tolerance = 1e-3;
+  settings.max_evaluations = max_evaluations;
   for (std::size_t k = 1; k < shape.maxima.found.size(); ++k)
     settings.maxima.push_back(shape.maxima.found[k].mode);
-  const ExactPosterior exact = integrate(posterior, whitening_at(shape.mode), settings);
+  return integrate(posterior, whitening_at(shape.mode), settings);
+}
+
+std::optional<GoalInterval> goal_interval(const ExactPosterior& exact, const Goal& goal,
+                                          double level) {
   if (!exact.failure.empty()) return {};
   const QuantityDistribution distribution(exact.nodes, goal.value);
   const auto at = [&](double p) { return from_si(goal.unit, distribution.quantile(p)); };
   const GoalInterval interval{at((1 - level) / 2), at(0.5), at((1 + level) / 2)};
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return {};
   return interval;
+}
+
+std::optional<GoalInterval> goal_interval(const PlanningStudy& planning, const Goal& goal,
+                                          std::span<const std::size_t> specimens,
+                                          const SimulatedCampaign& campaign, std::size_t size,
+                                          double level) {
+  const auto read = planning.tests.read(
+      with_tests(planning, specimens.first(size), std::span(campaign.outcomes).first(size)));
+  return goal_interval(tested_posterior(require_posterior_study(*read)), goal, level);
 }
 
 }  // namespace wearwell::plan

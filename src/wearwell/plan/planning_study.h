@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/infer/exact.h"
 #include "wearwell/plan/candidates.h"
 #include "wearwell/plan/goal.h"
 #include "wearwell/plan/outcomes.h"
@@ -45,11 +46,24 @@ std::vector<SimulatedCampaign> simulated_campaigns(const PlanningStudy& planning
                                                    std::span<const std::size_t> specimens,
                                                    std::size_t count, std::uint64_t seed);
 
-/// The posterior of the first `size` specimens of a campaign by the same quadrature as a fit, and
-/// the goal's interval; empty where quadrature does not resolve it.
+/// The study with these finished tests as its only data; `specimens` are indices of candidates.
+Source with_tests(const PlanningStudy& planning, std::span<const std::size_t> specimens,
+                  std::span<const TestOutcome> outcomes);
+
+/// The posterior of a study by the same quadrature as a fit, with moments to 0.1 %; `failure` is
+/// not empty where quadrature does not resolve it within `max_evaluations` of the density.
+ExactPosterior tested_posterior(const PosteriorStudy& study,
+                                long max_evaluations = ExactSettings{}.max_evaluations);
+
 struct GoalInterval {
   double low = 0, middle = 0, high = 0;  ///< unit of the goal
 };
+
+/// The central interval of the goal; empty where quadrature does not resolve the posterior.
+std::optional<GoalInterval> goal_interval(const ExactPosterior& exact, const Goal& goal,
+                                          double level);
+
+/// The same after the first `size` specimens of a campaign.
 std::optional<GoalInterval> goal_interval(const PlanningStudy& planning, const Goal& goal,
                                           std::span<const std::size_t> specimens,
                                           const SimulatedCampaign& campaign, std::size_t size,
