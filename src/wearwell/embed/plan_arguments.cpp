@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -158,7 +159,7 @@ void PlanArguments::call_option(const std::string& option, const std::string& ar
 
 std::string PlanArguments::in_arguments(const std::string& text) const {
   const auto in_word = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
   };
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
