@@ -8,6 +8,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::plan {
 namespace {
@@ -205,13 +206,7 @@ std::string inspect_text(const InspectReport& report) {
   for (const std::string& each : assumptions(report)) text += wrapped(printable(each), 0, 2);
   const std::vector<Check> checks = inspect_checks(report);
   if (!checks.empty()) text += "\nChecks\n";
-  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
-  for (const Check& check : checks) {
-    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
-                                printable(check.detail)),
-                    2, 8);
-    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
-  }
+  text += checks_text(checks);
   return text;
 }
 
@@ -220,7 +215,7 @@ std::vector<present::Section> inspect_sections(const InspectReport& report) {
   plan.add(present::Prose{report.fleet ? fleet_answer(report) : unit_answer(report), true});
   plan.add(present::Prose{html::capital(asked_text(report)) + "."});
   for (const Check& check : inspect_checks(report))
-    plan.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+    plan.add(present::Callout{verdict_kind(check.verdict), check.name,
                               check.detail + ". " + check.advice});
   if (report.fleet) {
     plan.add(present::Figures{{visits_figure(report)}});

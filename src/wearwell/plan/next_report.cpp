@@ -9,6 +9,7 @@
 #include "wearwell/plan/next_plan.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::plan {
 namespace {
@@ -197,13 +198,7 @@ std::string next_text(const NextPlan& plan) {
   text += next_table_text(candidates_table(plan));
   for (const std::string& note : plan.notes) text += wrapped("Note: " + printable(note), 2, 4);
   if (!plan.checks.empty()) text += "\nChecks\n";
-  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
-  for (const Check& check : plan.checks) {
-    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
-                                printable(check.detail)),
-                    2, 8);
-    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
-  }
+  text += checks_text(plan.checks);
   return text;
 }
 
@@ -231,7 +226,7 @@ std::vector<present::Section> next_sections(const NextPlan& plan, const NextQues
   if (plan.batch) answer.add(present::Prose{batch_text(plan)});
   if (plan.target) answer.add(present::Prose{target_text(plan)});
   for (const Check& check : plan.checks)
-    answer.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+    answer.add(present::Callout{verdict_kind(check.verdict), check.name,
                                 html::capital(check.detail) + ". " + check.advice});
   if (auto figures = next_figures(plan); !figures.empty())
     answer.add(present::Figures{std::move(figures)});

@@ -9,6 +9,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::plan {
 namespace {
@@ -214,13 +215,12 @@ Answer size_answer(const SizeReport& report) {
                 "\n" + wrapped(printable(size_result(report)), 0, 2) + "\n" +
                 present::text(sizes_table(report)) + "\n";
   for (const std::string& each : basis(report)) answer.text += wrapped(printable(each), 0, 2);
-  for (const Check& check : size_checks(report))
-    answer.text += fmt::format("\nChecks\n") +
-                   wrapped(fmt::format("WARN  {}: {}", check.name, check.detail), 2, 8);
+  const std::vector<Check> checks = size_checks(report);
+  if (!checks.empty()) answer.text += "\nChecks\n" + checks_text(checks);
   present::Section sizes{"size", "Number of specimens"};
   sizes.add(present::Prose{size_result(report), true});
   sizes.add(present::Prose{html::capital(asked(report)) + "."});
-  for (const Check& check : size_checks(report))
+  for (const Check& check : checks)
     sizes.add(present::Callout{"warn", check.name, check.detail + ". " + check.advice});
   sizes.add(present::Figures{{assurance_figure(report), width_figure(report)}});
   sizes.add(sizes_table(report));

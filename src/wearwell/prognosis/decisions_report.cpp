@@ -9,6 +9,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/prognosis/decisions_tables.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -178,13 +179,7 @@ std::string decisions_text(const DecisionsReport& report) {
   if (report.worth) text += "\n" + wrapped(printable(worth_text(report)), 0, 2);
   const std::vector<Check> checks = decision_checks(report);
   if (!checks.empty()) text += "\nChecks\n";
-  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
-  for (const Check& check : checks) {
-    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
-                                printable(check.detail)),
-                    2, 8);
-    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
-  }
+  text += checks_text(checks);
   return text;
 }
 
@@ -193,7 +188,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   policy.add(present::Prose{answer(report), true});
   policy.add(present::Prose{html::capital(costs_text(report)) + "."});
   for (const Check& check : decision_checks(report))
-    policy.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+    policy.add(present::Callout{verdict_kind(check.verdict), check.name,
                                 check.detail + ". " + check.advice});
   policy.add(present::Figures{{cost_figure(report)}});
   policy.add(policies_table(report));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "wearwell/base/printable.h"
+#include "wearwell/present/text_table.h"
+
 namespace wearwell {
 
 const char* verdict_kind(Verdict verdict) {
@@ -41,6 +44,18 @@ std::string trust_line(const std::vector<Check>& checks) {
 const char* trust_word(const std::vector<Check>& checks) {
   static constexpr const char* words[] = {"yes", "with a warning", "no"};
   return words[static_cast<int>(worst_of(checks))];
+}
+
+std::string checks_text(const std::vector<Check>& checks) {
+  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
+  std::string text;
+  for (const Check& check : checks) {
+    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
+                                printable(check.detail)),
+                    2, 8);
+    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
+  }
+  return text;
 }
 
 present::Callout trust_callout(const std::vector<Check>& checks) {

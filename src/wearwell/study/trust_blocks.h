@@ -23,6 +23,9 @@ const char* trust_word(const std::vector<Check>& checks);
 /// The verdict, with advice if a check failed.
 present::Callout trust_callout(const std::vector<Check>& checks);
 
+/// Every check as lines for a terminal: verdict, name and finding, then the advice.
+std::string checks_text(const std::vector<Check>& checks);
+
 /// Every check with its finding.
 present::Table checks_table(const std::vector<Check>& checks);
 

@@ -11,6 +11,7 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/comparison_overlays.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -199,13 +200,7 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
                   first.life_unit.text, line_text(report)) +
       text_table(rows) + wrapped(printable(weights_text(report)), 2, 4);
   text += "\nChecks\n";
-  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
-  for (const Check& check : averaged_design_checks(report)) {
-    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
-                                printable(check.detail)),
-                    2, 8);
-    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
-  }
+  text += checks_text(averaged_design_checks(report));
   if (!report.from.cautions.empty())
     text +=
         "\n"
@@ -223,7 +218,7 @@ std::vector<present::Section> averaged_design_sections(const AveragedDesignRepor
                      true});
   for (const Check& check : averaged_design_checks(report)) {
     if (check.verdict == Verdict::pass) continue;
-    design.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+    design.add(present::Callout{verdict_kind(check.verdict), check.name,
                                 check.detail + ". " + check.advice});
   }
   design.add(present::Figures{{curves_figure(report)}});

@@ -10,6 +10,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -255,13 +256,7 @@ std::string load_life_text(const LoadLifeReport& report) {
         "Some items never fail: their life has no finite variance.\n";
   }
   text += "\nChecks\n";
-  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
-  for (const Check& check : load_life_checks(report)) {
-    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
-                                printable(check.detail)),
-                    2, 8);
-    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
-  }
+  text += checks_text(load_life_checks(report));
   return text;
 }
 
@@ -271,7 +266,7 @@ std::vector<present::Section> load_life_sections(const LoadLifeReport& report) {
   life.add(present::Prose{rule_text(report) + "."});
   for (const Check& check : load_life_checks(report)) {
     if (check.verdict == Verdict::pass) continue;
-    life.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+    life.add(present::Callout{verdict_kind(check.verdict), check.name,
                               check.detail + ". " + check.advice});
   }
   life.add(present::Figures{{life_figure(report), damage_figure(report)}});
