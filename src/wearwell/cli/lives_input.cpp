@@ -41,20 +41,18 @@ void read_fleet(const std::filesystem::path& path, Models models, LivesInput& in
 }  // namespace
 
 prognosis::FollowedUnits LivesInput::followed() const {
-  prognosis::FollowedUnits units;
-  units.tracker = tracker.get();
-  if (!tracker) return units;
-  units.names.assign(tracker->seen().begin(), tracker->seen().end());
+  if (!tracker) return {};
+  prognosis::FollowedUnits units = prognosis::units_of_study(*tracker);
+  if (!store) return units;
+  units.source = "fleet";
   for (const auto& [name, record] : stored) units.names.push_back(name);
-  if (store) units.source = "fleet";
-  units.unit = [this](const std::string& name) {
+  units.unit = [this, of_study = units.unit](const std::string& name) {
     const auto at = stored.find(name);
-    return at == stored.end() ? tracker->begin(name) : tracker->restore(at->second.state->save());
+    return at == stored.end() ? of_study(name) : tracker->restore(at->second.state->save());
   };
-  units.history = [this](const std::string& name) -> prognosis::History {
+  units.history = [this, of_study = units.history](const std::string& name) {
     const auto at = stored.find(name);
-    if (at == stored.end()) return [](const std::function<void(const prognosis::Reading&)>&) {};
-    return history_of(*store, name, at->second.place);
+    return at == stored.end() ? of_study(name) : history_of(*store, name, at->second.place);
   };
   return units;
 }

@@ -131,12 +131,7 @@ Lives lives_of(const PlanSubject& subject) {
                                  printable(state.model)));
   const prognosis::Tracker& tracker = *result.tracker;
   result.lives = prognosis::lives_of_tracker(tracker, title, state.trusted);
-  result.followed.tracker = &tracker;
-  result.followed.names.assign(tracker.seen().begin(), tracker.seen().end());
-  result.followed.unit = [&tracker](const std::string& name) { return tracker.begin(name); };
-  result.followed.history = [](const std::string&) -> prognosis::History {
-    return [](const std::function<void(const prognosis::Reading&)>&) {};
-  };
+  result.followed = prognosis::units_of_study(tracker);
   return result;
 }
 

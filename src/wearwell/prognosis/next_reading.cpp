@@ -45,6 +45,17 @@ void add_given(const Tracker& tracker, const std::string& text, Reading& reading
 
 }  // namespace
 
+FollowedUnits units_of_study(const Tracker& tracker) {
+  FollowedUnits units;
+  units.tracker = &tracker;
+  units.names.assign(tracker.seen().begin(), tracker.seen().end());
+  units.unit = [&tracker](const std::string& name) { return tracker.begin(name); };
+  units.history = [](const std::string&) -> History {
+    return [](const std::function<void(const Reading&)>&) {};
+  };
+  return units;
+}
+
 void require_known(const FollowedUnits& units, const std::string& name) {
   if (std::find(units.names.begin(), units.names.end(), name) != units.names.end()) return;
   throw InputError(fmt::format("--unit: the {} has no {} '{}'{}", units.source,

@@ -19,6 +19,9 @@ struct FollowedUnits {
   std::function<History(const std::string& name)> history;  ///< all its readings since the study
 };
 
+/// The units of a study, with its readings of them alone. Refers to the tracker.
+FollowedUnits units_of_study(const Tracker& tracker);
+
 /// Throws InputError that begins with "--unit" unless there is such a unit.
 void require_known(const FollowedUnits& units, const std::string& name);
 
