@@ -311,7 +311,7 @@ def test_sizes_are_the_programs(same, tmp_path):
     def stop(*_):
         raise ZeroDivisionError
 
-    if seen:  # it took long enough to be told of
+    if seen:  # it took long enough for a report
         with pytest.raises(ZeroDivisionError):
             ww.plan.size(study, "k", tests=frame, **size_options, progress=stop)
 

@@ -15,6 +15,7 @@
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/plan/life_requirement.h"
+#include "wearwell/prognosis/quantity_like.h"
 
 namespace wearwell::plan {
 namespace {
@@ -63,8 +64,9 @@ NamedValue spread_of(const AccelerateQuestion& question) {
 // A stress in SI: a temperature, or a quantity of the dimension of the highest stress.
 double read_stress(const AccelerationTest& test, const std::string& option,
                    const std::string& text) {
-  return test.relation == Relation::arrhenius ? option_value(option, text, "K")
-                                              : read_like(option, text, test.stress_unit);
+  return test.relation == Relation::arrhenius
+             ? option_value(option, text, "K")
+             : prognosis::quantity_like(option, text, test.stress_unit);
 }
 
 void read_stresses(const AccelerateQuestion& question, AccelerationTest& test) {

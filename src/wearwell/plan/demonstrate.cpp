@@ -133,7 +133,7 @@ Json demonstration_json(const Demonstration& result) {
     json["probability_to_pass"].push_back(std::move(each));
   }
   json["sample_against_time"] = Json::array();
-  for (const SampleAgainstTime& row : result.trade) {
+  for (const SampleAgainstTime& row : result.sample_sizes) {
     Json each = {{"specimens", row.specimens}, {"time", Json::array()}};
     for (const auto& time : row.times)
       each["time"].push_back(time ? Json(goal.shown(*time)) : Json());
@@ -148,16 +148,16 @@ std::vector<present::Section> demonstration_sections(const Demonstration& result
   plan.add(present::Prose{html::capital(goal_text(result.goal)) + "; " + scatter_text(result.goal) +
                           "."});
   plan.add(present::Prose{shape_sentence(result)});
-  plan.add(present::Figures{{trade_figure(result), characteristic_figure(result)}});
+  plan.add(present::Figures{{sample_size_figure(result), characteristic_figure(result)}});
   plan.add(plans_table(result));
   if (const std::string text = exposure_sentence(result); !text.empty())
     plan.add(present::Prose{text});
   present::Section passing{"passing", "Probability to pass"};
   passing.add(pass_table(result));
   std::vector<present::Section> sections = {plan, passing};
-  if (!result.trade.empty()) {
+  if (!result.sample_sizes.empty()) {
     present::Section sample{"sample-size", "Sample size against time"};
-    sample.add(trade_table(result));
+    sample.add(sample_size_table(result));
     sections.push_back(sample);
   }
   return sections;
@@ -172,8 +172,8 @@ std::string demonstration_text(const Demonstration& result) {
   if (const std::string exposure = exposure_sentence(result); !exposure.empty())
     text += wrapped(exposure, 2, 2);
   text += "\n" + present::text(pass_table(result));
-  if (!result.trade.empty() && !goal.specimens && !goal.time)
-    text += "\n" + present::text(trade_table(result));
+  if (!result.sample_sizes.empty() && !goal.specimens && !goal.time)
+    text += "\n" + present::text(sample_size_table(result));
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/prognosis/quantity_like.h"
 
 namespace wearwell::plan {
 namespace {
@@ -126,7 +127,7 @@ DemonstrationGoal read_demonstration(const DemonstrateQuestion& question) {
   goal.specimens = question.specimens;
   goal.groups = question.sudden_death;
   if (!question.time.empty()) {
-    const double time = read_like("--time", question.time, goal.goal.unit);
+    const double time = prognosis::quantity_like("--time", question.time, goal.goal.unit);
     if (!(time > 0))
       throw InputError(fmt::format("--time: '{}' must be positive", printable(question.time)));
     goal.time = time / goal.goal.life;

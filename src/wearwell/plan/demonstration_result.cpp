@@ -106,7 +106,7 @@ Demonstration demonstration_of(const DemonstrationGoal& goal) {
       row.times.push_back(least_time(n, allowed, goal.scatter, goal.goal.failing, goal.confidence));
     if (std::any_of(row.times.begin(), row.times.end(),
                     [](const auto& time) { return time.has_value(); }))
-      result.trade.push_back(std::move(row));
+      result.sample_sizes.push_back(std::move(row));
   }
   return result;
 }

@@ -35,8 +35,8 @@ struct SampleAgainstTime {
 struct Demonstration {
   DemonstrationGoal goal;
   Sought sought = Sought::specimens;
-  std::vector<DemonstrationPlan> plans;  ///< one for each number of allowed failures
-  std::vector<SampleAgainstTime> trade;  ///< with a shape
+  std::vector<DemonstrationPlan> plans;         ///< one for each number of allowed failures
+  std::vector<SampleAgainstTime> sample_sizes;  ///< with a shape
 };
 
 /// Throws InputError if no plan reaches the confidence.
@@ -50,8 +50,8 @@ std::string b_life_name(double failing);
 
 present::Table plans_table(const Demonstration& result);
 present::Table pass_table(const Demonstration& result);
-present::Table trade_table(const Demonstration& result);
-html::Figure trade_figure(const Demonstration& result);
+present::Table sample_size_table(const Demonstration& result);
+html::Figure sample_size_figure(const Demonstration& result);
 html::Figure characteristic_figure(const Demonstration& result);
 
 /// A sudden-death test, whole.

@@ -110,14 +110,14 @@ Table pass_table(const Demonstration& result) {
   return table;
 }
 
-Table trade_table(const Demonstration& result) {
+Table sample_size_table(const Demonstration& result) {
   const std::string unit = result.goal.goal.unit.text;
   Table table{"sample-against-time",
               fmt::format("Time of each test [{}] by the number of specimens", unit),
               {{"specimens", "1", present::given}}};
   for (const DemonstrationPlan& plan : result.plans)
     table.columns.push_back({failures_text(plan.test.allowed), "1", present::life()});
-  for (const SampleAgainstTime& each : result.trade) {
+  for (const SampleAgainstTime& each : result.sample_sizes) {
     std::vector<present::Cell> row = {present::count(each.specimens)};
     for (const auto& time : each.times) {
       row.emplace_back();
@@ -159,7 +159,7 @@ html::Figure confidence_by_specimens(const Demonstration& result) {
 
 }  // namespace
 
-html::Figure trade_figure(const Demonstration& result) {
+html::Figure sample_size_figure(const Demonstration& result) {
   const DemonstrationGoal& goal = result.goal;
   if (!goal.spread) return confidence_by_specimens(result);
   std::vector<plot::Json> marks;

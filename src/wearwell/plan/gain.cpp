@@ -33,12 +33,6 @@ double quantile_between(std::span<const double> goal, std::span<const double> we
   return at_before;
 }
 
-double effective_number(std::span<const double> weight) {
-  double sum = 0, squares = 0;
-  for (const double each : weight) sum += each, squares += each * each;
-  return squares > 0 ? sum * sum / squares : 0;
-}
-
 // Tests of a batch, specimen by specimen.
 std::vector<const Outcomes*> specimens_of(const Batch& batch) {
   std::vector<const Outcomes*> all;
@@ -117,6 +111,12 @@ Average average(std::span<const double> values) {
 }
 
 }  // namespace
+
+double effective_number(std::span<const double> weight) {
+  double sum = 0, squares = 0;
+  for (const double each : weight) sum += each, squares += each * each;
+  return squares > 0 ? sum * sum / squares : 0;
+}
 
 GoalSpread goal_spread(std::span<const double> goal, std::span<const double> weight) {
   GoalSpread spread;

@@ -27,6 +27,9 @@ struct GoalSpread {
 /// smoothly with the weights.
 GoalSpread goal_spread(std::span<const double> goal, std::span<const double> weight);
 
+/// How many equal weights carry as much: (sum)^2 / sum of squares.
+double effective_number(std::span<const double> weight);
+
 /// The expected state of knowledge after tests (preposterior analysis; Raiffa and Schlaifer, Applied
 /// Statistical Decision Theory, 1961; Chaloner and Verdinelli, Bayesian experimental design: a
 /// review, Statistical Science 10, 1995, 273-304).

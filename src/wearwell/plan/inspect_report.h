@@ -61,7 +61,7 @@ struct InspectReport {
   std::optional<JointVisits> joint = {};        ///< with costs of visits
   std::size_t alone_visits = 0;                 ///< visits if each unit is planned alone
   std::optional<NextIntervals> next = {};
-  std::string no_next = {};  ///< why it is missing, where somebody could expect it
+  std::string no_next = {};  ///< why the next reading is missing although a unit is planned
 };
 
 std::vector<Check> inspect_checks(const InspectReport& report);

@@ -12,6 +12,7 @@
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
+#include "wearwell/prognosis/quantity_like.h"
 
 namespace wearwell::plan {
 namespace {
@@ -68,18 +69,6 @@ Quantity read_any_quantity(const std::string& option, const std::string& text) {
   return quantity;
 }
 
-double read_like(const std::string& option, const std::string& text, const Unit& like) {
-  Quantity quantity;
-  try {
-    quantity = read_quantity(text, like.text);
-    refuse_two_readings(quantity, like);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}: {}", option,
-                                 printable(text), like.text, error.what()));
-  }
-  return checked_option(option, text, quantity.si(), Allowed::any);
-}
-
 double read_probability(const std::string& option, const std::string& text) {
   const double value = option_value(option, text, "1");
   if (!(value > 0 && value < 1))
@@ -113,7 +102,7 @@ LifePoint read_life_point(const std::string& option, const std::string& text,
   } else {
     refuse_point(option, text, relation, fmt::format("has an unknown goal '{}'", printable(name)));
   }
-  if (like) read_like(option, value, *like);
+  if (like) prognosis::quantity_like(option, value, *like);
   const Quantity life = read_any_quantity(option, value);
   point.life = checked_option(option, value, life.si(), Allowed::positive);
   point.unit = life.unit;

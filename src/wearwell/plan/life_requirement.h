@@ -19,9 +19,6 @@ struct LifePoint {
 /// that begins with `option`, unless it is positive and finite.
 Quantity read_any_quantity(const std::string& option, const std::string& text);
 
-/// The same in the dimension of a known unit, in SI.
-double read_like(const std::string& option, const std::string& text, const Unit& like);
-
 /// Reads "B10 >= 1e6 cycles" or "reliability >= 90 % at 1e6 cycles", with "=" in place of ">=" for
 /// `relation` "=". L10 is B10; R is reliability. The life is in the dimension of `like`, if given.
 /// Throws InputError that begins with `option`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "wearwell/input/columns.h"
@@ -18,11 +19,9 @@ namespace colour = plot::colour;
 std::vector<double> smoothed(const std::vector<double>& goal, const std::vector<double>& weight,
                              const std::vector<double>& at) {
   const GoalSpread spread = goal_spread(goal, weight);
-  double sum = 0, squares = 0;
-  for (const double each : weight) sum += each, squares += each * each;
-  const double effective = sum * sum / squares;
+  const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
   const double iqr_sd = std::min(spread.sd, spread.width() / 3.29);
-  const double width = 1.06 * iqr_sd * std::pow(effective, -0.2);
+  const double width = 1.06 * iqr_sd * std::pow(effective_number(weight), -0.2);
   std::vector<double> density;
   for (const double x : at) {
     double total = 0;
