@@ -52,6 +52,10 @@ TEST_F(PlanSize, RefusesWhatItCannotPlan) {
   EXPECT_THAT(refusal(planned + " --width 'factor 2' --assurance '120 %'"),
               HasSubstr("--assurance"));
   EXPECT_THAT(refusal(planned + "x --width 'factor 2'"), HasSubstr("--goal"));
+  const auto tests = write("tests.csv", "mean_stress_MPa,amplitude [ksi]\n1000,33.4\n");
+  EXPECT_THAT(refusal(PROJECT_SOURCE_DIR "/examples/spring/sensible.toml --tests " +
+                      tests.string() + " --goal 'B10 at softer spring' --width 'factor 2'"),
+              HasSubstr("tests.csv has no column 'alternating_stress_MPa', which the study reads"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "wearwell/infer/posterior_shape.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/prob/family_form.h"
 #include "wearwell/study/inference_data.h"
 
 namespace wearwell::plan {
@@ -42,8 +43,6 @@ Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, 
     } else if (measured) {
       // Far apart: the search for the range of outcomes begins from their spread.
       column.numbers.push_back(positive_only ? (i % 2 ? 10 : 1) : (i % 2 ? 1e6 : -1e6));
-    } else {
-      column.numbers.push_back(0);
     }
   }
   return column;
@@ -53,8 +52,10 @@ bool is_positive_family(const TomlReader& root, const std::string& name) {
   if (root.required_text("model") != "formula") return true;
   const std::string family =
       root.required_table("likelihood").required_table(name).required_text("family");
-  return family != "normal" && family != "student-t" && family != "logistic" &&
-         family != "gumbel" && family != "sev";
+  const auto forms = response_forms();
+  return std::none_of(forms.begin(), forms.end(), [&](const ResponseForm& form) {
+    return form.name == family && !form.positive;
+  });
 }
 
 // Rows that let the study be read before there are data: the conditions are those of the tests.
@@ -82,6 +83,9 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
     if (!given) {
       // A column of words has no unit in the study.
       const bool label = among(random, name) || (!is_measured && named.unit.empty());
+      if (!label && !is_measured && name != "status" && name != "count")
+        throw InputError(
+            fmt::format("{} has no column '{}', which the study reads", rows.source, named.column));
       table.columns.push_back(stand_in(named, table.rows, is_measured,
                                        is_measured && is_positive_family(root, name), label));
       continue;

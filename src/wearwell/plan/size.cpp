@@ -75,9 +75,8 @@ struct OneFit {
   double truth = 0;  // unit of the goal
 };
 
-SizeRow row_of(const SizeReport& report, const PlanningStudy& planning,
-               const std::vector<SimulatedCampaign>& campaigns, const std::vector<OneFit>& fits,
-               std::size_t size) {
+SizeRow row_of(const SizeReport& report, const std::vector<SimulatedCampaign>& campaigns,
+               const std::vector<OneFit>& fits, std::size_t size) {
   SizeRow row;
   row.size = size;
   row.runs = campaigns.size();
@@ -109,7 +108,6 @@ SizeRow row_of(const SizeReport& report, const PlanningStudy& planning,
   row.median_width = widths[widths.size() / 2];
   const auto runs = static_cast<double>(row.runs);
   for (double* each : {&row.runouts, &row.failures, &row.time, &row.longest}) *each /= runs;
-  static_cast<void>(planning);
   return row;
 }
 
@@ -141,7 +139,7 @@ Answer size(const SizeQuestion& question, const Source& source, const Table& tes
       fits[i].truth = from_si(report.goal.unit, report.goal.value(campaigns[i].truth.data()));
       progress.done();
     });
-    report.rows.push_back(row_of(report, planning, campaigns, fits, size));
+    report.rows.push_back(row_of(report, campaigns, fits, size));
     return AssurancePoint{size, report.rows.back().narrow, campaigns.size()};
   };
   const std::size_t first =
