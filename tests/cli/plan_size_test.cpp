@@ -52,10 +52,14 @@ TEST_F(PlanSize, RefusesWhatItCannotPlan) {
   EXPECT_THAT(refusal(planned + " --width 'factor 2' --assurance '120 %'"),
               HasSubstr("--assurance"));
   EXPECT_THAT(refusal(planned + "x --width 'factor 2'"), HasSubstr("--goal"));
-  const auto tests = write("tests.csv", "mean_stress_MPa,amplitude [ksi]\n1000,33.4\n");
-  EXPECT_THAT(refusal(PROJECT_SOURCE_DIR "/examples/spring/sensible.toml --tests " +
-                      tests.string() + " --goal 'B10 at softer spring' --width 'factor 2'"),
-              HasSubstr("tests.csv has no column 'alternating_stress_MPa', which the study reads"));
+  const std::string steel = PROJECT_SOURCE_DIR "/examples/fatigue/study.toml --tests ";
+  const std::string asked = " --goal 'B10 at hanger' --width 'factor 2'";
+  const auto lacks = write("lacks.csv", "stress_ratio\n-1\n");
+  EXPECT_THAT(refusal(steel + lacks.string() + asked),
+              HasSubstr("lacks.csv has no column 'stress_amplitude_MPa', which the study reads"));
+  const auto other = write("other.csv", "stress_ratio,amplitude [ksi]\n-1,33.4\n");
+  EXPECT_THAT(refusal(steel + other.string() + asked),
+              HasSubstr("column 'amplitude [ksi]' is unknown"));
 }
 
 }  // namespace

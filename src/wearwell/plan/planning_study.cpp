@@ -43,6 +43,9 @@ Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, 
     } else if (measured) {
       // Far apart: the search for the range of outcomes begins from their spread.
       column.numbers.push_back(positive_only ? (i % 2 ? 10 : 1) : (i % 2 ? 1e6 : -1e6));
+    } else {
+      // A value that any model reads; if the likelihood uses the column, `read_candidates` asks for it.
+      column.numbers.push_back(0.5);
     }
   }
   return column;
@@ -83,9 +86,6 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
     if (!given) {
       // A column of words has no unit in the study.
       const bool label = among(random, name) || (!is_measured && named.unit.empty());
-      if (!label && !is_measured && name != "status" && name != "count")
-        throw InputError(
-            fmt::format("{} has no column '{}', which the study reads", rows.source, named.column));
       table.columns.push_back(stand_in(named, table.rows, is_measured,
                                        is_measured && is_positive_family(root, name), label));
       continue;
