@@ -1,5 +1,5 @@
 # What most sources include, compiled once: libraries share the first, test programs the second. Headers are held to stand
-# alone by tests/architecture, which compiles each without either.
+# alone by tests/architecture.
 function(wearwell_precompiled name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
   set(source ${CMAKE_BINARY_DIR}/${name}.cpp)

@@ -120,7 +120,7 @@ TEST(Plot, ZoomsByAMarkWithBothAxes) {
 
 TEST(Plot, PointsHaveRoomAtTheEndsOfAxes) {
   const Json with = plot("", {"x"}, {"y"}, {points({{"x", {1}}, {"y", {2}}}, {"#aaaaaa"})});
-  EXPECT_EQ(with["layer"][0]["encoding"]["x"]["scale"]["padding"], 6);
+  EXPECT_EQ(with["layer"][0]["encoding"]["x"]["scale"]["padding"]["expr"], "min(6, width / 20)");
   const Json without = plot("", {"x"}, {"y"}, {line({{"x", {1}}, {"y", {2}}}, {"#aaaaaa"})});
   EXPECT_FALSE(without["layer"][0]["encoding"]["x"]["scale"].contains("padding"));
 }

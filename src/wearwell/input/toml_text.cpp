@@ -60,7 +60,7 @@ std::string slip_of_number(std::string_view value) {
   const auto digits = [&](std::size_t from) {
     return std::min(value.find_first_not_of("0123456789", from), value.size());
   };
-  std::size_t end = digits(value.find_first_of("+-") == 0);
+  std::size_t end = digits(value.starts_with('+') || value.starts_with('-'));
   if (end < value.size() && value[end] == '.') end = digits(end + 1);
   const std::size_t comma = end;
   const bool has_comma =
@@ -92,7 +92,7 @@ std::string slip_of_value(std::string_view key, std::string_view value) {
     if (value.starts_with(curled))
       return "use straight quotes, \"...\", not the curled quotes of a word processor";
   }
-  const std::size_t sign = value.find_first_of("+-") == 0;
+  const std::size_t sign = value.starts_with('+') || value.starts_with('-');
   if (value.size() > sign && std::isdigit(static_cast<unsigned char>(value[sign])))
     return slip_of_number(value);
   const bool word = std::isalpha(static_cast<unsigned char>(value.front())) != 0;

@@ -126,8 +126,11 @@ Json ticks(const char* channel, const Axis& axis) {
   return {{"format", ",~r"}};
 }
 
-// Reserves room for half a point beyond the ends of an axis.
-constexpr int room_for_points = 6;  // pixels
+// Reserves room for half a point beyond the ends of an axis: six pixels, but little of a plot that is
+// hardly wider than that for a moment, as when a phone prints; its logarithmic axis would reach to infinity.
+Json room_for_points(const char* channel) {
+  return {{"expr", fmt::format("min(6, {} / 20)", channel[0] == 'x' ? "width" : "height")}};
+}
 
 void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_points) {
   if (!encoding.contains(channel)) return;
@@ -135,7 +138,7 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_po
   each["type"] = "quantitative";
   each["title"] = axis.title;
   each["scale"] = scale(axis);
-  if (has_points && axis.names.empty()) each["scale"]["padding"] = room_for_points;
+  if (has_points && axis.names.empty()) each["scale"]["padding"] = room_for_points(channel);
   each["axis"] = ticks(channel, axis);
 }
 
