@@ -182,8 +182,9 @@ def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, m
     }, study, "study", {"tests": tests}, threads, progress)
 
 
-def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step=None, unit=None, new=False, inspection_cost=None,
-            failure_cost=None, replacement_cost=None, downtime_cost=None, visit_cost=None, given=None, threads=0, progress=None):
+def inspect(lives, *, at=None, risk=None, total_risk=None, warning=None, until=None, step=None, unit=None, new=False,
+            inspection_cost=None, failure_cost=None, replacement_cost=None, downtime_cost=None, visit_cost=None, given=None,
+            threads=0, progress=None):
     """Plan the inspections ahead that keep the risk below a bound with the fewest inspections, or the cheapest ones.
 
     For one unit, or for all running units of a fleet with common visits. The interpreter's lock is released.
@@ -191,8 +192,10 @@ def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step
     Parameters
     ----------
     lives : Fit, table, str or path
-        A fit of a formula with a failure threshold, of bearings, or of S-N parts; the folder of its result; or a table of
-        lives with the column "life [h]" and optionally weight, unit and population, or its file.
+        A fit of lives, of a formula with a failure threshold, of bearings, or of S-N parts; the folder of its result; or a
+        table of lives with the column "life [h]" and optionally weight, unit and population, or its file.
+    at : str, optional
+        Which life of [predict], for a fit of lives that has several.
     risk : float or str, optional
         Of each interval at most, that a unit reaches its threshold between two inspections; 1 % if neither this,
         ``total_risk`` nor costs are given.
@@ -256,7 +259,7 @@ def inspect(lives, *, risk=None, total_risk=None, warning=None, until=None, step
     if isinstance(lives, Study):
         raise InputError("lives is Study; it is a fit, the folder of a result, or a table of lives")
     return answer("inspect", {
-        "risk": risk, "total_risk": total_risk, "warning": warning, "until": until, "step": step, "unit": unit, "new": new,
+        "at": at, "risk": risk, "total_risk": total_risk, "warning": warning, "until": until, "step": step, "unit": unit, "new": new,
         "inspection_cost": inspection_cost, "failure_cost": failure_cost, "replacement_cost": replacement_cost,
         "downtime_cost": downtime_cost, "visit_cost": visit_cost, "given": given,
     }, lives, "lives", None, threads, progress)

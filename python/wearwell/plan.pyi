@@ -62,6 +62,7 @@ def demonstrate(
 def inspect(
     lives: Any,
     *,
+    at: str | None = ...,
     risk: float | str | None = ...,
     total_risk: float | str | None = ...,
     warning: _Quantity | None = ...,

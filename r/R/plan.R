@@ -70,8 +70,8 @@ ww_plan_demonstrate <- function(goal, confidence = 0.9, failures = 0, specimens 
 
 ww_plan_inspect <- function(lives, risk = NULL, total_risk = NULL, warning = NULL, until = NULL, step = NULL, unit = NULL, new = FALSE,
                             inspection_cost = NULL, failure_cost = NULL, replacement_cost = NULL, downtime_cost = NULL,
-                            visit_cost = NULL, given = NULL, threads = 0, progress = FALSE) {
-  arguments <- list(risk = risk, total_risk = total_risk, warning = warning, until = until, step = step, unit = unit, new = new,
+                            visit_cost = NULL, given = NULL, at = NULL, threads = 0, progress = FALSE) {
+  arguments <- list(at = at, risk = risk, total_risk = total_risk, warning = warning, until = until, step = step, unit = unit, new = new,
                     inspection_cost = inspection_cost, failure_cost = failure_cost, replacement_cost = replacement_cost,
                     downtime_cost = downtime_cost, visit_cost = visit_cost, given = given)
   if (inherits(lives, "ww_fit") || is_path(lives)) {

@@ -128,5 +128,35 @@ TEST_F(Decide, CountsUnitsOverThePopulationsThatTheyShare) {
               together["months"][0]["expected"].get<double>(), 0.3);
 }
 
+// A study that measures lives, with running units.
+TEST_F(Decide, OfMeasuredLives) {
+  const std::string result = (folder() / "lives").string();
+  const CommandResult fitted = run_wearwell(
+      "fit " PROJECT_SOURCE_DIR "/examples/life/study.toml --quiet --no-report -o " + result);
+  ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
+  write("ages.csv", "unit,age [1e6 cycles]\nP1,20\nP2,60\n");
+  const CommandResult run = run_wearwell("decide " + result + costs + " --claims '10 %' --json" +
+                                         " --month '5e6 cycles' --months 2 --in-service " +
+                                         (folder() / "ages.csv").string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json decided = json::parse(run.out);
+  const CommandResult life = run_wearwell("life " + result + " --json");
+  ASSERT_EQ(life.exit_code, 0) << life.err;
+  const double b10 = json::parse(life.out)["b10"];
+  EXPECT_NEAR(decided["warranty"]["length"], b10, 0.01 * b10);
+  EXPECT_LT(decided["warranty"]["sure"], decided["warranty"]["length"]);
+  EXPECT_LT(decided["age"]["cost"], decided["at_failure"]["cost"]);
+  ASSERT_EQ(decided["units"].size(), 2U);
+  EXPECT_EQ(decided["units"][0]["unit"], "P2");  // the older one
+  EXPECT_FALSE(decided["counting"]["independent"]);
+  EXPECT_THAT(refusal(lives + costs + " --at bearing"), HasSubstr("--at: names a life of a study"));
+  EXPECT_THAT(refusal(lives + costs + " --in-service x.csv"),
+              HasSubstr("--in-service: a table of lives"));
+  EXPECT_THAT(refusal(result + costs + " --at lorry"),
+              HasSubstr("--at: the study has no life of 'lorry'; it has those of "));
+  EXPECT_THAT(refusal(result + costs + " --claims '200 %'"),
+              HasSubstr("--claims: 200 % must lie between 0 and 100 %"));
+}
+
 }  // namespace
 }  // namespace wearwell

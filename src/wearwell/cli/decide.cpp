@@ -13,6 +13,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/lives_input.h"
 #include "wearwell/cli/option_rules.h"
+#include "wearwell/input/option_value.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/prognosis/decisions_report.h"
@@ -25,8 +26,9 @@ namespace prognosis {
 namespace {
 
 struct DecideOptions {
-  std::filesystem::path lives, output;
-  std::string failure, replacement, inspection, downtime, month, unit, after;
+  LivesOptions lives;
+  std::filesystem::path output;
+  std::string failure, replacement, inspection, downtime, month, unit, after, claims;
   std::vector<std::string> given;
   int months = 12;
   double service = 95;
@@ -59,6 +61,11 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
   question.currency = currency.text;
   question.months = options.months;
   question.service = options.service / 100;
+  if (!options.claims.empty()) {
+    question.claims = option_value("--claims", options.claims, "1", Allowed::positive);
+    if (!(*question.claims < 1))
+      throw InputError(fmt::format("--claims: {} must lie between 0 and 100 %", options.claims));
+  }
   return question;
 }
 
@@ -133,12 +140,13 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "decide", "Find the cheapest replacement age, inspection interval and stock of spare parts");
   command
-      ->add_option("LIVES", options->lives,
-                   "Folder that wearwell fit wrote for a formula model or bearings with a failure "
-                   "threshold, or for S-N parts; configuration of a monitor (.toml) for the units "
-                   "of its store; or a table of lives with column 'life [h]' and optionally "
-                   "weight, unit, population")
+      ->add_option("LIVES", options->lives.path,
+                   "Folder that wearwell fit wrote for lives, for a formula model or bearings with "
+                   "a failure threshold, or for S-N parts; configuration of a monitor (.toml) for "
+                   "the units of its store; or a table of lives with column 'life [h]' and "
+                   "optionally weight, unit, population")
       ->required();
+  add_lives_options(*command, options->lives);
   command
       ->add_option("--failure-cost", options->failure,
                    "Cost of a failure in service, including the replacement: '12000 EUR'")
@@ -161,6 +169,8 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   command->add_option(
       "--month", options->month,
       "Use of a unit per month, '600 h': adds the failures and spare parts per month");
+  command->add_option("--claims", options->claims,
+                      "Share of units that may fail under warranty, '2 %': adds its length");
   command->add_option("--months", options->months, "Number of months ahead")
       ->check(number_between(1, 600))
       ->capture_default_str();
@@ -176,6 +186,8 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell decide lives.csv --failure-cost '12000 EUR' --replacement-cost '900 EUR'\n"
       "  wearwell decide lives.csv --failure-cost 12 --replacement-cost 1 --inspection-cost 0.1 "
       "--month '600 h'\n"
+      "  wearwell decide life-results --failure-cost '800 EUR' --replacement-cost '120 EUR' \\\n"
+      "    --claims '2 %' --in-service ages.csv --month '600 h'\n"
       "  wearwell decide fleet.toml --failure-cost 12 --replacement-cost 1 --month '600 h'\n"
       "  wearwell decide study-results --failure-cost 12 --replacement-cost 1 --inspection-cost "
       "0.1 \\\n"

@@ -1,9 +1,13 @@
 #include "wearwell/cli/lives_input.h"
 
+#include <CLI/CLI.hpp>
+
 #include "wearwell/base/error.h"
+#include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/monitored.h"
 #include "wearwell/input/table.h"
+#include "wearwell/prognosis/study_lives.h"
 
 namespace wearwell {
 namespace {
@@ -57,19 +61,46 @@ prognosis::FollowedUnits LivesInput::followed() const {
   return units;
 }
 
-LivesInput read_lives(const std::filesystem::path& path, Models models) {
+void add_lives_options(CLI::App& command, LivesOptions& options) {
+  command.add_option("--at", options.point,
+                     "Which life of [predict], for a study that measures lives: 'softer spring'");
+  command.add_option(
+      "--in-service", options.in_service,
+      "Running units of such a study: table with columns unit, 'age [h]', and "
+      "in_study (yes where the study's table has the unit as a run-out of this age)");
+}
+
+LivesInput read_lives(const LivesOptions& options, Models models) {
   LivesInput input;
+  const std::filesystem::path& path = options.path;
+  const bool is_result = std::filesystem::is_directory(path);
+  if (!options.point.empty() && !is_result)
+    throw InputError("--at: names a life of a study; only a folder of wearwell fit has one");
   if (path.extension() == ".toml") {
     read_fleet(path, models, input);
     return input;
   }
-  if (!std::filesystem::is_directory(path)) {
+  if (!is_result) {
+    if (!options.in_service.empty())
+      throw InputError("--in-service: a table of lives has its running units in rows with `unit`");
     input.lives = prognosis::lives_of_table(read_table(path));
     return input;
   }
-  FollowedResult result = followed_result(path, models);
-  input.tracker = std::move(result.tracker);
-  input.lives = prognosis::lives_of_tracker(*input.tracker, path.string(), result.trusted);
+  const prognosis::CarriedState state = read_carried(path);
+  if (options.point.empty()) input.tracker = tracker_where_possible(state, models);
+  if (input.tracker) {
+    if (!options.in_service.empty())
+      throw InputError(
+          "--in-service: the units of this study are followed by their readings; it "
+          "is for studies that measure lives");
+    input.lives = prognosis::lives_of_tracker(*input.tracker, path.string(), state.trusted);
+  } else {
+    const std::unique_ptr<const Study> study = read_study(state.source, models);
+    input.lives = prognosis::lives_of_study(require_posterior_study(*study), state.posterior,
+                                            path.string(), state.trusted, options.point);
+    if (!options.in_service.empty())
+      prognosis::add_units_in_service(input.lives, read_table(options.in_service));
+  }
   return input;
 }
 

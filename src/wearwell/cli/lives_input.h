@@ -10,6 +10,10 @@
 #include "wearwell/prognosis/next_reading.h"
 #include "wearwell/study/model.h"
 
+namespace CLI {
+class App;
+}
+
 namespace wearwell {
 
 /// The lives that a question rests on, with what they were read from: `lives` refers to it.
@@ -23,8 +27,17 @@ struct LivesInput {
   prognosis::FollowedUnits followed() const;
 };
 
-/// Reads the folder of a result, the configuration of a monitor (.toml), or a table of lives.
+/// Where lives come from.
+struct LivesOptions {
+  std::filesystem::path path;  ///< folder of a result, monitor's configuration, table of lives
+  std::string point = {};      ///< --at: which life of [predict]
+  std::filesystem::path in_service = {};  ///< --in-service: table of units and their ages
+};
+
+/// The options --at and --in-service.
+void add_lives_options(CLI::App& command, LivesOptions& options);
+
 /// Throws InputError, MachineError.
-LivesInput read_lives(const std::filesystem::path& path, Models models);
+LivesInput read_lives(const LivesOptions& options, Models models);
 
 }  // namespace wearwell

@@ -21,6 +21,7 @@
 #include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
+#include "wearwell/prognosis/study_lives.h"
 #include "wearwell/study/model.h"
 
 namespace wearwell::embed {
@@ -108,7 +109,7 @@ struct Lives {
   prognosis::FollowedUnits followed;
 };
 
-Lives lives_of(const PlanSubject& subject) {
+Lives lives_of(const PlanSubject& subject, const std::string& point) {
   Lives result;
   if (const Table* table = table_of(subject, "lives")) {
     result.lives = prognosis::lives_of_table(*table);
@@ -126,9 +127,12 @@ Lives lives_of(const PlanSubject& subject) {
   const std::string title = subject.run ? subject.run->result->header.title : subject.path;
   for (const Model& model : all_models())
     if (model.key == state.model && model.track) result.tracker = model.track(state);
-  if (!result.tracker)
-    throw InputError(fmt::format("single units of a study of model \"{}\" cannot be followed",
-                                 printable(state.model)));
+  if (!result.tracker) {
+    const std::unique_ptr<const Study> study = read_any(state.source);
+    result.lives = prognosis::lives_of_study(require_posterior_study(*study), state.posterior,
+                                             title, state.trusted, point);
+    return result;
+  }
   const prognosis::Tracker& tracker = *result.tracker;
   result.lives = prognosis::lives_of_tracker(tracker, title, state.trusted);
   result.followed = prognosis::units_of_study(tracker);
@@ -137,6 +141,8 @@ Lives lives_of(const PlanSubject& subject) {
 
 Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
   plan::InspectQuestion question;
+  std::string point;
+  arguments.text("at", point);
   arguments.text("risk", question.risk);
   arguments.text("total_risk", question.total_risk);
   arguments.text("warning", question.warning);
@@ -150,8 +156,8 @@ Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor
   arguments.text("downtime_cost", question.downtime_cost);
   arguments.text("visit_cost", question.visit_cost);
   arguments.texts("given", question.given);
-  return [question, &subject, monitor] {
-    const Lives lives = lives_of(subject);
+  return [question, point, &subject, monitor] {
+    const Lives lives = lives_of(subject, point);
     return plan::inspect(question, lives.lives, lives.followed, monitor);
   };
 }

@@ -13,8 +13,15 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/prognosis/named_life.h"
 
 namespace wearwell::plan {
+
+using prognosis::life_named;
+using prognosis::named_lives;
+using prognosis::NamedLife;
+using prognosis::without_new;
+
 namespace {
 
 std::string lower(std::string text) {
@@ -22,37 +29,11 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string bare(const std::string& of) {
-  return of.starts_with("new ") ? of.substr(4) : of;
-}
-
-// "A" of "type A", "7" of "machine 7".
-std::string last_word(const std::string& of) {
-  return of.substr(std::min(of.find(' ') + 1, of.size()));
-}
-
 WeightedDraws one_point(const double* x, std::size_t count) {
   WeightedDraws one;
   one.values = Eigen::Map<const Points>(x, 1, static_cast<Eigen::Index>(count));
   one.weights = Eigen::VectorXd::Ones(1);
   return one;
-}
-
-// A life among the quantities of a study.
-struct KnownLife {
-  const QuantityGroup* group = nullptr;
-  const QuantityRequest* request = nullptr;
-  std::size_t index = 0;  // among the lives of its group
-};
-
-std::vector<KnownLife> lives_of(const PosteriorStudy& study) {
-  std::vector<KnownLife> lives;
-  for (const QuantityGroup& group : study.quantity_groups) {
-    std::size_t index = 0;
-    for (const QuantityRequest& each : group.requests)
-      if (each.is_life) lives.push_back({&group, &each, index++});
-  }
-  return lives;
 }
 
 std::string full_name(const QuantityRequest& request) {
@@ -69,11 +50,11 @@ std::string prediction_name(const PredictionRequest& request) {
 
 // The study's own quantity of that percentage, whose quantiles are over the whole posterior.
 std::function<std::optional<std::vector<double>>(const WeightedDraws&)> reported_b_life(
-    const KnownLife& life, double percent) {
+    const NamedLife& life, double percent) {
   const std::string name = lower(fmt::format("B{:.6g} life", percent));
   for (std::size_t i = 0; i < life.group->requests.size(); ++i) {
     const QuantityRequest& each = life.group->requests[i];
-    if (lower(each.name) != name || bare(each.of) != bare(life.request->of) ||
+    if (lower(each.name) != name || without_new(each.of) != without_new(life.request->of) ||
         each.at != life.request->at)
       continue;
     return [group = life.group, i](const WeightedDraws& draws) {
@@ -84,8 +65,9 @@ std::function<std::optional<std::vector<double>>(const WeightedDraws&)> reported
   return {};
 }
 
-Goal b_life(const PosteriorStudy& study, const KnownLife& life, double percent) {
-  Goal goal{fmt::format("B{:.6g} of {}", percent, bare(life.request->of)), life.request->unit, {}};
+Goal b_life(const PosteriorStudy& study, const NamedLife& life, double percent) {
+  Goal goal{
+      fmt::format("B{:.6g} of {}", percent, without_new(life.request->of)), life.request->unit, {}};
   if (!life.request->at.empty() && !life.request->at.starts_with("at "))
     goal.name += " " + life.request->at;
   goal.value = [group = life.group, index = life.index, share = percent / 100,
@@ -111,36 +93,6 @@ std::optional<BLife> b_life_in(const std::string& text) {
   BLife found{0, match[2]};
   std::from_chars(number.data(), number.data() + number.size(), found.percent);
   return found;
-}
-
-// Places at which lives are known, and the one that is meant.
-KnownLife life_named(const std::vector<KnownLife>& lives, const BLife& asked) {
-  std::vector<std::string> names;
-  std::vector<const KnownLife*> fitting;
-  const std::string where = lower(bare(asked.where));
-  for (const KnownLife& each : lives) {
-    const std::string of = bare(each.request->of), at = each.request->at;
-    names.push_back(of);
-    const std::string known = lower(of);
-    if (where.empty() || where == known || where == lower(last_word(of)) ||
-        where == lower(of + " " + at) || where == lower(at) || "at " + where == lower(at))
-      fitting.push_back(&each);
-  }
-  if (fitting.size() == 1) return *fitting.front();
-  // With remaining useful lives beside the life of a new one, the latter.
-  std::vector<const KnownLife*> fresh;
-  for (const KnownLife* each : fitting)
-    if (each->request->name == "life" && each->request->of.starts_with("new "))
-      fresh.push_back(each);
-  if (fresh.size() == 1) return *fresh.front();
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  if (fitting.empty())
-    throw InputError(fmt::format("--goal: the study has no life of '{}'; it has those of {}{}",
-                                 printable(asked.where), fmt::join(names, ", "),
-                                 did_you_mean(asked.where, names)));
-  throw InputError(fmt::format("--goal: which life is meant, that of {}? Write 'B{:.6g} of NAME'",
-                               fmt::join(names, ", "), asked.percent));
 }
 
 Goal parameter_goal(const Parameter& parameter, std::size_t index) {
@@ -216,8 +168,8 @@ std::vector<NamedGoal> named_goals(const PosteriorStudy& study) {
 
 std::vector<std::string> known_goals(const PosteriorStudy& study) {
   std::vector<std::string> names;
-  for (const KnownLife& each : lives_of(study))
-    names.push_back(fmt::format("B10 of {}", bare(each.request->of)));
+  for (const NamedLife& each : named_lives(study))
+    names.push_back(fmt::format("B10 of {}", without_new(each.request->of)));
   if (study.life) names.push_back("life");
   for (const NamedGoal& each : named_goals(study)) names.push_back(each.name);
   std::vector<std::string> once;
@@ -237,9 +189,10 @@ Goal goal_of(const PosteriorStudy& study, const std::string& text) {
         fmt::format("--goal: '{}': the percentage must lie between 0 and 100", printable(text)));
   if (of_one) {
     // The life of one joint follows from the parameters: all percentages are the same.
-    Goal goal{"life of " + (study.life->of.empty() ? std::string("joint") : bare(study.life->of)),
-              study.life->unit,
-              {}};
+    Goal goal{
+        "life of " + (study.life->of.empty() ? std::string("joint") : without_new(study.life->of)),
+        study.life->unit,
+        {}};
     if (is_b_life) goal.name = fmt::format("B{:.6g} {}", asked->percent, goal.name);
     const double share = is_b_life ? asked->percent / 100 : 0.5;
     goal.value = [&study, share, unit = study.life->unit](const double* x) {
@@ -249,8 +202,9 @@ Goal goal_of(const PosteriorStudy& study, const std::string& text) {
     };
     return goal;
   }
-  const std::vector<KnownLife> lives = lives_of(study);
-  if (is_b_life && !lives.empty()) return b_life(study, life_named(lives, *asked), asked->percent);
+  const std::vector<NamedLife> lives = named_lives(study);
+  if (is_b_life && !lives.empty())
+    return b_life(study, life_named(lives, asked->where, "--goal"), asked->percent);
   if (is_b_life)
     throw InputError(fmt::format(
         "--goal: '{}': the study has no life: [predict] needs a limit, or for lives and S-N tests "

@@ -88,6 +88,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
   Decisions decisions;
   decisions.age = cheapest_age(lives.fresh, question.costs);
   decisions.reference = decisions.age->rate;
+  if (question.claims) decisions.warranty = longest_warranty(lives.fresh, *question.claims);
   if (question.hidden) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!std::isfinite(each.points().back()))

@@ -8,6 +8,7 @@
 #include "wearwell/prognosis/fleet_risk.h"
 #include "wearwell/prognosis/inspection.h"
 #include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/warranty.h"
 
 namespace wearwell::prognosis {
 
@@ -21,7 +22,8 @@ struct Question {
   /// Use of a unit per month, SI; empty: no forecast by month.
   std::optional<double> per_month;
   int months = 12;
-  double service = 0.95;  ///< probability that the spare parts suffice
+  double service = 0.95;              ///< probability that the spare parts suffice
+  std::optional<double> claims = {};  ///< share of units that may claim under warranty
 };
 
 /// One unit and its recommended action.
@@ -56,6 +58,7 @@ struct Decisions {
   std::optional<AgeReplacement> age;
   /// with perfect inspections, or for hidden failures
   std::optional<InspectionInterval> inspection;
+  std::optional<Warranty> warranty = {};
   double reference = 0;  ///< long-run cost per unit of the axis, the reference for running units
   std::vector<UnitDecision> units;  ///< most urgent first
   std::vector<FleetMonth> months;

@@ -59,6 +59,26 @@ std::string answer(const DecisionsReport& report) {
   return text + ".";
 }
 
+std::string warranty_text(const DecisionsReport& report) {
+  const Shown shown{report};
+  const Warranty& warranty = *report.decisions.warranty;
+  const std::string share = percent(warranty.share);
+  if (!std::isfinite(warranty.length))
+    return fmt::format("A warranty of any length has claims for less than {} of new {}s.", share,
+                       report.lives.noun);
+  const auto length = [&](double si) {
+    return std::isfinite(si) ? fmt::format("{} {}", plain_number(shown.at(si)), shown.unit())
+                             : std::string("any length");
+  };
+  std::string text = fmt::format("A warranty of {} has claims for {} of new {}s on average",
+                                 length(warranty.length), share, report.lives.noun);
+  if (report.lives.fresh.lives.size() > 1)
+    text += fmt::format("; {} has at most that share with probability 95 %", length(warranty.sure));
+  return text + fmt::format(". At {} each, claims cost {} for each unit sold.",
+                            shown.money(report.question.costs.failure),
+                            shown.money(warranty.share * report.question.costs.failure));
+}
+
 std::string worth_text(const DecisionsReport& report) {
   const Shown shown{report};
   const WorthReport& asked = *report.worth;
@@ -170,6 +190,7 @@ std::string decisions_text(const DecisionsReport& report) {
   std::string text = wrapped(printable(report.lives.title), 0, 2) +
                      wrapped(printable(costs_text(report)), 2, 4) + "\n" +
                      wrapped(printable(answer(report)), 0, 2) + table_text(policies_table(report));
+  if (report.decisions.warranty) text += "\n" + wrapped(printable(warranty_text(report)), 0, 2);
   if (!report.decisions.units.empty()) {
     Table units = units_table(report);
     text += table_text(units);
@@ -187,6 +208,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   present::Section policy{"policy", "Policy"};
   policy.add(present::Prose{answer(report), true});
   policy.add(present::Prose{html::capital(costs_text(report)) + "."});
+  if (report.decisions.warranty) policy.add(present::Prose{warranty_text(report), true});
   for (const Check& check : decision_checks(report))
     policy.add(present::Callout{verdict_kind(check.verdict), check.name,
                                 check.detail + ". " + check.advice});
@@ -246,6 +268,10 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                           {"inspections", best.inspections},
                           {"failing", best.failing}};
   }
+  if (decisions.warranty)
+    json["warranty"] = {{"share", decisions.warranty->share},
+                        {"length", finite(shown.at(decisions.warranty->length))},
+                        {"sure", finite(shown.at(decisions.warranty->sure))}};
   Json units = Json::array();
   for (const UnitDecision& each : decisions.units)
     units.push_back({{"unit", each.unit->name},

@@ -17,6 +17,7 @@
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/prognosis/data_roles.h"
+#include "wearwell/prognosis/named_life.h"
 #include "wearwell/study/inference_data.h"
 
 // Longer than others: each kind of study reports lives in its own way, but the question is the
@@ -64,10 +65,6 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
   answer(question, life,
          [&](double until) { return (distribution.cdf(from + until) - before) / (1 - before); });
   return life;
-}
-
-std::string without_new(const std::string& of) {
-  return of.starts_with("new ") ? of.substr(4) : of;
 }
 
 Source with_wishes(const Source& source,

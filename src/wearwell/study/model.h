@@ -38,7 +38,8 @@ struct Model {
   /// A study of a table whose columns have these roles; nothing where the table is of another
   /// application. May be null.
   std::optional<Scaffold> (*scaffold)(ColumnRoles& roles) = nullptr;
-  /// Tracks single units, from the state that a fit of this model left (prognosis/tracker.h). May be null.
+  /// Tracks single units, from the state that a fit of this model left (prognosis/tracker.h). May be
+  /// null, and returns null for a study that measures lives, where there is nothing to track.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;
 };

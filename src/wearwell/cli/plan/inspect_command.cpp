@@ -11,7 +11,7 @@ namespace wearwell::plan {
 namespace {
 
 struct InspectOptions {
-  std::filesystem::path lives;
+  LivesOptions lives;
   InspectQuestion question;
   AnswerOptions answer;
 };
@@ -56,11 +56,12 @@ void add_inspect_command(CLI::App& plan, Models models, int& exit_code) {
   CLI::App* command = plan.add_subcommand(
       "inspect", "Inspection times that keep the risk below a bound, or cost least");
   command
-      ->add_option("RESULT", options->lives,
-                   "Folder that wearwell fit wrote for a study with a failure threshold or S-N "
-                   "parts; configuration of a monitor (.toml); or a table of lives, as for "
-                   "wearwell decide")
+      ->add_option(
+          "RESULT", options->lives.path,
+          "Folder that wearwell fit wrote for lives, a failure threshold or S-N parts; "
+          "configuration of a monitor (.toml); or a table of lives, as for wearwell decide")
       ->required();
+  add_lives_options(*command, options->lives);
   add_bounds(*command, options->question);
   add_prices(*command, options->question);
   add_answer_options(*command, options->answer);

@@ -74,6 +74,9 @@ class FormulaTracker final : public prognosis::Tracker {
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
   const TomlReader root = TomlReader::parse(state.source.study);
   const std::shared_ptr<const FormulaModel> model = read_formula_model(root, state.source);
+  const auto predict = root.table("predict");
+  const bool has_threshold = predict && predict->has("limit");
+  if (!has_threshold && !model->along && model->measured.front().form->positive) return nullptr;
   refuse_drawn_effects(*model, "tracked");
   for (const Measured& each : model->measured) {
     if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)

@@ -7,8 +7,9 @@
 
 namespace wearwell::formula_model {
 
-/// Tracks units of a formula model (docs/explanation/tracking.md). Throws InputError if the study
-/// has no threshold, or its units cannot be tracked.
+/// Tracks units of a formula model (docs/explanation/tracking.md). Null if the study measures lives
+/// instead of a path along an axis. Throws InputError if it has no threshold, or its units cannot be
+/// tracked.
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state);
 
 }  // namespace wearwell::formula_model

@@ -1,0 +1,167 @@
+#include "wearwell/prognosis/study_lives.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/unit.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/input/status_words.h"
+#include "wearwell/predict/thinned_posterior.h"
+#include "wearwell/prognosis/named_life.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr std::size_t most_populations = 128;
+
+// Ends of cells of probability: a quarter longer from one to the next in the tails, where the cost
+// of a rare failure is decided, and equal between.
+std::vector<double> cell_ends() {
+  constexpr double first = 1e-7, tail = 0.01, ratio = 1.25;
+  constexpr int middle = 150;
+  std::vector<double> lower = {0};
+  for (double p = first; p < tail; p *= ratio) lower.push_back(p);
+  std::vector<double> ends = lower;
+  for (int i = 0; i <= middle; ++i) ends.push_back(tail + (1 - 2 * tail) * i / middle);
+  for (auto each = lower.rbegin(); each != lower.rend(); ++each) ends.push_back(1 - *each);
+  return ends;
+}
+
+template <class Quantile>
+WeightedLives represented(const Quantile& quantile) {
+  static const std::vector<double> ends = cell_ends();
+  std::vector<double> life, weight;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    life.push_back(quantile(0.5 * (ends[i - 1] + ends[i])));
+    weight.push_back(ends[i] - ends[i - 1]);
+  }
+  return WeightedLives(life, weight);
+}
+
+WeightedDraws one_point(const ThinnedPosterior& few, std::size_t k) {
+  WeightedDraws one;
+  one.values = few.values.row(static_cast<Eigen::Index>(k));
+  one.weights = Eigen::VectorXd::Ones(1);
+  return one;
+}
+
+const Column& required_column(const Table& table, const std::string& name) {
+  for (const Column& each : table.columns)
+    if (read_heading(each.name, "").name == name) return each;
+  throw InputError(fmt::format("{}: the column '{}' is missing; columns are unit, age, in_study",
+                               table.source, name));
+}
+
+Unit unit_of(const Table& table, const Column& age, const Unit& like) {
+  const Heading heading = read_heading(age.name, "");
+  const std::string text = heading.unit.empty() ? bare_unit(age.unit) : heading.unit;
+  if (text.empty())
+    throw InputError(fmt::format("{}: the column '{}' needs its unit in the heading: 'age [{}]'",
+                                 table.source, printable(age.name), like.text));
+  try {
+    return read_unit(text, like.text);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: column '{}': {}", table.source, printable(age.name), error.what()));
+  }
+}
+
+bool in_study(const Table& table, const Column* column, std::size_t row) {
+  if (!column) return false;
+  const std::string word =
+      column->is_number ? fmt::format("{}", column->numbers[row]) : column->text[row];
+  const std::optional<bool> truth = truth_in(word);
+  if (!truth)
+    throw InputError(fmt::format("{}: '{}' is not allowed; use yes or no",
+                                 place(table, column->name, row), printable(word)));
+  return *truth;
+}
+
+// The remaining lives of a unit in each population, and their mixture.
+KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, bool counted) {
+  KnownUnit unit{std::move(name), age, 0, {}};
+  InPopulations in;
+  std::vector<double> life, weight;
+  for (std::size_t k = 0; k < lives.populations.size(); ++k) {
+    const WeightedLives& fresh = lives.fresh.lives[k];
+    const double survival = 1 - fresh.cdf(age);
+    in.log_likelihood.push_back(counted ? 0 : std::log(survival));
+    in.passed.push_back(0);
+    in.remaining.push_back(survival > 0 ? fresh.beyond(age) : WeightedLives());
+    const double share = lives.populations[k] * (counted ? 1 : survival);
+    if (!(survival > 0)) continue;
+    for (std::size_t i = 0; i < in.remaining.back().points().size(); ++i) {
+      life.push_back(in.remaining.back().points()[i]);
+      weight.push_back(share * in.remaining.back().weights()[i]);
+    }
+  }
+  if (life.empty()) return unit;
+  const WeightedLives mixture(life, weight);
+  unit.remaining = represented([&](double p) { return mixture.quantile(p); });
+  unit.in_populations = [in = std::move(in)] { return std::optional(in); };
+  return unit;
+}
+
+}  // namespace
+
+KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
+                          const std::string& title, bool trusted, const std::string& point) {
+  const std::vector<NamedLife> lives = named_lives(study);
+  if (lives.empty())
+    throw InputError(fmt::format("{}: the study has no life of a new unit", title));
+  const NamedLife life = life_named(lives, point, "--at");
+  const ThinnedPosterior few(posterior, most_populations);
+  KnownLives known;
+  known.title = title;
+  known.noun = without_new(life.request->of);
+  known.unit = life.request->unit;
+  known.trusted = trusted;
+  known.fresh = PopulationLives(std::vector<WeightedLives>(few.weights.size()), few.weights);
+  known.populations = few.weights;
+  tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
+    const WeightedDraws one = one_point(few, k);
+    const PredictiveLife of_one = life.group->lives(one)[life.index];
+    known.fresh.lives[k] = represented(of_one.distribution.quantile);
+  });
+  return known;
+}
+
+void add_units_in_service(KnownLives& lives, const Table& table) {
+  const Column& name = required_column(table, "unit");
+  const Column& age = required_column(table, "age");
+  const Column* counted = nullptr;
+  for (const Column& each : table.columns) {
+    if (&each == &name || &each == &age) continue;
+    if (each.name != "in_study")
+      throw InputError(fmt::format("{}: column '{}' is unknown; columns are unit, age, in_study",
+                                   table.source, printable(each.name)));
+    counted = &each;
+  }
+  const Unit unit = unit_of(table, age, lives.unit);
+  std::set<std::string> known;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const std::string who = name.is_number ? fmt::format("{}", name.numbers[row]) : name.text[row];
+    if (who.empty() || who == "nan" || !known.insert(who).second)
+      throw InputError(fmt::format(
+          "{}: {}", place(table, name.name, row),
+          known.count(who) ? "the unit '" + printable(who) + "' has a row already" : "is empty"));
+    const double value = cell_number(table, age, row);
+    if (!(value >= 0))
+      throw InputError(
+          fmt::format("{}: {} must be at least 0", place(table, age.name, row), value));
+    KnownUnit each = unit_of_age(lives, who, value * unit.scale, in_study(table, counted, row));
+    if (each.remaining.points().empty())
+      throw InputError(fmt::format("{}: by this study no unit survives to {}",
+                                   place(table, age.name, row), value));
+    lives.units.push_back(std::move(each));
+  }
+}
+
+}  // namespace wearwell::prognosis
