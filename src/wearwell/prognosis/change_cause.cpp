@@ -151,7 +151,7 @@ ChangeCause cause_of(Since since, double before, const std::optional<AsNew>& as_
     try_scatter(part, first, earlier, best);
   }
   if (as_new && as_new->readings.size() + as_new->first == since.size()) {
-    double sum = unchanged(since.first(as_new->first)) + choice;
+    double sum = unchanged(since.first(as_new->first));
     for (const ReadingSince& each : as_new->readings)
       sum += cost(each.measured - each.expected, each.spread);
     best.offer({ChangeKind::replaced, as_new->first, 0, false}, sum);
@@ -168,6 +168,11 @@ ChangeCause cause_of(Since since, double before, const std::optional<AsNew>& as_
   return cause;
 }
 
+std::string reading_text(double si, const Unit& unit) {
+  const double value = std::stod(fmt::format("{:.6g}", from_si(unit, si)));
+  return given_text(value, Script::terminal) + (unit.text == "1" ? "" : " " + unit.text);
+}
+
 std::string description(const ChangeCause& cause, Since since, std::uint64_t dropped,
                         const ChangeWords& words) {
   const Since part = since.subspan(cause.first);
@@ -178,13 +183,13 @@ std::string description(const ChangeCause& cause, Since since, std::uint64_t dro
   const char* const side = cause.above ? "above" : "below";
   const auto number = [](double x) { return shown_number(x, 3, Script::terminal); };
   const std::string unit = words.measured.text == "1" ? "" : " " + words.measured.text;
-  const auto quantity = [&](double si) { return number(from_si(words.measured, si)) + unit; };
   switch (cause.kind) {
     case ChangeKind::factor:
-      return fmt::format("{} {} the forecast after multiplication by {}: the unit has changed ({})",
-                         last, one ? "fits" : "fit",
-                         cause.size < 1 ? "1/" + number(1 / cause.size) : number(cause.size),
-                         unit_change(cause.size));
+      return fmt::format(
+          "{} {} the forecast after multiplication by {}: the unit has changed ({})", last,
+          one ? "fits" : "fit",
+          cause.size < 1 ? fmt::format("1/{:g}", 1 / cause.size) : fmt::format("{:g}", cause.size),
+          unit_change(cause.size));
     case ChangeKind::replaced:
       return fmt::format(
           "{} {} below the forecast and {} a new {}: the part was replaced, or the "
@@ -216,7 +221,8 @@ std::string description(const ChangeCause& cause, Since since, std::uint64_t dro
   return fmt::format(
       "the last reading, {}, lies {} the forecast of {}: a wrong reading, a step, "
       "or a change of the rate",
-      quantity(only.measured), side, quantity(only.expected));
+      reading_text(only.measured, words.measured), side,
+      number(from_si(words.measured, only.expected)) + unit);
 }
 
 }  // namespace wearwell::prognosis

@@ -33,7 +33,7 @@ struct ChangeCause {
 };
 
 /// The readings from `first` on, as those of a new unit put to use after the reading before it:
-/// `expected` and `spread` of each.
+/// `expected` and `spread` of each, given the earlier ones.
 struct AsNew {
   std::size_t first = 0;
   std::span<const ReadingSince> readings;
@@ -44,6 +44,9 @@ struct AsNew {
 /// reading before them. Not empty.
 ChangeCause cause_of(std::span<const ReadingSince> since, double before,
                      const std::optional<AsNew>& as_new);
+
+/// A value of a reading, SI, in its unit: up to six digits, "100.6 um".
+std::string reading_text(double si, const Unit& unit);
 
 /// Nouns and units of a description.
 struct ChangeWords {

@@ -9,7 +9,6 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/math/root.h"
-#include "wearwell/present/number.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -185,21 +184,17 @@ void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, d
 }
 
 std::string ChangeWatch::described(const WatchedUnit& of, const History& history) {
-  const auto quantity = [](double si, const Unit& unit) {
-    return shown_number(from_si(unit, si), 4, Script::terminal) +
-           (unit.text == "1" ? "" : " " + unit.text);
-  };
   if (is_back()) {
     const Unit& unit = of.tracker.axis().unit;
     return fmt::format("{} goes back from {} to {}: the counter was reset, or the {} replaced",
-                       of.tracker.axis().name, quantity(farthest_at_, unit),
-                       quantity(last_at_, unit), of.tracker.noun());
+                       of.tracker.axis().name, reading_text(farthest_at_, unit),
+                       reading_text(last_at_, unit), of.tracker.noun());
   }
   if (repeats_ >= stuck)
     return fmt::format(
         "the last {} readings are all {}: the sensor is stuck, or an old value is "
         "sent again",
-        equal_, quantity(last_value_, of.tracker.columns()[*of.columns.measured].unit));
+        equal_, reading_text(last_value_, of.tracker.columns()[*of.columns.measured].unit));
   // A cause costs some predictions: later it is found again ever more rarely.
   const std::uint64_t count = since_.size() + dropped_;
   const bool again = count <= most_since || count % (std::bit_floor(count) / 8) == 0;
@@ -207,35 +202,47 @@ std::string ChangeWatch::described(const WatchedUnit& of, const History& history
 }
 
 std::string ChangeWatch::described_change(const WatchedUnit& of, const History& history) {
-  const auto found = predicted(of, history);
-  if (!found)
+  const auto since = predicted(of, history);
+  if (!since)
     return fmt::format(
         "the last {} readings lie outside the forecast; the rate has changed, or "
         "the sensor has",
         since_.size() + dropped_);
-  const std::vector<ReadingSince>& since = *found;
-  std::optional<AsNew> as_new;
   std::vector<ReadingSince> new_values;
-  for (std::size_t first = 0; first < since.size() && !as_new; ++first) {
-    const double before = first > 0 ? since[first - 1].at : before_at_;
+  std::optional<AsNew> as_new;
+  for (std::size_t first = 0; first < since->size(); ++first) {
+    const ReadingSince& each = (*since)[first];
     constexpr double far = 3;
-    if (since[first].measured > since[first].expected - far * since[first].spread) continue;
-    const std::string name = "a new " + of.tracker.noun();
-    if (!of.tracker.refusal(name).empty() || !std::isfinite(before)) break;
-    const auto fresh = of.tracker.begin(name);
-    const double scale = std::abs(since[first].spread);
-    for (std::size_t i = first; i < since.size(); ++i) {
-      Reading moved = since_[i].reading;
-      moved.numbers[of.columns.axis] -= before;
-      new_values.push_back(since[i]);
-      if (!predict(*fresh, moved, of.columns, scale, new_values.back())) break;
-      if (i + 1 == since.size()) as_new = AsNew{first, new_values};
-    }
+    if (each.measured > each.expected - far * each.spread) continue;
+    new_values = predicted_as_new(of, first, first > 0 ? (*since)[first - 1].at : before_at_);
+    if (!new_values.empty()) as_new = AsNew{first, new_values};
     break;
   }
-  const ChangeCause cause = cause_of(since, before_at_, as_new);
-  return description(cause, since, dropped_,
+  return description(cause_of(*since, before_at_, as_new), *since, dropped_,
                      {of.tracker.noun(), of.tracker.columns()[*of.columns.measured].unit});
+}
+
+// The readings from `first` on, one after the other, of a new unit whose use begins at `start`;
+// empty if there is none.
+std::vector<ReadingSince> ChangeWatch::predicted_as_new(const WatchedUnit& of, std::size_t first,
+                                                        double start) const {
+  const std::string name = "a new " + of.tracker.noun();
+  if (!of.tracker.refusal(name).empty() || !std::isfinite(start)) return {};
+  const auto fresh = of.tracker.begin(name);
+  std::vector<Reading> taken;
+  const History history = [&](const std::function<void(const Reading&)>& visit) {
+    for (const Reading& each : taken) visit(each);
+  };
+  std::vector<ReadingSince> values;
+  for (std::size_t i = first; i < since_.size(); ++i) {
+    Reading moved = since_[i].reading;
+    moved.numbers[of.columns.axis] -= start;
+    values.push_back(since_[i].values);
+    if (!predict(*fresh, moved, of.columns, values.back().spread, values.back())) return {};
+    fresh->update(moved, history);
+    taken.push_back(std::move(moved));
+  }
+  return values;
 }
 
 // What the readings before them predict for those since.

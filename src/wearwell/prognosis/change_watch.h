@@ -64,6 +64,8 @@ class ChangeWatch {
   std::string described(const WatchedUnit& of, const History& history);
   std::string described_change(const WatchedUnit& of, const History& history);
   std::optional<std::vector<ReadingSince>> predicted(const WatchedUnit& of, const History& history);
+  std::vector<ReadingSince> predicted_as_new(const WatchedUnit& of, std::size_t first,
+                                             double start) const;
   bool find_reference(const WatchedUnit& of, const History& history);
 
   static constexpr double none = -std::numeric_limits<double>::infinity();

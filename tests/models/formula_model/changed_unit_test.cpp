@@ -55,9 +55,9 @@ TEST(ChangedUnit, WearsThreeTimesAsFast) {
     if (!doubted_at && guide.watch.in_doubt()) doubted_at = i;
     EXPECT_EQ(guide.watch.is_beyond(), i == 10) << i;
   }
-  EXPECT_EQ(doubted_at, 7);
-  EXPECT_THAT(guide.watch.reason(),
-              HasSubstr("the last 4 readings lie above the forecast; the rate has changed (3"));
+  EXPECT_EQ(doubted_at, 8);  // the first one after the change is low by chance
+  EXPECT_THAT(guide.watch.reason(), HasSubstr("the last 4 readings lie above the forecast; the "
+                                              "rate has changed (2.9 times the earlier one)"));
   EXPECT_THAT(guide.watch.reason(), HasSubstr("or the sensor has"));
 }
 
@@ -124,8 +124,9 @@ TEST(ChangedUnit, Steps) {
 TEST(ChangedUnit, GoesBack) {
   WatchedGuide guide = read([](int, double wear) { return wear; });
   guide.read(50, 1.2);
-  EXPECT_EQ(guide.watch.reason(),
-            "use goes back from 3000 h to 50 h: the counter was reset, or the machine replaced");
+  EXPECT_EQ(
+      guide.watch.reason(),
+      "use goes back from 3\u202f000 h to 50 h: the counter was reset, or the machine replaced");
   guide.read(3300, 66);
   EXPECT_FALSE(guide.watch.in_doubt());
 }
