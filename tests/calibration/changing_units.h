@@ -107,7 +107,7 @@ struct WatchedGuide {
 /// What a unit shows at a use, and what remains of its life.
 struct Shown {
   double use = 0, wear = 0;  ///< as read, h and um
-  double remaining = 0;      ///< true, h
+  double remaining = 0;      ///< true, h; before a change that of a unit that goes on
 };
 
 /// How a unit changes after its reading `changes`: readings every 150 h.
@@ -117,7 +117,7 @@ struct Change {
   std::function<std::vector<Shown>(Rng&)> readings;
 };
 
-inline constexpr int changes_after = 10, most_readings = 30;
+inline constexpr int changes_after = 10, most_readings = 25;
 inline constexpr double between_readings = 150;
 
 namespace changing {
@@ -138,7 +138,7 @@ inline std::vector<Shown> grown(Rng& rng, double own, const std::function<double
     if (wear >= Guides::limit) break;
     double left = 0, at = wear;  // the true end
     for (int j = i + 1; at < Guides::limit && j < 10000; ++j) {
-      const double step = own * factor(j) * between_readings;
+      const double step = own * (i <= changes_after ? 1 : factor(j)) * between_readings;
       left += between_readings * std::min(1.0, (Guides::limit - at) / step);
       at += step;
     }

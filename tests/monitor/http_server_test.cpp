@@ -79,9 +79,17 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
   const json all = json::parse(get("/api/units?count=500").body);
   ASSERT_EQ(all["units"].size(), 30u);
   EXPECT_EQ(all["matching"], 30);
+  // By risk; in doubt as if just to act on, beyond the threshold first.
+  const auto urgency = [&](const json& unit) {
+    const double least = unit["beyond"] ? 1 : unit["doubt"].is_null() ? 0 : 0.3;
+    return std::max(unit["risk"].get<double>(), least);
+  };
   for (std::size_t i = 1; i < 30; ++i) {
-    EXPECT_GE(all["units"][i - 1]["risk"], all["units"][i]["risk"]) << i;
+    EXPECT_GE(urgency(all["units"][i - 1]), urgency(all["units"][i])) << i;
   }
+  EXPECT_EQ(all["units"][0]["beyond"], true);
+  EXPECT_EQ(all["units"][0]["alarm"], "act");
+  EXPECT_GT(fleet["units"]["doubt"], 0);
   // A page of it is a piece of it.
   const json page = json::parse(get("/api/units?offset=10&count=7").body);
   ASSERT_EQ(page["units"].size(), 7u);
@@ -89,9 +97,11 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
   EXPECT_EQ(json::parse(get("/api/units?offset=29").body)["units"].size(), 1u);
   EXPECT_EQ(json::parse(get("/api/units?offset=30").body)["units"].size(), 0u);
   // All of a unit's view stands in its detail.
-  const std::string name = page["units"][0]["unit"];
-  const json detail = json::parse(get("/api/units/" + name).body);
-  for (const auto& [key, value] : page["units"][0].items()) EXPECT_EQ(detail[key], value) << key;
+  const json& first = *std::find_if(
+      page["units"].begin(), page["units"].end(),
+      [](const json& unit) { return unit["unit"].get<std::string>().starts_with("M"); });
+  const json detail = json::parse(get("/api/units/" + first["unit"].get<std::string>()).body);
+  for (const auto& [key, value] : first.items()) EXPECT_EQ(detail[key], value) << key;
   EXPECT_EQ(detail["path"].size(), 81u);
   EXPECT_GE(detail["forecasts"]["judged"], detail["forecasts"]["held"]);
 }

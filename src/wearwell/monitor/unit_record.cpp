@@ -67,7 +67,7 @@ std::optional<double> TrackerUnits::measured(const std::vector<double>& numbers)
 }
 
 double risk_within(const prognosis::Forecast& forecast, double horizon) {
-  if (forecast.remaining.points().empty()) return forecast.passed;
+  if (forecast.remaining.points().empty()) return std::min(forecast.passed, 1.0);
   // Sums of weights are 1 up to rounding.
   return std::clamp(forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(horizon), 0.0,
                     1.0);

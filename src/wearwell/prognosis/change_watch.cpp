@@ -50,10 +50,10 @@ Reading alone(const WatchedUnit& of, Reading reading) {
   return reading;
 }
 
-/// Where `target` of the predictive distribution of a reading's measured value lies; NaN if
-/// nothing predicts it.
+/// Where `target` of the predictive distribution of a reading's measured value lies, near `guess`,
+/// to a twentieth of `scale`; NaN if nothing predicts it.
 double predicted_value(const TrackedUnit& unit, Reading reading, std::size_t column, double target,
-                       double scale) {
+                       double guess, double scale) {
   const auto share = [&](double value) {
     reading.numbers[column] = value;
     const std::vector<PredictiveTails> tails = unit.predictive(reading);
@@ -61,23 +61,22 @@ double predicted_value(const TrackedUnit& unit, Reading reading, std::size_t col
     if (tails.empty()) return value > 0 ? std::nan("") : -target;
     return tails.front().below / (tails.front().below + tails.front().above) - target;
   };
-  constexpr Closeness close = {0, 1e-3};
-  const double guess = reading.numbers[column];
-  return solve_increasing(share, guess, scale, {1e-4 * scale, close.relative}, guess - 1e6 * scale,
-                          guess + 1e6 * scale);
+  constexpr double close = 0.05, far = 1e6;
+  return solve_increasing(share, guess, scale, {close * scale, 1e-9}, guess - far * scale,
+                          guess + far * scale);
 }
 
 /// Fills the median and half the range from 16 to 84 %; false if nothing predicts it.
 bool predict(const TrackedUnit& unit, const Reading& reading, const WatchedColumns& columns,
              double scale, ReadingSince& values) {
   constexpr double one_sd = 0.158655;
-  std::array<double, 3> at = {};
-  std::size_t i = 0;
-  for (const double target : {one_sd, 0.5, 1 - one_sd})
-    at[i++] = predicted_value(unit, reading, *columns.measured, target, scale);
-  values.expected = at[1];
-  values.spread = (at[2] - at[0]) / 2;
-  return std::isfinite(values.expected) && std::isfinite(values.spread) && values.spread > 0;
+  const auto at = [&](double target, double guess) {
+    return predicted_value(unit, reading, *columns.measured, target, guess, scale);
+  };
+  values.expected = at(0.5, values.measured);
+  if (!std::isfinite(values.expected)) return false;
+  values.spread = (at(1 - one_sd, values.expected) - at(one_sd, values.expected)) / 2;
+  return std::isfinite(values.spread) && values.spread > 0;
 }
 
 }  // namespace
@@ -168,6 +167,7 @@ void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, d
   if (!in_doubt() && test_.evidence() < ChangeTest::ends) {
     since_.clear();
     reference_.reset();
+    new_unit_.reset();
     return;
   }
   if (since_.empty()) {
@@ -225,24 +225,29 @@ std::string ChangeWatch::described_change(const WatchedUnit& of, const History& 
 // The readings from `first` on, one after the other, of a new unit whose use begins at `start`;
 // empty if there is none.
 std::vector<ReadingSince> ChangeWatch::predicted_as_new(const WatchedUnit& of, std::size_t first,
-                                                        double start) const {
+                                                        double start) {
   const std::string name = "a new " + of.tracker.noun();
   if (!of.tracker.refusal(name).empty() || !std::isfinite(start)) return {};
-  const auto fresh = of.tracker.begin(name);
-  std::vector<Reading> taken;
+  const bool goes_on =
+      new_unit_ && dropped_ == 0 && new_unit_->first == first && new_unit_->start == start;
+  if (!goes_on) new_unit_.reset(new NewUnit{of.tracker.begin(name), {}, {}, first, start});
+  NewUnit& fresh = *new_unit_;
   const History history = [&](const std::function<void(const Reading&)>& visit) {
-    for (const Reading& each : taken) visit(each);
+    for (const Reading& each : fresh.taken) visit(each);
   };
-  std::vector<ReadingSince> values;
-  for (std::size_t i = first; i < since_.size(); ++i) {
+  for (std::size_t i = first + fresh.values.size(); i < since_.size(); ++i) {
     Reading moved = since_[i].reading;
     moved.numbers[of.columns.axis] -= start;
-    values.push_back(since_[i].values);
-    if (!predict(*fresh, moved, of.columns, values.back().spread, values.back())) return {};
-    fresh->update(moved, history);
-    taken.push_back(std::move(moved));
+    ReadingSince values = since_[i].values;
+    if (!predict(*fresh.unit, moved, of.columns, values.spread, values)) {
+      new_unit_.reset();
+      return {};
+    }
+    fresh.values.push_back(values);
+    fresh.unit->update(moved, history);
+    fresh.taken.push_back(std::move(moved));
   }
-  return values;
+  return fresh.values;
 }
 
 // What the readings before them predict for those since.
@@ -252,7 +257,7 @@ std::optional<std::vector<ReadingSince>> ChangeWatch::predicted(const WatchedUni
   std::vector<ReadingSince> values;
   for (Since& each : since_) {
     if (std::isnan(each.values.measured)) continue;
-    constexpr double part_of_limit = 1e-3;
+    constexpr double part_of_limit = 1e-2;
     const double limit = std::abs(of.tracker.limit().si());
     const double scale =
         part_of_limit *
@@ -316,6 +321,7 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   for (std::uint64_t* each : {&equal_, &dropped_, &before_}) *each = from.u64();
   since_.clear();
   reference_.reset();
+  new_unit_.reset();
   const std::size_t count = from.count(1);
   if (count > most_since) from.fail("it has too many readings since a change");
   for (std::size_t i = 0; i < count; ++i) {

@@ -65,7 +65,7 @@ class ChangeWatch {
   std::string described_change(const WatchedUnit& of, const History& history);
   std::optional<std::vector<ReadingSince>> predicted(const WatchedUnit& of, const History& history);
   std::vector<ReadingSince> predicted_as_new(const WatchedUnit& of, std::size_t first,
-                                             double start) const;
+                                             double start);
   bool find_reference(const WatchedUnit& of, const History& history);
 
   static constexpr double none = -std::numeric_limits<double>::infinity();
@@ -84,7 +84,18 @@ class ChangeWatch {
   std::uint64_t dropped_ = 0;  // earlier ones of them
   std::uint64_t before_ = 0;   // readings before them
   double before_at_ = none;    // where the last one before them was
-  // The unit as it was before them: not saved, but found again from the history.
+  /// A new unit with the readings since a change.
+  struct NewUnit {
+    std::unique_ptr<TrackedUnit> unit;
+    std::vector<Reading> taken = {};
+    std::vector<ReadingSince> values = {};
+    std::size_t first = 0;
+    double start = 0;
+  };
+
+  // Neither of these is saved, but found again from the readings.
+  std::shared_ptr<NewUnit> new_unit_;
+  // The unit as it was before them.
   std::shared_ptr<const TrackedUnit> reference_;
 };
 
