@@ -203,11 +203,13 @@ std::string ChangeWatch::described(const WatchedUnit& of, const History& history
 
 std::string ChangeWatch::described_change(const WatchedUnit& of, const History& history) {
   const auto since = predicted(of, history);
-  if (!since)
-    return fmt::format(
-        "the last {} readings lie outside the forecast; the rate has changed, or "
-        "the sensor has",
-        since_.size() + dropped_);
+  if (!since) {
+    const std::uint64_t count = since_.size() + dropped_;
+    return fmt::format("{} outside the forecast; the rate has changed, or the sensor has",
+                       count == 0   ? "late readings lie"
+                       : count == 1 ? "the last reading lies"
+                                    : fmt::format("the last {} readings lie", count));
+  }
   std::vector<ReadingSince> new_values;
   std::optional<AsNew> as_new;
   for (std::size_t first = 0; first < since->size(); ++first) {
