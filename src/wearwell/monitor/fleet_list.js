@@ -36,7 +36,7 @@
     risk.firstChild.style.width = `${100 * (each.risk ?? 0)}%`;
     // The remaining life given that the limit is not reached is irrelevant if it most likely is.
     const past = each.passed > 0.5 || each.beyond;
-    const life = each.beyond ? 'reading beyond the limit'
+    const life = each.beyond ? 'beyond the limit'
                  : past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
                  : each.doubt ? 'forecast in doubt'
                  : !each.known ? 'unknown'
