@@ -12,7 +12,7 @@ namespace {
 constexpr std::array shifts = {0.5, 1.0, 2.0, 4.0, -0.5, -1.0, -2.0, -4.0};
 constexpr double scatter_shift = 2;       // of z, in both directions: readings that scatter more
 constexpr double farthest = 8;            // a larger |z| counts as this one
-constexpr double most_evidence = 1e4;     // of one alternative: so doubt can end again
+constexpr double most_evidence = 1200;    // of one alternative: so doubt can end again
 constexpr double repeats = 0.9;           // the probability that a stuck sensor repeats itself
 constexpr double least_repeat = 1e-3;     // a smaller probability of a repeat counts as this one
 constexpr double own_probability = 1e-6;  // of a value: a smaller one counts as continuous

@@ -22,14 +22,15 @@ namespace wearwell::prognosis {
 class ChangeTest {
  public:
   static constexpr double begins = 1000;  ///< evidence at which doubt begins
-  static constexpr double ends = 1;       ///< evidence below which it ends
+  static constexpr double ends = 10;      ///< evidence below which it ends
+  static constexpr double some = 1;       ///< less is no evidence
 
   /// The next reading: its tails, and the e-value of `repeat_evidence` (1: not tested). Several
   /// measured values count by the mean of their e-values. Without tails only the second counts.
   void add(std::span<const PredictiveTails> tails, double repeat = 1);
 
   bool in_doubt() const { return in_doubt_; }
-  /// The evidence of a change at some reading; below 1 there is none.
+  /// The evidence of a change at some reading.
   double evidence() const;
   std::uint64_t readings() const { return readings_; }
 

@@ -164,7 +164,7 @@ void ChangeWatch::note_values(const WatchedUnit& of, const Reading& reading) {
 }
 
 void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, double before_at) {
-  if (!in_doubt() && test_.evidence() < ChangeTest::ends) {
+  if (!in_doubt() && test_.evidence() < ChangeTest::some) {
     since_.clear();
     reference_.reset();
     new_unit_.reset();
