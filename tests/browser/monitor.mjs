@@ -109,6 +109,16 @@ async function looks(browser, {name, ...options}) {
   complaints.push(...await layout(page), ...await boxFaults(page, 'svg.plot'));
   check(/more than/.test(await page.textContent('.tiles')), `${name}: an interval without end is not told`);
   await page.screenshot({path: join(screenshots, `monitor-${name}-unheard.png`)});
+  // One whose forecast is in doubt: why stands above the forecast.
+  const {units} = await (await fetch(`${address}api/units?count=500`)).json();
+  const doubted = units.find((each) => each.alarm === 'doubt');
+  await page.goto(`${address}#unit=${encodeURIComponent(doubted.unit)}`);
+  await page.waitForSelector(`#detail[data-unit="${doubted.unit}"] .callout.doubt`);
+  check((await page.textContent('#detail .callout.doubt')).toLowerCase().includes(doubted.doubt), `${name}: the reason for doubt is not shown`);
+  check((await page.textContent('#detail .badge')) === 'doubt', `${name}: the state of doubt is not shown`);
+  complaints.push(...await layout(page));
+  await page.screenshot({path: join(screenshots, `monitor-${name}-doubt.png`)});
+  await accessibility(page, 'doubt', complaints);
   await context.close();
   await stop();
   for (const each of complaints) faults.push(`${name}: ${each}`);

@@ -68,6 +68,39 @@ TEST_F(Configs, Whole) {
   EXPECT_EQ(reading.numbers, (std::vector<double>{1.5, 1800}));
 }
 
+TEST_F(Configs, RefuseReadingsThatNoUnitCanHave) {
+  const MonitorConfig config = read(good);
+  const auto refusal = [&](const std::string& wear, const std::string& time) {
+    return message_of<InputError>([&] {
+      reading_of(fields_of_json(R"({"machine": "M1", "t": "2026-11-22T15:04:05Z", "w": )" + wear +
+                                R"(, "h": )" + time + "}"),
+                 "", config.sources[0].mapping, 5);
+    });
+  };
+  EXPECT_EQ(refusal("1", "-3"), "time is negative");
+  EXPECT_THAT(
+      refusal("1", "1e300"),
+      testing::AllOf(HasSubstr("time = "),
+                     HasSubstr(" is more than a million times the life of a new machine (")));
+  EXPECT_THAT(refusal("1e300", "3"), HasSubstr("wear = "));
+  EXPECT_THAT(refusal("1e300", "3"), HasSubstr(" is more than 10^12 times the threshold of "));
+  // Far, but not out of the question: a change of unit is found later.
+  EXPECT_NO_THROW(reading_of(
+      fields_of_json(R"({"machine": "M1", "t": "2026-11-22T15:04:05Z", "w": 1e12, "h": 30})"), "",
+      config.sources[0].mapping, 5));
+}
+
+TEST_F(Configs, ConnectionsOfTheServer) {
+  const std::string http = std::string(good) + "[http]\nlisten = \"127.0.0.1:8080\"\n";
+  EXPECT_EQ(read(http).http->limits.connections, 256U);
+  EXPECT_EQ(read(http).http->limits.of_client, 64U);
+  const MonitorConfig config = read(http + "connections = 1000\nconnections_of_client = 900\n");
+  EXPECT_EQ(config.http->limits.connections, 1000U);
+  EXPECT_EQ(config.http->limits.of_client, 900U);
+  EXPECT_THAT(message_of<InputError>([&] { read(http + "connections_of_client = 0\n"); }),
+              HasSubstr("http.connections_of_client"));
+}
+
 // The unit of a study need not be one of the SI; a column in it is converted all the same.
 TEST_F(Configs, UnitsOfTheStudy) {
   std::string text = good;

@@ -55,7 +55,7 @@ class FleetRig : public ScratchTest {
     settings.population = "population";
     settings.alarm = alarm_;
     settings.threads = threads_;
-    settings.on_alarm = [this](const AlarmChange& change, Alarm before) {
+    settings.on_alarm = [this](const AlarmChange& change, Alarm before, const UnitView&) {
       changes_.push_back(fmt::format("{} {} -> {}", change.unit, name(before), name(change.alarm)));
     };
     return std::make_unique<Fleet>(tracker_, *store_, *tally_, quiet_, settings);

@@ -185,6 +185,107 @@ TEST_F(Fleets, CountRepeatedLateAndContradicting) {
               HasSubstr("another reading with number 5 is stored already"));
 }
 
+// A growing unit whose rate triples: to beyond the threshold, which the forecast does not know.
+TEST_F(Fleets, DoubtAForecastThatReadingsDoNotFollow) {
+  open();
+  const auto read = [&](const std::string& unit, int n, double wear) {
+    deliver(message(unit, n, wear, 20 * n));
+  };
+  const auto wear = [](int n) {
+    return 24.0 * n + (n > 10 ? 72.0 * (n - 10) : 0) + 3 * (n % 3 - 1);
+  };
+  for (int n = 1; n <= 10; ++n) {
+    read("changes", n, wear(n));
+    read("stays", n, 20 * n);
+  }
+  catch_up();
+  EXPECT_EQ(fleet_->unit("changes")->view.doubt, "");
+  EXPECT_EQ(fleet_->fleet().doubt, 0U);
+  for (int n = 11; n <= 12; ++n) read("changes", n, wear(n));
+  catch_up();
+  UnitView view = fleet_->unit("changes")->view;
+  EXPECT_NE(view.doubt, "");
+  EXPECT_FALSE(view.beyond);
+  // Where the risk does not call for action, the alarm is the doubt.
+  read("stays", 11, 360);
+  catch_up();
+  view = fleet_->unit("stays")->view;
+  EXPECT_EQ(view.alarm, Alarm::doubt);
+  EXPECT_LT(view.risk, 0.2);
+  EXPECT_THAT(view.doubt, HasSubstr("the last reading, 360 m, lies above the forecast of 220"));
+  EXPECT_EQ(fleet_->fleet().doubt + fleet_->fleet().act, 2U);
+  EXPECT_THAT(changes_, testing::Contains("stays ok -> doubt"));
+  EXPECT_EQ(json_of(view)["alarm"], "doubt");
+  EXPECT_EQ(json_of(view)["doubt"], view.doubt);
+  const std::string metrics = metrics_text(fleet_->fleet(), {view}, {});
+  EXPECT_THAT(metrics, HasSubstr("wearwell_unit_doubt{unit=\"stays\"} 1\n"));
+  EXPECT_THAT(metrics, HasSubstr("wearwell_unit_alarm{unit=\"stays\"} 3\n"));
+  EXPECT_THAT(metrics, HasSubstr("wearwell_fleet_units{alarm=\"doubt\"} "));
+  EXPECT_THAT(fleet_text(*fleet_), HasSubstr("stays: the forecast is in doubt: the last reading"));
+  // After a restart all is as before, and known as before.
+  const std::string here = bits();
+  changes_.clear();
+  open();
+  catch_up();
+  EXPECT_TRUE(bits() == here);
+  EXPECT_EQ(fleet_->unit("stays")->view.doubt, view.doubt);
+  EXPECT_EQ(fleet_->unit("stays")->view.alarm, Alarm::doubt);
+  EXPECT_TRUE(changes_.empty());
+  // And from the readings alone.
+  store_->save("population", {{"stays", 3, "damaged"}, {"changes", 3, "damaged"}}, 3);
+  open();
+  catch_up();
+  EXPECT_TRUE(bits() == here);
+}
+
+TEST_F(Fleets, ActOnALevelBeyondTheThreshold) {
+  alarm_.horizon = 1;
+  open();
+  for (int n = 1; n <= 10; ++n) deliver(message("a", n, 20 * n, 20 * n));
+  deliver(message("a", 11, 1008, 220));
+  catch_up();
+  UnitView view = fleet_->unit("a")->view;
+  EXPECT_TRUE(view.beyond);
+  EXPECT_EQ(view.alarm, Alarm::act);
+  EXPECT_LT(view.risk, 0.01);
+  EXPECT_NE(view.doubt, "");
+  EXPECT_EQ(json_of(view)["beyond"], true);
+  EXPECT_THAT(fleet_text(*fleet_), HasSubstr("a: the last reading is beyond the limit."));
+  deliver(message("b", 1, 20, 20));
+  catch_up();
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].unit, "a");
+  for (int n = 12; n <= 40; ++n) deliver(message("a", n, 20 * n, 20 * n));
+  catch_up();
+  view = fleet_->unit("a")->view;
+  EXPECT_FALSE(view.beyond);
+  EXPECT_NE(view.alarm, Alarm::act);
+}
+
+TEST_F(Fleets, OrderAlarmsByUrgency) {
+  EXPECT_EQ(alarm_of_readings(Alarm::ok, false, false), Alarm::ok);
+  EXPECT_EQ(alarm_of_readings(Alarm::watch, false, true), Alarm::doubt);
+  EXPECT_EQ(alarm_of_readings(Alarm::unknown, false, true), Alarm::doubt);
+  EXPECT_EQ(alarm_of_readings(Alarm::act, false, true), Alarm::act);
+  EXPECT_EQ(alarm_of_readings(Alarm::ok, true, true), Alarm::act);
+  for (const Alarm each : {Alarm::ok, Alarm::watch, Alarm::act, Alarm::doubt, Alarm::unknown})
+    EXPECT_EQ(alarm_named(name(each)), each);
+}
+
+TEST(Risk, IsAProbability) {
+  prognosis::Forecast forecast;
+  const double lives[] = {1, 2, 3};
+  const double weights[] = {0.1, 0.7, 0.2};
+  forecast.remaining = prognosis::WeightedLives(lives, weights);
+  for (double passed = 0; passed <= 1 + 1e-14; passed += 0.001) {
+    forecast.passed = passed;
+    EXPECT_LE(risk_within(forecast, 100), 1);
+    EXPECT_GE(risk_within(forecast, 0), 0);
+  }
+  forecast.passed = 1.0000000000000082;
+  forecast.remaining = {};
+  EXPECT_EQ(risk_within(forecast, 1), 1);
+}
+
 TEST_F(Fleets, RefuseWhatIsNoReading) {
   open();
   const auto problem = [&](const std::string& payload) {

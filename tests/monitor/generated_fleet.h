@@ -37,6 +37,12 @@ class GeneratedFleet : public FleetReader, public Inbox {
         take(&unit, step * (j + 1), now_ms() - (readings - j) * 3'600'000LL);
       }
       if (i % 11 == 5) unit.silent = true;
+      if (i % 17 == 9)
+        unit.doubt =
+            "the last 4 readings lie above the forecast; the rate has changed (3.0 times the "
+            "earlier "
+            "one), or the sensor has";
+      unit.beyond = i % 34 == 9;
       if (i % 13 == 7) unit.quality.last_problem = "line 3: wear = \"n/a\" is no number";
       unit.quality.refused = i % 13 == 7 ? 2 : 0;
       units_.push_back(std::move(unit));
@@ -74,6 +80,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
       ++(alarm == Alarm::ok      ? view.ok
          : alarm == Alarm::watch ? view.watch
          : alarm == Alarm::act   ? view.act
+         : alarm == Alarm::doubt ? view.doubt
                                  : view.unknown);
     }
     view.messages = messages_;
@@ -91,7 +98,8 @@ class GeneratedFleet : public FleetReader, public Inbox {
     std::vector<std::pair<double, const Unit*>> found;
     for (const Unit& each : units_) {
       if (lower(each.name).find(lower(search)) == std::string::npos) continue;
-      found.emplace_back(-risk_of(each), &each);
+      const double least = each.beyond ? 1 : each.doubt.empty() ? 0 : 0.3;
+      found.emplace_back(-std::max(risk_of(each), least), &each);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -167,7 +175,8 @@ class GeneratedFleet : public FleetReader, public Inbox {
     std::string name;
     double rate = 0, at = 0, sum = 0;
     int n = 0;
-    bool silent = false;
+    bool silent = false, beyond = false;
+    std::string doubt = {};
     std::int64_t last_ms = 0;
     std::uint64_t version = 0, held = 0, judged = 0;
     std::deque<UnitMoment> moments = {};
@@ -213,6 +222,8 @@ class GeneratedFleet : public FleetReader, public Inbox {
   static Alarm alarm_of(const Unit& unit) {
     if (unit.silent || unit.n == 0) return Alarm::unknown;
     const double risk = risk_of(unit);
+    if (unit.beyond) return Alarm::act;
+    if (!unit.doubt.empty() && risk <= 0.3) return Alarm::doubt;
     return risk > 0.3 ? Alarm::act : risk > 0.05 ? Alarm::watch : Alarm::ok;
   }
 
@@ -228,6 +239,8 @@ class GeneratedFleet : public FleetReader, public Inbox {
     view.b10 = remaining(unit, 0.1);
     view.risk = risk_of(unit);
     view.passed = passed(unit);
+    view.doubt = unit.doubt;
+    view.beyond = unit.beyond;
     view.quality = unit.quality;
     return view;
   }

@@ -20,9 +20,9 @@ class GrowthUnit : public prognosis::TrackedUnit {
       taken.problem = "time is negative";
       return taken;
     }
-    const double expected = mean() * hours, sd = std::hypot(hours * this->sd(), noise);
     taken.counted = true;
-    taken.p_value = std::erfc(std::abs(wear - expected) / sd / std::sqrt(2.0));
+    taken.tails = predictive(reading);
+    taken.p_value = 2 * std::min(taken.tails[0].below, taken.tails[0].above);
     taken.contradicts = taken.p_value < 1e-6;
     precision_ += hours * hours / (noise * noise);
     weighted_ += hours * wear / (noise * noise);
@@ -59,6 +59,12 @@ class GrowthUnit : public prognosis::TrackedUnit {
     forecast.passed = passed / all;
     if (!lives.empty()) forecast.remaining = prognosis::WeightedLives(lives, weights);
     return forecast;
+  }
+  std::vector<prognosis::PredictiveTails> predictive(
+      const prognosis::Reading& reading) const override {
+    const double hours = reading.numbers[1] / 3600;
+    const double z = (reading.numbers[0] - mean() * hours) / std::hypot(hours * sd(), noise);
+    return {{std::erfc(-z / std::sqrt(2.0)) / 2, std::erfc(z / std::sqrt(2.0)) / 2}};
   }
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override {
     std::vector<prognosis::ForecastBand> path;
@@ -110,6 +116,9 @@ class GrowthTracker : public prognosis::Tracker {
   const std::string& noun() const override { return noun_; }
   std::span<const std::string> seen() const override { return {}; }
   double probability_error() const override { return 0.01; }
+  std::string problem(const prognosis::Reading& reading) const override {
+    return reading.numbers[1] >= 0 ? "" : "time is negative";
+  }
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string&) const override {
     return std::make_unique<GrowthUnit>();
   }

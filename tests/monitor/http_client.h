@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arpa/inet.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -31,10 +32,17 @@ struct HttpReply {
 /// A socket that says what it is told to say, HTTP or not. Never waits longer than 20 s.
 class HttpClient {
  public:
-  explicit HttpClient(unsigned short port, int receive_buffer = 0)
+  /// `from`: an address of this machine; null: any.
+  explicit HttpClient(unsigned short port, int receive_buffer = 0, const char* from = nullptr)
       : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
     if (receive_buffer > 0) {
       setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+    }
+    if (from) {
+      sockaddr_in own = loopback(0);
+      inet_pton(AF_INET, from, &own.sin_addr);
+      if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0)
+        throw std::runtime_error("cannot bind");
     }
     const sockaddr_in address = loopback(port);
     if (connect(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {

@@ -79,9 +79,17 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
   const json all = json::parse(get("/api/units?count=500").body);
   ASSERT_EQ(all["units"].size(), 30u);
   EXPECT_EQ(all["matching"], 30);
+  // By risk; in doubt as if just to act on, beyond the threshold first.
+  const auto urgency = [&](const json& unit) {
+    const double least = unit["beyond"] ? 1 : unit["doubt"].is_null() ? 0 : 0.3;
+    return std::max(unit["risk"].get<double>(), least);
+  };
   for (std::size_t i = 1; i < 30; ++i) {
-    EXPECT_GE(all["units"][i - 1]["risk"], all["units"][i]["risk"]) << i;
+    EXPECT_GE(urgency(all["units"][i - 1]), urgency(all["units"][i])) << i;
   }
+  EXPECT_EQ(all["units"][0]["beyond"], true);
+  EXPECT_EQ(all["units"][0]["alarm"], "act");
+  EXPECT_GT(fleet["units"]["doubt"], 0);
   // A page of it is a piece of it.
   const json page = json::parse(get("/api/units?offset=10&count=7").body);
   ASSERT_EQ(page["units"].size(), 7u);
@@ -89,9 +97,11 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
   EXPECT_EQ(json::parse(get("/api/units?offset=29").body)["units"].size(), 1u);
   EXPECT_EQ(json::parse(get("/api/units?offset=30").body)["units"].size(), 0u);
   // All of a unit's view stands in its detail.
-  const std::string name = page["units"][0]["unit"];
-  const json detail = json::parse(get("/api/units/" + name).body);
-  for (const auto& [key, value] : page["units"][0].items()) EXPECT_EQ(detail[key], value) << key;
+  const json& first = *std::find_if(
+      page["units"].begin(), page["units"].end(),
+      [](const json& unit) { return unit["unit"].get<std::string>().starts_with("M"); });
+  const json detail = json::parse(get("/api/units/" + first["unit"].get<std::string>()).body);
+  for (const auto& [key, value] : first.items()) EXPECT_EQ(detail[key], value) << key;
   EXPECT_EQ(detail["path"].size(), 81u);
   EXPECT_GE(detail["forecasts"]["judged"], detail["forecasts"]["held"]);
 }
@@ -325,7 +335,11 @@ TEST_F(HttpLimitsTest, OneConnectionTooManyIsTurnedAway) {
     open.back()->send(request_of("GET /health"));
     EXPECT_EQ(open.back()->reply().status, 200);
   }
-  EXPECT_EQ(HttpClient(server_.port()).reply().status, 503);
+  const HttpReply refused = get("/api/fleet");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.field("Retry-After"), "10");
+  EXPECT_EQ(get("/health").status, 200);
+  EXPECT_EQ(get("/metrics").status, 200);
   open.clear();
   // What closed is seen a moment later.
   bool well = false;
@@ -334,6 +348,65 @@ TEST_F(HttpLimitsTest, OneConnectionTooManyIsTurnedAway) {
     std::this_thread::sleep_for(milliseconds(20));
   }
   EXPECT_TRUE(well);
+}
+
+class HttpFairnessTest : public HttpServerTest {
+ protected:
+  HttpFairnessTest() : HttpServerTest(small()) {}
+  static HttpLimits small() {
+    HttpLimits limits;
+    limits.connections = 20;
+    limits.of_client = 6;
+    limits.reserve = 3;
+    return limits;
+  }
+  /// A client at another address of this machine.
+  HttpReply ask_from(const char* address, const std::string& request) {
+    HttpClient client(server_.port(), 0, address);
+    client.send(request);
+    return client.reply();
+  }
+};
+
+// One client, with as many connections as it gets, all idle: others are served, and supervision always.
+TEST_F(HttpFairnessTest, OneClientTakesNothingFromTheOthers) {
+  std::vector<std::unique_ptr<HttpClient>> idle;
+  for (int i = 0; i < 100; ++i) {
+    idle.push_back(std::make_unique<HttpClient>(server_.port()));
+    if (i % 10 == 9) {
+      EXPECT_EQ(get("/health").status, 200) << i;
+      EXPECT_EQ(ask_from("127.0.0.2", request_of("GET /api/fleet")).status, 200) << i;
+    }
+  }
+  EXPECT_EQ(get("/metrics").status, 200);
+  EXPECT_EQ(get("/api/fleet").status, 503);
+  EXPECT_EQ(get("/api/events").status, 503);
+  EXPECT_EQ(post("{}").status, 503);
+  EXPECT_EQ(get("/").status, 503);
+  // No kept connection: the next request may be any.
+  HttpClient probe(server_.port());
+  probe.send(request_of("GET /health"));
+  const HttpReply reply = probe.reply();
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_EQ(reply.field("Connection"), "close");
+  idle.clear();
+  bool served = false;
+  for (int i = 0; i < 200 && !served; ++i) {
+    served = get("/api/fleet").status == 200;
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  EXPECT_TRUE(served);
+}
+
+// Many clients take all places: supervision has its own.
+TEST_F(HttpFairnessTest, AllPlacesAreTakenButThoseOfSupervision) {
+  std::vector<std::unique_ptr<HttpClient>> idle;
+  for (int i = 0; i < 20; ++i)
+    idle.push_back(std::make_unique<HttpClient>(server_.port(), 0,
+                                                ("127.0.0." + std::to_string(10 + i)).c_str()));
+  EXPECT_EQ(ask_from("127.0.0.99", request_of("GET /api/fleet")).status, 503);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_EQ(ask_from("127.0.0.99", request_of("GET /health")).status, 200);
 }
 
 // What is no HTTP gets 400 or nothing, and harms nobody.

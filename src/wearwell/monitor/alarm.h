@@ -19,6 +19,10 @@ struct AlarmSettings {
 /// The alarm after `before` (never unknown) at this risk.
 Alarm alarm_at(double risk, Alarm before, const AlarmSettings& settings);
 
+/// The alarm with this one by risk, given the unit's readings: beyond the threshold they call for
+/// action whatever the forecast says, and doubt of the forecast comes before any other alarm.
+Alarm alarm_of_readings(Alarm by_risk, bool beyond, bool in_doubt);
+
 /// The alarm with this name; ok if there is none.
 Alarm alarm_named(std::string_view name);
 

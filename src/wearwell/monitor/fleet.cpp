@@ -18,32 +18,12 @@ struct Fleet::Unit {
   mutable std::mutex moving;  ///< locked when `record.state` changes, and by other readers of it
   bool lost = false;          ///< the record must be rebuilt
   bool unsaved = false, stale = false, queued = false;
-  Alarm alarm = Alarm::ok;  ///< of its risk alone
+  Alarm by_risk = Alarm::ok;  ///< of its risk alone
+  Alarm alarm = Alarm::ok;
   Alarm shown = Alarm::ok, logged = Alarm::ok;
   Clock::time_point heard = {}, forecast_at = {};
   std::shared_ptr<const Seen> seen;
 };
-
-namespace {
-
-/// The displayed curve: a forecast is a hundred times as large, and every unit has one.
-std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
-    const prognosis::WeightedLives& lives, const TrackerUnits& reported) {
-  auto curve = std::make_shared<std::vector<UnitDetail::CurvePoint>>();
-  if (lives.points().empty()) return curve;
-  constexpr double last = 0.995;
-  double end = lives.quantile(last);
-  for (double p = last; !std::isfinite(end) && p > 0.01; p -= 0.05) end = lives.quantile(p);
-  if (!std::isfinite(end) || !(end > 0)) return curve;
-  constexpr int points = 120;
-  for (int i = 0; i <= points; ++i) {
-    const double x = end * i / points;
-    curve->push_back({reported.along(x), 1 - lives.cdf(x)});
-  }
-  return curve;
-}
-
-}  // namespace
 
 Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Notices& notices,
              FleetSettings settings)
@@ -70,7 +50,7 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
   }
   for (const AlarmChange& each : store_.alarms()) {
     Unit& unit = unit_named(each.unit);
-    unit.alarm = unit.shown = unit.logged = each.alarm;
+    unit.by_risk = unit.alarm = unit.shown = unit.logged = each.alarm;
     if (unit.lost) any_lost_ = true;
   }
   stored_before_ = store_.count();
@@ -175,7 +155,9 @@ void Fleet::forecast(Unit& unit) {
   const prognosis::Forecast forecast = unit.record.state->forecast();
   const bool known = !std::isnan(forecast.passed);
   const double risk = known ? risk_within(forecast, settings_.alarm.horizon) : 0;
-  unit.alarm = known ? alarm_at(risk, unit.alarm, settings_.alarm) : Alarm::unknown;
+  unit.by_risk = known ? alarm_at(risk, unit.by_risk, settings_.alarm) : Alarm::unknown;
+  const prognosis::ChangeWatch& watch = unit.record.watch;
+  unit.alarm = alarm_of_readings(unit.by_risk, watch.is_beyond(), watch.in_doubt());
   auto seen = std::make_shared<Seen>();
   UnitView& view = seen->view;
   const UnitRecord& record = unit.record;
@@ -193,13 +175,16 @@ void Fleet::forecast(Unit& unit) {
       forecast.remaining.points().empty() ? 0 : reported_.along(forecast.remaining.quantile(tenth));
   view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
   view.risk = risk;
-  if (known) view.passed = forecast.passed;
+  if (known) view.passed = std::clamp(forecast.passed, 0.0, 1.0);
+  view.doubt = watch.reason();
+  view.beyond = watch.is_beyond();
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;
   view.quality.refused = record.not_counted;
   view.quality.last_problem = record.last_problem;
-  seen->survival = survival_of(forecast.remaining, reported_);
+  seen->survival = std::make_shared<const std::vector<UnitDetail::CurvePoint>>(
+      survival_curve(forecast.remaining, reported_));
   seen->held = record.held;
   seen->judged = record.judged;
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
@@ -307,7 +292,7 @@ void Fleet::publish(std::vector<Unit*>& units) {
       unlogged_.push_back(change);
       unit->logged = alarm;
     }
-    if (settings_.on_alarm) settings_.on_alarm(change, before);
+    if (settings_.on_alarm) settings_.on_alarm(change, before, seen->view);
   }
 }
 

@@ -25,8 +25,8 @@ struct FleetSettings {
   std::string population;  ///< SHA-1 of the population
   AlarmSettings alarm;
   int threads = 1;
-  /// Called with a change of alarm and the previous alarm.
-  std::function<void(const AlarmChange& change, Alarm before)> on_alarm = {};
+  /// Called with a change of alarm, the previous alarm, and the unit.
+  std::function<void(const AlarmChange& change, Alarm before, const UnitView& unit)> on_alarm = {};
 };
 
 /// All units, as they follow from the readings of a store in their order, and as readers see them.

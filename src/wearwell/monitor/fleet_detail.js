@@ -120,6 +120,15 @@
     return element('p', {class: 'lead'}, sure);
   }
 
+  // Reasons to believe the readings before the forecast.
+  function warnings(view) {
+    const all = [];
+    const say = (kind, word, text) => all.push(element('p', {class: `callout ${kind}`}, element('strong', {}, `${word} `), text));
+    if (view.beyond) say('fail', 'Beyond the limit.', `The last reading is beyond the limit of ${given(fleet.limit, fleet.level_unit)}, whatever the forecast.`);
+    if (view.doubt) say('doubt', 'Forecast in doubt.', `${wearwell.capital(view.doubt)}. Level, remaining useful life and risk below rest on a ${fleet.noun} that does not change.`);
+    return all;
+  }
+
   function tiles(view) {
     const last = view.last_reading_ms;
     if (!view.known) return element('dl', {class: 'tiles'}, tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? wearwell.clock(last) : 'none yet'));
@@ -143,7 +152,7 @@
     return element('div', {class: 'head'},
         element('a', {class: 'back', href: '#'}, '← Fleet'),
         element('div', {class: 'named'}, element('h2', {id: 'unit-name'}, view.unit), wearwell.badge(view.alarm)),
-        lead(view), tiles(view));
+        ...warnings(view), lead(view), tiles(view));
   }
 
   // A plot stays while the user reads it; the values above it are updated.

@@ -35,15 +35,17 @@
     const risk = element('span', {class: 'meter', 'aria-hidden': 'true'}, element('span', {}));
     risk.firstChild.style.width = `${100 * (each.risk ?? 0)}%`;
     // The remaining life given that the limit is not reached is irrelevant if it most likely is.
-    const past = each.passed > 0.5;
-    const life = past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
+    const past = each.passed > 0.5 || each.beyond;
+    const life = each.beyond ? 'beyond the limit'
+                 : past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
+                 : each.doubt ? 'forecast in doubt'
                  : !each.known ? 'unknown'
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
       wearwell.badge(each.alarm),
       element('span', {class: 'name'}, each.unit),
       element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
-      element('span', {class: past ? 'life past' : 'life'}, past || !each.known ? null : interval(each.remaining),
+      element('span', {class: past ? 'life past' : 'life'}, past || !each.known || each.doubt ? null : interval(each.remaining),
               element('span', {class: 'unseen'}, 'remaining useful life '), element('span', {class: 'range'}, life)),
       element('span', {class: 'age'}, element('span', {class: 'unseen'}, 'last reading '),
               each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none')];

@@ -62,7 +62,8 @@ void add_fleet(const FleetView& fleet, Text* text) {
   text->family("wearwell_fleet_units", "gauge", "Units by alarm.");
   for (const auto& [alarm, count] :
        {std::pair(Alarm::ok, fleet.ok), std::pair(Alarm::watch, fleet.watch),
-        std::pair(Alarm::act, fleet.act), std::pair(Alarm::unknown, fleet.unknown)}) {
+        std::pair(Alarm::act, fleet.act), std::pair(Alarm::doubt, fleet.doubt),
+        std::pair(Alarm::unknown, fleet.unknown)}) {
     text->sample(fmt::format("alarm=\"{}\"", name(alarm)), static_cast<double>(count));
   }
   text->family("wearwell_fleet_limit", "gauge", "The failure threshold, in level_unit.");
@@ -95,6 +96,8 @@ double code(Alarm alarm) {
       return 1;
     case Alarm::act:
       return 2;
+    case Alarm::doubt:
+      return 3;
     case Alarm::unknown:
       break;
   }
@@ -129,8 +132,13 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
   text->family("wearwell_fleet_units_shown", "gauge",
                "Units with their own samples here, the riskiest ones.");
   text->sample("", static_cast<double>(units.size()));
-  gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, -1: unknown.",
+  gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, 3: doubt, -1: unknown.",
         [](const UnitView& unit) { return code(unit.alarm); });
+  gauge("wearwell_unit_doubt", "Whether the readings do not follow the forecast, 1 or 0.",
+        [](const UnitView& unit) { return unit.doubt.empty() ? 0.0 : 1.0; });
+  gauge("wearwell_unit_beyond",
+        "Whether the last reading measures a level beyond the failure threshold, 1 or 0.",
+        [](const UnitView& unit) { return unit.beyond ? 1.0 : 0.0; });
   known("wearwell_unit_risk_ratio",
         "Probability that the failure threshold is reached within the horizon.",
         [](const UnitView& unit) { return unit.risk; });

@@ -54,6 +54,7 @@ FleetView Fleet::fleet() const {
     ++(alarm == Alarm::ok      ? view.ok
        : alarm == Alarm::watch ? view.watch
        : alarm == Alarm::act   ? view.act
+       : alarm == Alarm::doubt ? view.doubt
                                : view.unknown);
   }
   return view;
@@ -69,11 +70,13 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
       if (wanted.empty() || lower(name).find(wanted) != std::string::npos) found.push_back(seen);
     }
   }
+  // The risk of a unit in doubt is too low to go by; a level beyond the threshold is certain.
   // With equal risk, the unit with less remaining life first; then by name. Units of unknown state
   // come last.
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    const auto order = [](const UnitView& view) {
-      return std::tuple(!view.known, -view.risk, view.remaining.q05);
+  std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+    const auto order = [&](const UnitView& view) {
+      const double least = view.beyond ? 1 : view.doubt.empty() ? 0 : settings_.alarm.act;
+      return std::tuple(!view.known && least == 0, -std::max(view.risk, least), view.remaining.q05);
     };
     return order(a->view) < order(b->view);
   });

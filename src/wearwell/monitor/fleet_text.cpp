@@ -49,14 +49,22 @@ std::string fleet_text(const FleetReader& reader) {
   std::string text;
   if (!fleet.title.empty()) text += printable(fleet.title) + "\n";
   text += fmt::format(
-      "{} units: {} act, {} watch, {} ok, {} unknown. Risk: that {} reaches {}{} within {} {}.\n",
-      fleet.units, fleet.act, fleet.watch, fleet.ok, fleet.unknown, fleet.limited, fleet.limit,
-      fleet.level_unit == "1" ? "" : " " + fleet.level_unit, fleet.horizon, fleet.axis_unit);
+      "{} units: {} act, {} doubt, {} watch, {} ok, {} unknown. Risk: that {} reaches {}{} within "
+      "{} {}.\n",
+      fleet.units, fleet.act, fleet.doubt, fleet.watch, fleet.ok, fleet.unknown, fleet.limited,
+      fleet.limit, fleet.level_unit == "1" ? "" : " " + fleet.level_unit, fleet.horizon,
+      fleet.axis_unit);
   text += fmt::format("{} readings stored; of {} messages {} repeated, {} refused.\n", fleet.stored,
                       fleet.messages, fleet.repeated, fleet.refused);
   if (!fleet.trusted)
     text += "The result that the population comes from is not trusted: a check failed.\n";
   text += "\n" + present::text(fleet_table(reader, most));
+  for (const UnitView& unit : reader.units("", 0, most)) {
+    if (unit.beyond)
+      text += fmt::format("{}: the last reading is beyond the limit.\n", printable(unit.unit));
+    if (!unit.doubt.empty())
+      text += fmt::format("{}: the forecast is in doubt: {}.\n", printable(unit.unit), unit.doubt);
+  }
   if (fleet.units > most) text += fmt::format("... and {} more\n", fleet.units - most);
   return text;
 }

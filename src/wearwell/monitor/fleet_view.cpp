@@ -10,6 +10,8 @@ const char* name(Alarm alarm) {
       return "watch";
     case Alarm::act:
       return "act";
+    case Alarm::doubt:
+      return "doubt";
     case Alarm::unknown:
       break;
   }

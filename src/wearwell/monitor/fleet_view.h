@@ -7,7 +7,8 @@
 
 namespace wearwell::monitor {
 
-enum class Alarm { ok, watch, act, unknown };
+/// `doubt`: the readings do not follow the forecast, so its risk says nothing.
+enum class Alarm { ok, watch, act, doubt, unknown };
 const char* name(Alarm alarm);
 
 /// Three quantiles, in the units that `FleetView` names; infinite if a threshold is never reached.
@@ -36,6 +37,8 @@ struct UnitView {
   double numerical_error = 0;  ///< of both, relative, the largest (Tracker::probability_error)
   double risk = 0;             ///< probability that the threshold is reached within the horizon
   double passed = 0;           ///< probability that it is already reached
+  std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
+  bool beyond = false;         ///< the last reading measures a level beyond the threshold
   Quality quality;
 };
 
@@ -69,7 +72,7 @@ struct FleetView {
   std::string title, noun, axis, axis_unit, limited, level_unit;
   double limit = 0, horizon = 0;  ///< in these units
   bool trusted = true;            ///< the result that the population comes from
-  std::uint64_t units = 0, ok = 0, watch = 0, act = 0, unknown = 0;
+  std::uint64_t units = 0, ok = 0, watch = 0, act = 0, doubt = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;
   std::int64_t lag_ms =
@@ -82,7 +85,8 @@ class FleetReader {
  public:
   virtual ~FleetReader() = default;
   virtual FleetView fleet() const = 0;
-  /// Sorted by risk, highest first; units whose name contains `search` (case-insensitive).
+  /// Sorted by risk, highest first; those in doubt as if theirs just called for action, those beyond
+  /// the threshold as certain. Units whose name contains `search` (case-insensitive).
   virtual std::vector<UnitView> units(const std::string& search, std::size_t offset,
                                       std::size_t count,
                                       std::uint64_t* matching = nullptr) const = 0;

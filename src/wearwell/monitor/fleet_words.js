@@ -81,9 +81,10 @@ wearwell.element = (name, attributes = {}, ...children) => {
     ok: 'M8 2a6 6 0 1 0 .01 0z M5 8.2l2.2 2.2 4-4.6',
     watch: 'M8 1.8l6.6 12H1.4z M8 6v4 M8 11.6v.6',
     act: 'M8 1.2l6.8 6.8L8 14.8 1.2 8z M8 4.6v4.2 M8 10.6v.6',
+    doubt: 'M8 1.4l5.8 3.3v6.6L8 14.6l-5.8-3.3V4.7z M4.8 9.6l2.2-3.4 2 3.4 2.2-3.4',
     unknown: 'M2.5 2.5h11v11h-11z M6.2 6.4c.2-2.6 3.8-2.4 3.6 0-.1 1.2-1.8 1.2-1.8 2.6 M8 11v.4',
   };
-  wearwell.alarms = ['act', 'watch', 'ok', 'unknown'];
+  wearwell.alarms = ['act', 'doubt', 'watch', 'ok', 'unknown'];
   wearwell.badge = (alarm, word = alarm) => {
     const known = shapes[alarm] ? alarm : 'unknown';
     return wearwell.element('span', {class: `badge ${known}`},

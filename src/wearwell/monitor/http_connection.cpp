@@ -58,6 +58,12 @@ void set_common_fields(Message* message, bool tls) {
   if (tls) message->set("Strict-Transport-Security", "max-age=31536000");
 }
 
+HttpResponse no_room() {
+  HttpResponse answer = refusal(503, "too many connections, of this client or of all");
+  answer.fields.emplace_back("Retry-After", "10");
+  return answer;
+}
+
 HttpResponse answer_to_error(const Error& error) {
   if (error == http::error::body_limit) return refusal(413, "the body is too long");
   if (error == http::error::header_limit) return refusal(431, "the header is too long");
@@ -75,12 +81,23 @@ class Connection final : public HttpConnection,
                          public std::enable_shared_from_this<Connection<Stream>> {
  public:
   template <class... Arguments>
-  Connection(HttpHub* hub, Arguments&&... arguments)
-      : hub_(*hub), stream_(std::forward<Arguments>(arguments)...) {
-    hub_.connections.insert(this);
+  Connection(HttpHub* hub, const std::string& client, Arguments&&... arguments)
+      : hub_(*hub), client_(client), stream_(std::forward<Arguments>(arguments)...) {
+    if (is_reserve()) {
+      hub_.reserve.push_back(this);
+    } else {
+      hub_.connections.insert(this);
+      ++hub_.of_client[client_];
+    }
   }
   ~Connection() override {
-    hub_.connections.erase(this);
+    if (is_reserve()) {
+      hub_.reserve.remove(this);
+    } else {
+      hub_.connections.erase(this);
+      const auto own = hub_.of_client.find(client_);
+      if (--own->second == 0) hub_.of_client.erase(own);
+    }
     hub_.streams.erase(this);
     if (large_) --hub_.large_bodies;
   }
@@ -89,7 +106,7 @@ class Connection final : public HttpConnection,
     Error ignored;
     tcp().socket().set_option(net::ip::tcp::no_delay(true), ignored);
     if constexpr (is_tls) {
-      tcp().expires_after(hub_.limits.header);
+      tcp().expires_after(header_time());
       stream_.async_handshake(net::ssl::stream_base::server, [self = self()](Error error) {
         if (!error) self->read_header();
       });
@@ -103,6 +120,7 @@ class Connection final : public HttpConnection,
     tcp().socket().close(ignored);
   }
 
+  bool idle() const override { return idle_; }
   bool waits() const override { return !writing_; }
   std::optional<std::uint64_t> version() const override { return version_; }
 
@@ -125,20 +143,27 @@ class Connection final : public HttpConnection,
 
   auto self() { return this->shared_from_this(); }
   Plain& tcp() { return beast::get_lowest_layer(stream_); }
+  bool is_reserve() const { return client_.empty(); }
+  std::chrono::milliseconds header_time() const {
+    return is_reserve() ? hub_.limits.reserve_header : hub_.limits.header;
+  }
 
   void read_header() {
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(hub_.limits.header_bytes));
     parser_->body_limit(hub_.limits.body_bytes);
-    tcp().expires_after(hub_.limits.header);
+    tcp().expires_after(header_time());
+    idle_ = true;
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = self()](Error error, std::size_t) { self->on_header(error); });
   }
 
   void on_header(const Error& error) {
     if (error) return fail(error);
+    idle_ = false;
     const auto& request = parser_->get();
     question_ = question_of(request);
+    if (is_reserve() && !HttpRoutes::is_supervision(question_)) return respond(no_room());
     if (auto refused = hub_.routes.refuse(question_)) return respond(std::move(*refused));
     if (HttpRoutes::is_events(question_)) return listen();
     if (is_large()) {
@@ -206,7 +231,7 @@ class Connection final : public HttpConnection,
     response_.set(http::field::content_type, answer.type);
     for (const auto& [name, value] : answer.fields) response_.set(name, value);
     response_.body() = std::move(answer.body);
-    response_.keep_alive(read && parser_->get().keep_alive());
+    response_.keep_alive(read && parser_->get().keep_alive() && !is_reserve());
     response_.prepare_payload();
     if (parser_->get().method() == http::verb::head) response_.body().clear();
     question_ = {};
@@ -268,6 +293,7 @@ class Connection final : public HttpConnection,
   }
 
   HttpHub& hub_;
+  const std::string client_;
   Stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -277,14 +303,16 @@ class Connection final : public HttpConnection,
   std::shared_ptr<const std::string> event_;
   std::optional<std::uint64_t> version_;
   bool writing_ = false;
+  bool idle_ = true;
   bool large_ = false;  ///< whether it counts among `large_bodies`
 };
 
 }  // namespace
 
-std::shared_ptr<HttpConnection> make_connection(net::ip::tcp::socket socket, HttpHub* hub) {
-  if (!hub->tls) return std::make_shared<Connection<Plain>>(hub, std::move(socket));
-  return std::make_shared<Connection<TlsStream>>(hub, std::move(socket), *hub->tls);
+std::shared_ptr<HttpConnection> make_connection(net::ip::tcp::socket socket,
+                                                const std::string& client, HttpHub* hub) {
+  if (!hub->tls) return std::make_shared<Connection<Plain>>(hub, client, std::move(socket));
+  return std::make_shared<Connection<TlsStream>>(hub, client, std::move(socket), *hub->tls);
 }
 
 }  // namespace wearwell::monitor

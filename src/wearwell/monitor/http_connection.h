@@ -5,6 +5,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +23,8 @@ class HttpConnection {
   virtual ~HttpConnection() = default;
   virtual void start() = 0;
   virtual void close() = 0;
+  /// Whether no whole request has arrived since the last answer.
+  virtual bool idle() const = 0;
   /// Of a stream of events: whether it has received the last event, its version, and the next
   /// event.
   virtual bool waits() const = 0;
@@ -40,12 +43,16 @@ struct HttpHub {
   std::unique_ptr<boost::asio::ssl::context> tls;  ///< null: plain HTTP
   // Only for the thread of `io`; connections remove themselves when they end.
   std::set<HttpConnection*> connections, streams;
+  std::map<std::string, std::size_t> of_client;  ///< connections, but for those of the reserve
+  std::list<HttpConnection*> reserve;            ///< the oldest first; not among `connections`
   std::map<unsigned, std::uint64_t> answers;
   std::size_t large_bodies = 0;  ///< being sent or processed
   boost::asio::io_context io{1};
   boost::asio::thread_pool readers{2}, deliveries{2};
 };
 
-std::shared_ptr<HttpConnection> make_connection(boost::asio::ip::tcp::socket socket, HttpHub* hub);
+/// `client`: of `of_client`; empty: a connection of the reserve.
+std::shared_ptr<HttpConnection> make_connection(boost::asio::ip::tcp::socket socket,
+                                                const std::string& client, HttpHub* hub);
 
 }  // namespace wearwell::monitor

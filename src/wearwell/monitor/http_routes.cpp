@@ -101,6 +101,11 @@ bool HttpRoutes::is_events(const HttpRequest& question) {
   return question.method == "GET" && path_of(question) == "/api/events";
 }
 
+bool HttpRoutes::is_supervision(const HttpRequest& question) {
+  const std::string_view path = path_of(question);
+  return path == "/health" || path == "/metrics";
+}
+
 bool HttpRoutes::is_delivery(const HttpRequest& question) {
   return path_of(question) == "/api/readings";
 }

@@ -22,6 +22,8 @@ class HttpRoutes {
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
   /// Whether the request is for the stream of events.
   static bool is_events(const HttpRequest& question);
+  /// Whether the request is one of supervision, /health or /metrics: answered when others wait.
+  static bool is_supervision(const HttpRequest& question);
   /// Whether the answer waits for the store.
   static bool is_delivery(const HttpRequest& question);
 

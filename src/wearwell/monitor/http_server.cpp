@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
@@ -62,6 +63,15 @@ void check_reach(const HttpSettings& settings, const Tcp::endpoint& endpoint) {
       fmt::format("host = \"{}\" is reachable from other machines: set {}; or use 127.0.0.1, which "
                   "only this machine can reach",
                   printable(settings.host), missing));
+}
+
+/// What one client can hardly leave: its address, or its network of IPv6.
+std::string client_of(const net::ip::address& address) {
+  if (!address.is_v6()) return address.to_string();
+  const net::ip::address_v6 v6 = address.to_v6();
+  if (v6.is_v4_mapped()) return net::ip::make_address_v4(net::ip::v4_mapped, v6).to_string();
+  const auto bytes = v6.to_bytes();
+  return {bytes.begin(), bytes.begin() + 8};
 }
 
 Tcp::acceptor listening(const HttpSettings& settings, const Tcp::endpoint& endpoint,
@@ -127,13 +137,29 @@ struct HttpServer::State {
           if (!stopped) accept();
         });
       }
-      if (hub.connections.size() < hub.limits.connections) {
-        make_connection(std::move(socket), &hub)->start();
-      } else {
-        turn_away(std::move(socket));
-      }
+      admit(std::move(socket));
       accept();
     });
+  }
+
+  void admit(Tcp::socket socket) {
+    Error gone;
+    const std::string client = client_of(socket.remote_endpoint(gone).address());
+    if (gone) return;
+    const auto own = hub.of_client.find(client);
+    const bool has_room = hub.connections.size() < hub.limits.connections &&
+                          (own == hub.of_client.end() || own->second < hub.limits.of_client);
+    if (has_room) return make_connection(std::move(socket), client, &hub)->start();
+    if (hub.reserve.size() >= hub.limits.reserve) {
+      const auto idle = std::find_if(hub.reserve.begin(), hub.reserve.end(),
+                                     [](const HttpConnection* each) { return each->idle(); });
+      if (idle == hub.reserve.end()) return turn_away(std::move(socket));
+      HttpConnection* const ended = *idle;
+      hub.reserve.splice(hub.reserve.end(), hub.reserve,
+                         idle);  // it leaves when its read has ended
+      ended->close();
+    }
+    make_connection(std::move(socket), "", &hub)->start();
   }
 
   // If it can be sent without waiting.
@@ -249,6 +275,8 @@ void HttpServer::stop() {
   state_->acceptor.close(ignored);
   const auto connections = hub.connections;
   for (HttpConnection* each : connections) each->close();
+  const auto reserve = hub.reserve;
+  for (HttpConnection* each : reserve) each->close();
 }
 
 }  // namespace wearwell::monitor

@@ -15,12 +15,17 @@ struct HttpLimits {
   std::size_t body_bytes = 4 * 1024 * 1024;  ///< of one request with readings
   std::size_t large_bodies = 32;  ///< of more than 64 KiB, or of unknown length, at the same time
   std::size_t connections = 256;  ///< open at the same time
-  std::size_t streams = 64;       ///< of these, listening to events
-  std::chrono::milliseconds header{10'000};  ///< for a whole header, or between two requests
-  std::chrono::milliseconds body{30'000};    ///< for a whole body
-  std::chrono::milliseconds write{20'000};   ///< for a client to receive an answer or an event
-  std::chrono::milliseconds between{500};    ///< minimum time between two events of a stream
-  std::chrono::milliseconds beat{10'000};    ///< interval of beats on a stream without news
+  std::size_t of_client = 64;     ///< of these, of one address (IPv6: of one /64 network)
+  /// Connections beyond both, for /health and /metrics alone. If these are all in use, the one that
+  /// has waited longest without a request ends for a new one.
+  std::size_t reserve = 16;
+  std::size_t streams = 64;                         ///< of these, listening to events
+  std::chrono::milliseconds header{10'000};         ///< for a whole header, or between two requests
+  std::chrono::milliseconds reserve_header{2'000};  ///< the same on a connection of the reserve
+  std::chrono::milliseconds body{30'000};           ///< for a whole body
+  std::chrono::milliseconds write{20'000};  ///< for a client to receive an answer or an event
+  std::chrono::milliseconds between{500};   ///< minimum time between two events of a stream
+  std::chrono::milliseconds beat{10'000};   ///< interval of beats on a stream without news
 };
 
 /// Address and access rules of the server.

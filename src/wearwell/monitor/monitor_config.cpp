@@ -236,6 +236,11 @@ HttpSettings read_http(const TomlReader& table) {
   constexpr std::size_t shortest_token = 16;
   if (table.has("token") && http.token.size() < shortest_token)
     table.fail("token", fmt::format("must be at least {} bytes", shortest_token));
+  constexpr std::int64_t most = 10'000;  // each needs a descriptor
+  if (const auto all = table.integer("connections", 1, most))
+    http.limits.connections = static_cast<std::size_t>(*all);
+  if (const auto own = table.integer("connections_of_client", 1, most))
+    http.limits.of_client = static_cast<std::size_t>(*own);
   if (table.has("certificate")) http.certificate = existing(table, "certificate");
   if (table.has("key")) http.key = existing(table, "key");
   if (http.certificate.empty() != http.key.empty())

@@ -224,6 +224,21 @@ class Outlets {
   std::jthread publisher_;
 };
 
+/// Processes what the store has. States are saved on the way, and at the end: a monitor that is
+/// killed again and again, each time before its regular save, would otherwise start from ever
+/// older states.
+void catch_up(Fleet& fleet, const EndingSignals& signals) {
+  constexpr auto between_saves = std::chrono::seconds(5);
+  Clock::time_point saved = Clock::now();
+  while (fleet.apply() > 0 && !signals.arrived()) {
+    if (Clock::now() - saved < between_saves) continue;
+    fleet.save();
+    saved = Clock::now();
+  }
+  fleet.save();
+  fleet.refresh(true);
+}
+
 void refuse_endless_sources(const MonitorConfig& config) {
   for (const SourceSettings& source : config.sources) {
     if (source.kind != SourceKind::stdin && source.kind != SourceKind::folder)
@@ -256,17 +271,16 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
                          threads_or_all(options.threads)};
   const bool tells = !options.once;
-  settings.on_alarm = [&](const AlarmChange& change, Alarm before) {
+  settings.on_alarm = [&](const AlarmChange& change, Alarm before, const UnitView& unit) {
     if (tells)
       notices.tell(
           fmt::format("unit '{}'", change.unit),
-          fmt::format("{} -> {}, risk {:.3g}", name(before), name(change.alarm), change.risk));
+          fmt::format("{} -> {}, risk {:.3g}{}{}{}", name(before), name(change.alarm), change.risk,
+                      unit.beyond ? ", the last reading is beyond the limit" : "",
+                      unit.doubt.empty() ? "" : "; in doubt: ", unit.doubt));
   };
   Fleet fleet(population.tracker, *store, tally, notices, std::move(settings));
-  while (fleet.apply() > 0 && !signals.arrived()) {
-  }
-  fleet.refresh(true);
-
+  catch_up(fleet, signals);
   WakeSignal wake;
   Intake intake(*store, tally, notices, [&] { wake.ring(); });
   const Outlets outlets(config, options, fleet, intake, notices);

@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/monitor/implausible_reading.h"
 #include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
@@ -168,6 +169,7 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {
   ReadingMapping mapping;
+  mapping.implausible = implausible_reading(tracker);
   mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
   read_identity(reading, topic_names_unit, mapping);
   const TomlReader columns = reading.required_table("columns");
@@ -240,6 +242,9 @@ StoredReading reading_of(const Fields& fields, const std::string& unit,
   refuse_missing(reading, mapping);
   for (const std::string& label : mapping.labels)
     reading.labels.push_back(name_of(find_field(fields, label), label));
+  if (mapping.implausible) {
+    if (const std::string why = mapping.implausible(reading); !why.empty()) throw InputError(why);
+  }
   return reading;
 }
 

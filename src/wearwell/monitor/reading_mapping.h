@@ -33,6 +33,8 @@ struct ReadingMapping {
   std::vector<ColumnField> columns;  ///< as Tracker::columns
   std::vector<std::string> labels;   ///< fields, as Tracker::labels
   std::function<std::string(const std::string& unit)> refusal = {};  ///< Tracker::refusal
+  /// Why a reading is refused, see `implausible_reading`.
+  std::function<std::string(const StoredReading& reading)> implausible = {};
 };
 
 /// A quantity with the dimension of `like`, in SI. Throws for a plain number if the unit's size is

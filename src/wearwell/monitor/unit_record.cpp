@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -44,26 +45,10 @@ UnitMoment moment_of(const Json& json) {
 }  // namespace
 
 TrackerUnits::TrackerUnits(const prognosis::Tracker& tracker)
-    : axis_(tracker.axis().unit), level_(tracker.limit().unit) {
-  const auto columns = tracker.columns();
-  const auto same_kind = [&](const prognosis::ReadingColumn& column) {
-    try {
-      read_unit(column.unit.text, level_.text);
-      return true;
-    } catch (const InputError&) {
-      return false;
-    }
-  };
-  std::size_t measured = 0;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (!columns[i].measured) continue;
-    ++measured;
-    if (same_kind(columns[i]) && (!measured_ || columns[i].name == tracker.limited()))
-      measured_ = i;
-  }
-  // With several measured columns, only the name identifies the one with the threshold.
-  if (measured > 1 && measured_ && columns[*measured_].name != tracker.limited()) measured_.reset();
-}
+    : tracker_(tracker),
+      axis_(tracker.axis().unit),
+      level_(tracker.limit().unit),
+      watched_(prognosis::watched_columns(tracker)) {}
 
 Interval TrackerUnits::level(const prognosis::Forecast& forecast) const {
   return {level(forecast.level05), level(forecast.level50), level(forecast.level95)};
@@ -76,13 +61,32 @@ Interval TrackerUnits::remaining(const prognosis::Forecast& forecast) const {
 }
 
 std::optional<double> TrackerUnits::measured(const std::vector<double>& numbers) const {
-  if (!measured_ || *measured_ >= numbers.size() || std::isnan(numbers[*measured_])) return {};
-  return level(numbers[*measured_]);
+  const auto& column = watched_.level;
+  if (!column || *column >= numbers.size() || std::isnan(numbers[*column])) return {};
+  return level(numbers[*column]);
 }
 
 double risk_within(const prognosis::Forecast& forecast, double horizon) {
-  if (forecast.remaining.points().empty()) return forecast.passed;
-  return forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(horizon);
+  if (forecast.remaining.points().empty()) return std::min(forecast.passed, 1.0);
+  // Sums of weights are 1 up to rounding.
+  return std::clamp(forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(horizon), 0.0,
+                    1.0);
+}
+
+std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLives& lives,
+                                                   const TrackerUnits& reported) {
+  std::vector<UnitDetail::CurvePoint> curve;
+  if (lives.points().empty()) return curve;
+  constexpr double last = 0.995;
+  double end = lives.quantile(last);
+  for (double p = last; !std::isfinite(end) && p > 0.01; p -= 0.05) end = lives.quantile(p);
+  if (!std::isfinite(end) || !(end > 0)) return curve;
+  constexpr int points = 120;
+  for (int i = 0; i <= points; ++i) {
+    const double x = end * i / points;
+    curve.push_back({reported.along(x), 1 - lives.cdf(x)});
+  }
+  return curve;
 }
 
 bool is_kept_moment(std::uint64_t n) {
@@ -111,7 +115,8 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
     });
   };
   const prognosis::UpdateResult taken =
-      record.state->update({reading.numbers, reading.labels}, history);
+      record.watch.update({units.tracker(), units.watched(), record.unit, *record.state},
+                          {reading.numbers, reading.labels}, late, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
   if (taken.problem.empty() && reading.time_ms > reading.received_ms + hour_ms)
@@ -146,6 +151,9 @@ std::string bytes_of(const UnitRecord& record) {
   Json moments = Json::array();
   for (const UnitMoment& each : record.moments) moments.push_back(json_of_moment(each));
   const std::string state = record.state->save();
+  prognosis::ByteWriter to;
+  record.watch.save(to);
+  const std::string watch = to.take();
   const Json json = {
       {"state", Json::binary({state.begin(), state.end()})},
       {"readings", record.readings},
@@ -159,6 +167,7 @@ std::string bytes_of(const UnitRecord& record) {
       {"time_ms", record.last_time_ms},
       {"received_ms", record.last_received_ms},
       {"moments", moments},
+      {"watch", Json::binary({watch.begin(), watch.end()})},
   };
   const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
   return {bytes.begin(), bytes.end()};
@@ -183,6 +192,11 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
     json.at("time_ms").get_to(record.last_time_ms);
     json.at("received_ms").get_to(record.last_received_ms);
     for (const Json& each : json.at("moments")) record.moments.push_back(moment_of(each));
+    const auto& watch = json.at("watch").get_binary();
+    const std::string bytes(watch.begin(), watch.end());
+    prognosis::ByteReader from(bytes, fmt::format("the state of unit '{}'", checkpoint.unit));
+    record.watch.load(from, tracker);
+    from.end();
     return record;
   } catch (const Json::exception& error) {
     throw InputError(

@@ -8,6 +8,7 @@
 
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/store.h"
+#include "wearwell/prognosis/change_watch.h"
 #include "wearwell/prognosis/tracker.h"
 
 namespace wearwell::monitor {
@@ -24,12 +25,17 @@ struct UnitRecord {
   std::int64_t last_key = 0;  ///< the largest
   std::int64_t last_time_ms = 0, last_received_ms = 0;
   std::vector<UnitMoment> moments = {};
+  prognosis::ChangeWatch watch = {};
 };
 
 /// Conversion of a tracker's values to the units of its study.
 class TrackerUnits {
  public:
+  /// The tracker must outlive it.
   explicit TrackerUnits(const prognosis::Tracker& tracker);
+
+  const prognosis::Tracker& tracker() const { return tracker_; }
+  const prognosis::WatchedColumns& watched() const { return watched_; }
 
   double at(double si) const { return from_si(axis_, si); }
   double along(double si) const { return si / axis_.scale; }  ///< a length of the axis
@@ -41,12 +47,17 @@ class TrackerUnits {
   std::optional<double> measured(const std::vector<double>& numbers) const;
 
  private:
+  const prognosis::Tracker& tracker_;
   Unit axis_, level_;
-  std::optional<std::size_t> measured_;
+  prognosis::WatchedColumns watched_;
 };
 
 /// The probability that the threshold is reached within `horizon` (SI) from now on.
 double risk_within(const prognosis::Forecast& forecast, double horizon);
+
+/// The displayed curve of lives: a forecast is a hundred times as large, and every unit has one.
+std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLives& lives,
+                                                   const TrackerUnits& reported);
 
 /// Processes a reading after all earlier ones. Reads the history from the store when nodes are
 /// rebuilt. If it throws StoreError the record must be rebuilt (begun_record).

@@ -45,6 +45,7 @@ class NodeUnit final : public TrackedUnit {
 
   UpdateResult update(const Reading& reading, const History& history) override;
   Forecast forecast() const override;
+  std::vector<PredictiveTails> predictive(const Reading& reading) const override;
   std::vector<ForecastBand> ahead(std::span<const double> places) const override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
@@ -60,7 +61,7 @@ class NodeUnit final : public TrackedUnit {
   }
   bool rebuild_with(const Reading& reading, const History& history);
   void weigh();
-  double p_value(const NodeReading& reading_at) const;
+  PredictiveTails tails(const NodeReading& reading_at) const;
 
   Model model_;
   std::string unit_, refusal_;
@@ -117,8 +118,12 @@ bool NodeUnit::rebuild_with(const Reading& reading, const History& history) {
   return rebuild(std::move(all));
 }
 
-// Two-sided, from a subset of representative nodes where that is accurate enough.
-double NodeUnit::p_value(const NodeReading& reading_at) const {
+double p_value_of(const PredictiveTails& tails) {
+  return std::clamp(2 * std::min(tails.below, tails.above), 0.0, 1.0);
+}
+
+// From a subset of representative nodes where that is accurate enough.
+PredictiveTails NodeUnit::tails(const NodeReading& reading_at) const {
   double before = 0, below = 0;
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < weight_.size() && drawn < most_sampled; ++i) {
@@ -130,16 +135,21 @@ double NodeUnit::p_value(const NodeReading& reading_at) const {
       own += 1.0 / most_sampled;
     if (own > 0) below += own * reading_at.cdf(node(i));
   }
-  const double sampled = 2 * std::min(below, 1 - below);
-  if (sampled > doubtful) return sampled;
-  double lower = 0, upper = 0;
+  const PredictiveTails sampled{below, 1 - below};
+  if (p_value_of(sampled) > doubtful) return sampled;
+  PredictiveTails all;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (!(weight_[i] > negligible)) continue;
     const double share = reading_at.cdf(node(i));
-    lower += weight_[i] * share;
-    upper += weight_[i] * (1 - share);
+    all.below += weight_[i] * share;
+    all.above += weight_[i] * (1 - share);
   }
-  return std::clamp(2 * std::min(lower, upper), 0.0, 1.0);
+  return all;
+}
+
+std::vector<PredictiveTails> NodeUnit::predictive(const Reading& reading) const {
+  if (is_refused() || !model_->problem(reading).empty()) return {};
+  return {tails(model_->reading(reading))};
 }
 
 UpdateResult NodeUnit::update(const Reading& reading, const History& history) {
@@ -152,7 +162,8 @@ UpdateResult NodeUnit::update(const Reading& reading, const History& history) {
   taken.problem = refusal_.empty() ? model_->problem(reading) : refusal_;
   if (!taken.problem.empty()) return taken;
   const NodeReading reading_at = model_->reading(reading);
-  taken.p_value = p_value(reading_at);
+  taken.tails = {tails(reading_at)};
+  taken.p_value = p_value_of(taken.tails.front());
   std::vector<double> after = nodes_.log_weight;
   bool any = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -168,6 +179,7 @@ UpdateResult NodeUnit::update(const Reading& reading, const History& history) {
     if (effective_ < least_effective * laid_effective_) rebuild_with(reading, history);
   } else if (!rebuild_with(reading, history)) {
     taken.problem = "no unit of the population can show this after its earlier readings";
+    taken.impossible = true;
     return taken;
   }
   ++readings_;
@@ -299,6 +311,7 @@ class NodeTracker final : public Tracker {
   double probability_error() const override { return 0.012; }
 
   std::string refusal(const std::string& unit) const override { return model_->refusal(unit); }
+  std::string problem(const Reading& reading) const override { return model_->problem(reading); }
 
   std::unique_ptr<TrackedUnit> begin(const std::string& unit) const override {
     const bool own = fresh_.is_refused() || std::ranges::find(seen(), unit) != seen().end();

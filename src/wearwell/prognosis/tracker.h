@@ -26,6 +26,14 @@ struct Reading {
   std::vector<std::string> labels;  ///< of the study's label columns except the unit's own
 };
 
+/// The place of a measured value in its predictive distribution, given the unit's earlier readings.
+/// The two sum to 1, and to more where the value has a probability of its own (a count, a part that
+/// has survived).
+struct PredictiveTails {
+  double below = 0;  ///< P(Y <= y)
+  double above = 0;  ///< P(Y >= y)
+};
+
 /// The outcome of a reading.
 struct UpdateResult {
   bool counted = false;      ///< the state has changed
@@ -34,6 +42,10 @@ struct UpdateResult {
   /// rows depend on earlier ones.
   double p_value = 0;
   std::string problem = {};  ///< why it was not counted: "force is missing"
+  /// Of each measured value of the reading. Empty where there is no prediction: censored values, a
+  /// late reading where rows depend on earlier ones.
+  std::vector<PredictiveTails> tails = {};
+  bool impossible = false;  ///< not counted: it has probability 0 for every unit of the population
 };
 
 /// The forecast of a unit now: SI along the axis.
@@ -88,6 +100,9 @@ class TrackedUnit {
   /// before this one.
   virtual UpdateResult update(const Reading& reading, const History& history) = 0;
   virtual Forecast forecast() const = 0;
+  /// The tails that `update` would find for a reading, without taking it. Empty if the reading is
+  /// invalid, or as for `UpdateResult::tails`.
+  virtual std::vector<PredictiveTails> predictive(const Reading& reading) const = 0;
   /// The forecast band at these positions, ascending, none before the unit's present position; a
   /// path that passes the threshold continues. More expensive than a forecast.
   virtual std::vector<ForecastBand> ahead(std::span<const double> places) const = 0;
@@ -124,6 +139,8 @@ class Tracker {
   /// Why a unit of that name is invalid; empty if it is valid: a study of one joint has only that
   /// joint.
   virtual std::string refusal(const std::string& /*unit*/) const { return {}; }
+  /// Why a reading is invalid for every unit, whatever it has shown; empty if it is valid.
+  virtual std::string problem(const Reading& reading) const = 0;
   /// A unit before its first new reading: one of the study's, with its readings there, or a new
   /// one.
   virtual std::unique_ptr<TrackedUnit> begin(const std::string& unit) const = 0;

@@ -115,6 +115,7 @@ class PartUnit final : public prognosis::TrackedUnit {
   prognosis::UpdateResult update(const Reading& reading,
                                  const prognosis::History& history) override;
   Forecast forecast() const override;
+  std::vector<prognosis::PredictiveTails> predictive(const Reading& reading) const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
       const prognosis::History& history) const override;
@@ -181,9 +182,12 @@ prognosis::UpdateResult PartUnit::update(const Reading& reading, const prognosis
     weights(*lives, cycles, after);
     if (!(after > 0)) {
       taken.problem = "no part of the population survives so long under that stress";
+      taken.impossible = true;
+      taken.tails = {{1, 0}};
       return taken;
     }
     taken.p_value = std::min(1.0, after / before);
+    taken.tails = {{1, taken.p_value}};  // it fails later: all that is known
     now_ = cycles;
   }
   stress_ = stress;
@@ -192,6 +196,17 @@ prognosis::UpdateResult PartUnit::update(const Reading& reading, const prognosis
   taken.counted = true;
   taken.contradicts = taken.p_value < hardly_possible;
   return taken;
+}
+
+std::vector<prognosis::PredictiveTails> PartUnit::predictive(const Reading& reading) const {
+  double cycles = 0;
+  std::optional<Stress> stress;
+  if (!problem_of(reading, cycles, stress).empty() || !(cycles > now_)) return {};
+  const auto lives = parts_->lives(*stress);
+  double before = 0, after = 0;
+  weights(*lives, now_, before);
+  weights(*lives, cycles, after);
+  return {{1, std::min(1.0, after / before)}};
 }
 
 // The share of its life that a part has used at a given life: small for long lives.
@@ -292,6 +307,11 @@ class PartTracker final : public prognosis::Tracker {
   std::vector<double> populations() const override { return parts_->few.weights; }
   std::span<const std::string> seen() const override { return parts_->seen; }
   std::string refusal(const std::string& unit) const override { return parts_->refusal(unit); }
+  std::string problem(const Reading& reading) const override {
+    double cycles = 0;
+    std::optional<Stress> stress;
+    return parts_->reading.read(reading.numbers, cycles, stress);
+  }
 
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {
     return std::make_unique<PartUnit>(parts_, unit);

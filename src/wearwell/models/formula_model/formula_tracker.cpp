@@ -40,6 +40,10 @@ class FormulaTracker final : public prognosis::Tracker {
     return weight;
   }
   std::span<const std::string> seen() const override { return seen_; }
+  std::string problem(const prognosis::Reading& reading) const override {
+    UnitReading ignored;
+    return tracked_->problem(reading, ignored);
+  }
 
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {
     std::vector<UnitReading> rows = rows_of(unit);

@@ -224,7 +224,8 @@ void walk(const NodeProgram& program, NodeProgram::Scratch& scratch, const Nodes
 
 void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
                     const std::vector<NodePath>& before, std::vector<NodePath>* after,
-                    std::span<double> log_likelihood, const Sample* sample, double* p_value) const {
+                    std::span<double> log_likelihood, const Sample* sample,
+                    ReadingPrediction* prediction) const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
     scratch = std::make_unique<Scratch>();
@@ -233,6 +234,7 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
   static constexpr double zero = 0;
   std::fill(log_likelihood.begin(), log_likelihood.end(), 0.0);
   double least = 1, columns = 0;
+  if (prediction) prediction->tails.clear();
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const NodeProgram& program = programs_[m];
     const bool runs = program.running() > 0;
@@ -292,8 +294,10 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     if (!y) continue;
     least = std::min(least, predicted.p_value());
     ++columns;
+    if (prediction && y->seen == Censoring::none && predicted.any())
+      prediction->tails.push_back(predicted.tails());
   }
-  if (p_value) *p_value = std::min(1.0, least * std::max(columns, 1.0));
+  if (prediction) prediction->p_value = std::min(1.0, least * std::max(columns, 1.0));
 }
 
 }  // namespace wearwell::formula_model

@@ -32,10 +32,17 @@ class Predicted {
   }
   /// The two-sided predictive p-value; for a censored reading the probability of the event.
   double p_value() const;
+  prognosis::PredictiveTails tails() const { return {below_, above_}; }
   bool any() const { return below_ > 0 || above_ > 0; }
 
  private:
   double below_ = 0, above_ = 0;  // P(reading or less), P(reading or more)
+};
+
+/// A reading in its predictive distribution.
+struct ReadingPrediction {
+  double p_value = 1;  ///< the smallest one over measured columns, times their number
+  std::vector<prognosis::PredictiveTails> tails = {};  ///< of each uncensored measured value
 };
 
 /// The likelihood of readings at many nodes at once. Immutable.
@@ -60,11 +67,10 @@ class NodeRows {
   };
 
   /// Fills `log_likelihood`, node by node, for a reading whose paths are at `before`, and updates
-  /// `after` (may be null). With a sample, `surprise` is the smallest p-value over measured
-  /// columns, times their number.
+  /// `after` (may be null). With a sample, fills `prediction`.
   void look(const Nodes& nodes, const UnitReading& reading, const std::vector<NodePath>& before,
             std::vector<NodePath>* after, std::span<double> log_likelihood, const Sample* sample,
-            double* p_value) const;
+            ReadingPrediction* prediction) const;
 
  private:
   struct Scratch {

@@ -53,6 +53,11 @@ Tracked::Tracked(const TomlReader& root, std::shared_ptr<const FormulaModel> for
       population(model, posterior),
       fingerprint(std::move(print)) {}
 
+std::string Tracked::problem(const prognosis::Reading& from, UnitReading& reading) const {
+  std::string why = reader.read(from, reading);
+  return why.empty() ? lives.before_begin(reading.place, rows.follows()) : why;
+}
+
 TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
                          std::vector<UnitReading> seen)
     : tracked_(std::move(tracked)), unit_(std::move(unit)), seen_(std::move(seen)) {
@@ -142,11 +147,11 @@ bool TrackedUnit::rebuild_with(const UnitReading& reading, const prognosis::Hist
   return false;
 }
 
-double TrackedUnit::p_value_at(const UnitReading& reading, std::span<double> value,
-                               std::vector<NodePath>* after) const {
-  double p_value = 1;
-  tracked_->rows.look(nodes_.nodes, reading, paths_, after, value, &sample_, &p_value);
-  if (p_value > doubtful) return p_value;
+ReadingPrediction TrackedUnit::predict(const UnitReading& reading, std::span<double> value,
+                                       std::vector<NodePath>* after) const {
+  ReadingPrediction prediction;
+  tracked_->rows.look(nodes_.nodes, reading, paths_, after, value, &sample_, &prediction);
+  if (prediction.p_value > doubtful) return prediction;
   NodeRows::Sample all;
   std::vector<double> weight;
   normalize(log_weight_, weight);
@@ -156,8 +161,21 @@ double TrackedUnit::p_value_at(const UnitReading& reading, std::span<double> val
     all.weight.push_back(weight[i]);
   }
   std::vector<double> again(value.size());
-  tracked_->rows.look(nodes_.nodes, reading, paths_, nullptr, again, &all, &p_value);
-  return p_value;
+  tracked_->rows.look(nodes_.nodes, reading, paths_, nullptr, again, &all, &prediction);
+  return prediction;
+}
+
+// Among rows that depend on earlier ones, a row cannot be added before the last.
+bool TrackedUnit::is_late(const UnitReading& reading) const {
+  return any_row_ && tracked_->rows.follows() && reading.place <= last_.place;
+}
+
+std::vector<prognosis::PredictiveTails> TrackedUnit::predictive(
+    const prognosis::Reading& reading) const {
+  UnitReading y;
+  if (!tracked_->problem(reading, y).empty() || is_late(y)) return {};
+  std::vector<double> value(log_weight_.size());
+  return predict(y, value, nullptr).tails;
 }
 
 prognosis::UpdateResult TrackedUnit::update(const prognosis::Reading& reading,
@@ -166,21 +184,20 @@ prognosis::UpdateResult TrackedUnit::update(const prognosis::Reading& reading,
       "no unit of the population can show this after its earlier readings";
   prognosis::UpdateResult taken;
   UnitReading y;
-  taken.problem = tracked_->reader.read(reading, y);
-  if (taken.problem.empty())
-    taken.problem = tracked_->lives.before_begin(y.place, tracked_->rows.follows());
+  taken.problem = tracked_->problem(reading, y);
   if (!taken.problem.empty()) return taken;
-  const bool late = any_row_ && tracked_->rows.follows() && y.place <= last_.place;
   taken.p_value = 1;
-  if (late) {
+  if (is_late(y)) {
     taken.problem = two_at_one_place(y, history);
     if (!taken.problem.empty()) return taken;
-    if (!rebuild_with(y, history)) taken.problem = impossible;
+    taken.impossible = !rebuild_with(y, history);
   } else {
     static thread_local std::vector<double> value;
     value.resize(log_weight_.size());
     std::vector<NodePath> after = paths_;
-    taken.p_value = p_value_at(y, value, &after);
+    ReadingPrediction prediction = predict(y, value, &after);
+    taken.p_value = prediction.p_value;
+    taken.tails = std::move(prediction.tails);
     const bool any = std::any_of(value.begin(), value.end(), [&](const double& each) {
       return each + log_weight_[static_cast<std::size_t>(&each - value.data())] > -infinity;
     });
@@ -191,11 +208,14 @@ prognosis::UpdateResult TrackedUnit::update(const prognosis::Reading& reading,
       if (!any_row_ || y.place >= last_.place) last_ = y;
       any_row_ = true;
       if (effective_ < least_effective * laid_effective_) rebuild_with(y, history);
-    } else if (!rebuild_with(y, history)) {
-      taken.problem = impossible;
+    } else {
+      taken.impossible = !rebuild_with(y, history);
     }
   }
-  if (!taken.problem.empty()) return taken;
+  if (taken.impossible) {
+    taken.problem = impossible;
+    return taken;
+  }
   ++readings_;
   taken.counted = true;
   taken.contradicts = taken.p_value < hardly_possible;

@@ -24,6 +24,9 @@ struct Tracked {
 
   Tracked(const TomlReader& root, std::shared_ptr<const FormulaModel> formula_model,
           const WeightedDraws& posterior, std::string print);
+
+  /// Fills `reading`, or returns why it is invalid for every unit.
+  std::string problem(const prognosis::Reading& from, UnitReading& reading) const;
 };
 
 /// A tracked unit: nodes with their posterior weights. `log_weight` is a sum over readings, so it
@@ -41,6 +44,8 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   prognosis::UpdateResult update(const prognosis::Reading& reading,
                                  const prognosis::History& history) override;
   prognosis::Forecast forecast() const override;
+  std::vector<prognosis::PredictiveTails> predictive(
+      const prognosis::Reading& reading) const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
       const prognosis::History& history) const override;
@@ -60,8 +65,9 @@ class TrackedUnit final : public prognosis::TrackedUnit {
                                     std::vector<double>& log_weight) const;
   bool rebuild_with(const UnitReading& reading, const prognosis::History& history);
   void weigh();
-  double p_value_at(const UnitReading& reading, std::span<double> value,
-                    std::vector<NodePath>* after) const;
+  ReadingPrediction predict(const UnitReading& reading, std::span<double> value,
+                            std::vector<NodePath>* after) const;
+  bool is_late(const UnitReading& reading) const;
   std::vector<UnitReading> all_of(const prognosis::History& history) const;
   std::string two_at_one_place(const UnitReading& reading, const prognosis::History& history) const;
 

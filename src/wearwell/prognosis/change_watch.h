@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "wearwell/prognosis/change_cause.h"
+#include "wearwell/prognosis/change_test.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::prognosis {
+
+/// The columns of a reading that tell of a change.
+struct WatchedColumns {
+  std::size_t axis = 0;
+  std::optional<std::size_t> level;     ///< measures the quantity with the threshold
+  std::optional<std::size_t> measured;  ///< `level`, or the only measured one
+};
+WatchedColumns watched_columns(const Tracker& tracker);
+
+/// A unit under watch, and what it belongs to.
+struct WatchedUnit {
+  const Tracker& tracker;
+  const WatchedColumns& columns;
+  const std::string& name;
+  TrackedUnit& unit;
+};
+
+/// Watches whether a unit still follows its forecasts, and describes what has changed. Like the
+/// unit's state it follows from the readings in their order.
+class ChangeWatch {
+ public:
+  /// Gives the unit its next reading. `late`: taken before one that the unit has already.
+  /// `history`: all readings before it, counted or not, in their order.
+  UpdateResult update(const WatchedUnit& of, const Reading& reading, bool late,
+                      const History& history);
+
+  /// Whether the forecast is in doubt.
+  bool in_doubt() const { return test_.in_doubt() || is_back(); }
+  /// Why, without a capital and a full stop; empty if it is not in doubt.
+  const std::string& reason() const { return reason_; }
+  /// Whether the last reading in order measures a level beyond the threshold.
+  bool is_beyond() const { return beyond_; }
+  const ChangeTest& test() const { return test_; }
+
+  void save(ByteWriter& to) const;
+  void load(ByteReader& from, const Tracker& tracker);
+
+ private:
+  /// A reading while there is evidence of a change.
+  struct Since {
+    Reading reading;
+    ReadingSince values;
+    bool predicted = false;  ///< `values.expected` and `spread` are known
+  };
+
+  bool is_back() const { return last_at_ < farthest_at_; }
+  double repeat_evidence(const WatchedUnit& of, const Reading& reading) const;
+  void note_values(const WatchedUnit& of, const Reading& reading);
+  void note_evidence(const WatchedUnit& of, const Reading& reading, double before_at);
+  std::string described(const WatchedUnit& of, const History& history);
+  std::string described_change(const WatchedUnit& of, const History& history);
+  std::optional<std::vector<ReadingSince>> predicted(const WatchedUnit& of, const History& history);
+  std::vector<ReadingSince> predicted_as_new(const WatchedUnit& of, std::size_t first,
+                                             double start);
+  bool find_reference(const WatchedUnit& of, const History& history);
+
+  static constexpr double none = -std::numeric_limits<double>::infinity();
+  ChangeTest test_;
+  std::string reason_;
+  std::uint64_t taken_ = 0;  // all readings: those of `history`
+  double last_at_ = none, farthest_at_ = none;
+  bool beyond_ = false;
+
+  double last_value_ = std::numeric_limits<double>::quiet_NaN();
+  double coarsest_ = std::numeric_limits<double>::infinity();  // step of the readings, at most
+  double repeats_ = 1;       // evidence of the present run of equal readings
+  std::uint64_t equal_ = 0;  // the last readings with one value
+
+  std::deque<Since> since_;    // the last ones
+  std::uint64_t dropped_ = 0;  // earlier ones of them
+  std::uint64_t before_ = 0;   // readings before them
+  double before_at_ = none;    // where the last one before them was
+  /// A new unit with the readings since a change.
+  struct NewUnit {
+    std::unique_ptr<TrackedUnit> unit;
+    std::vector<Reading> taken = {};
+    std::vector<ReadingSince> values = {};
+    std::size_t first = 0;
+    double start = 0;
+  };
+
+  // Neither of these is saved, but found again from the readings.
+  std::shared_ptr<NewUnit> new_unit_;
+  // The unit as it was before them.
+  std::shared_ptr<const TrackedUnit> reference_;
+};
+
+}  // namespace wearwell::prognosis

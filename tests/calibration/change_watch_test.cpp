@@ -1,0 +1,147 @@
+// Fleets of units on line that change after their tenth reading: how soon the forecast is in doubt, whether the reason is the right
+// one, how many right units are doubted, and what becomes of 90 % intervals of the remaining useful life. Every fifty units belong to a
+// population of their own, learned from 12 machines. WEARWELL_REPLICATIONS says how many units a fleet has.
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "calibration/changing_units.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+int fleet_size() {
+  const char* wanted = std::getenv("WEARWELL_REPLICATIONS");
+  return wanted ? std::max(50, std::atoi(wanted)) : 1000;
+}
+
+struct Coverage {
+  int forecasts = 0, held = 0;
+  void add(bool holds) {
+    ++forecasts;
+    held += holds;
+  }
+  double percent() const { return forecasts > 0 ? 100.0 * held / forecasts : NAN; }
+};
+
+struct FleetCounts {
+  int units = 0, doubted_before = 0, changed = 0, found = 0, beyond = 0, named = 0;
+  std::vector<int> delay;
+  /// Remaining useful life: before the change, after it, and of these without doubt.
+  Coverage before, after, undoubted;
+
+  void add(const FleetCounts& other) {
+    units += other.units;
+    doubted_before += other.doubted_before;
+    changed += other.changed;
+    found += other.found;
+    beyond += other.beyond;
+    named += other.named;
+    delay.insert(delay.end(), other.delay.begin(), other.delay.end());
+    for (const auto of : {&FleetCounts::before, &FleetCounts::after, &FleetCounts::undoubted}) {
+      (this->*of).forecasts += (other.*of).forecasts;
+      (this->*of).held += (other.*of).held;
+    }
+  }
+};
+
+bool holds(const prognosis::Forecast& forecast, double remaining) {
+  if (forecast.remaining.points().empty()) return remaining <= 0;
+  const double place =
+      forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(remaining * Guides::h);
+  return place >= 0.05 && place <= 0.95;
+}
+
+void follow(const Guides& guides, const Change& change, Rng& rng, FleetCounts& counts) {
+  const std::vector<Shown> shown = change.readings(rng);
+  const bool from_start = std::string(change.name).starts_with("heavy");
+  const std::size_t changes = from_start ? 0 : changes_after;
+  WatchedGuide guide(guides, "new");
+  ++counts.units;
+  const bool changed = shown.size() > changes && change.named[0] != 0;
+  counts.changed += changed;
+  bool doubted_before = false, found = false, named = false;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    guide.read(shown[i].use, shown[i].wear);
+    const bool doubt = guide.watch.in_doubt(), alarm = doubt || guide.watch.is_beyond();
+    const bool after = i >= changes && change.named[0] != 0;
+    doubted_before |= doubt && !after;
+    if (after && !found && alarm) {
+      found = true;
+      counts.delay.push_back(static_cast<int>(i - changes) + 1);
+    }
+    if (after) named |= guide.watch.reason().find(change.named) != std::string::npos;
+    // Forecasts after 6, 8, 10, 12, 15 and 20 readings.
+    if (i != 5 && i != 7 && i != 9 && i != 11 && i != 14 && i != 19) continue;
+    const bool right = holds(guide.unit->forecast(), shown[i].remaining);
+    if (!after) counts.before.add(right);
+    if (after) counts.after.add(right);
+    if (after && !alarm) counts.undoubted.add(right);
+  }
+  counts.doubted_before += doubted_before;
+  counts.found += found;
+  counts.named += named;
+}
+
+constexpr int of_population = 50;
+
+std::vector<std::unique_ptr<Guides>> populations(int units) {
+  std::vector<std::unique_ptr<Guides>> all(
+      static_cast<std::size_t>((units + of_population - 1) / of_population));
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t p) {
+    Rng rng(20261125, p);
+    all[p] = std::make_unique<Guides>(12, rng);
+  });
+  return all;
+}
+
+FleetCounts fleet_of(const Change& change, const std::vector<std::unique_ptr<Guides>>& guides,
+                     std::uint64_t first) {
+  std::vector<FleetCounts> parts(guides.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    Rng rng(20261125, first + p);
+    if (!guides[p]->tracker) return;
+    for (int u = 0; u < of_population; ++u) follow(*guides[p], change, rng, parts[p]);
+  });
+  FleetCounts all;
+  for (const FleetCounts& each : parts) all.add(each);
+  return all;
+}
+
+TEST(ChangeWatch, OfFleetsThatChange) {
+  const int units = fleet_size();
+  std::printf(
+      "| fleet | units that changed | doubted before, %% | found, %% | delay, readings (median, 90 "
+      "%%) | right reason, %% | "
+      "coverage before, %% | after, %% | after, not in doubt, %% (forecasts) |\n");
+  const auto guides = populations(units);
+  std::uint64_t first = 0;
+  for (const Change& change : changes()) {
+    FleetCounts counts = fleet_of(change, guides, first += 1000);
+    std::sort(counts.delay.begin(), counts.delay.end());
+    const auto delay = [&](double p) {
+      return counts.delay.empty() ? 0
+                                  : counts.delay[static_cast<std::size_t>(
+                                        p * static_cast<double>(counts.delay.size() - 1))];
+    };
+    const double changed = std::max(counts.changed, 1);
+    std::printf("| %s | %d | %.1f | %.1f | %d, %d | %.0f | %.1f | %.1f | %.1f (%d) |\n",
+                change.name, counts.changed, 100.0 * counts.doubted_before / counts.units,
+                100 * counts.found / changed, delay(0.5), delay(0.9), 100 * counts.named / changed,
+                counts.before.percent(), counts.after.percent(), counts.undoubted.percent(),
+                counts.undoubted.forecasts);
+    std::fflush(stdout);
+    EXPECT_GE(counts.units, units);
+    // One in 1,000, and three standard errors.
+    const double expected = 0.001 * counts.units;
+    EXPECT_LE(counts.doubted_before, expected + 3 * std::sqrt(expected) + 1) << change.name;
+    if (change.named[0] == 0) {
+      EXPECT_NEAR(counts.before.percent(), 90, 4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wearwell::formula_model
