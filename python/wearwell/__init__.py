@@ -15,13 +15,20 @@ True
 """
 
 from . import _errors
-from ._errors import CheckWarning, InputError, MachineError, NotTrusted
+from ._errors import CheckWarning, InputError, MachineError, MissingFileError, NotTrusted
 from . import _core
 from . import bearing, clutch, plan
 from ._arrow import ArrowTable, arrow
 from ._check import Check
 from ._data import table
 from ._fit import Fit
+from ._bearing_study import bearing as _fit_bearings
+from ._callable_module import make_callable as _make_callable
+from ._clutch_study import clutch as _fit_clutch
+from ._degradation_study import degradation
+from ._fatigue_study import sn, staircase
+from ._joint_study import joint
+from ._life_study import life
 from ._plan import Plan
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
@@ -29,6 +36,9 @@ from ._study import Study, fit
 from ._tools import Comparison, Selection, compare, rainflow, select
 
 __version__ = _core.version
+
+_make_callable(bearing.__name__, _fit_bearings)
+_make_callable(clutch.__name__, _fit_clutch)
 
 __all__ = [
     "ArrowTable", "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Plan", "Selection", "Study",
