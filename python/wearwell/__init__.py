@@ -30,6 +30,7 @@ from ._fatigue_study import sn, staircase
 from ._joint_study import joint
 from ._life_study import life
 from ._plan import Plan
+from ._plots import Plot
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
 from ._study import Study, fit
