@@ -70,8 +70,8 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
     >>> import wearwell as ww
     >>> fit = ww.clutch("campaign/design.csv", "campaign/cycles.csv", "campaign/weighings.csv", density="2.2 g/cm^3", depth="1 mm",
     ...                 area="100 cm^2", balance_sd="1 mg", replicates=0, search={"lowest": 0.4, "highest": 1.2, "step": 0.4}, report=False)
-    >>> fit.summary.index.name
-    'name'
+    >>> fit.results["model"]
+    'clutch-wear'
     """
     tables = {"design": design, "cycles": cycles, "weighings": weighings, **({} if traces is None else {"traces": traces})}
     unknown = next((key for key in units or {} if key not in tables), None)

@@ -61,8 +61,9 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         beyond 30 % of the largest reading and beyond four times the scatter about it.
     units : dict, optional
         Unit of columns: ``{"wear": "um", "km": "km"}``. A heading may have it.
-    priors : dict of str to dict, optional
-        Priors that replace defaults, by parameter. Defaults are weak, sizes rounded up to 1, 2 or 5 times a power of ten.
+    priors : dict of str to dict, or "flat", optional
+        Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
+        posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak, sizes rounded up to 1, 2 or 5 times a power of ten.
         ``rate``: lognormal, log_sd 2, median the rate of straight lines through the data (of a power: the largest reading
         over the largest x to the power of 1). ``power``: lognormal, median 1, log_sd 0.5. ``start``: normal, mean half of the
         largest reading, sd all of it. ``sigma``: half-normal, scale the largest reading; ``step_ratio``: the same.

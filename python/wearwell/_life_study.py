@@ -128,8 +128,9 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         the mildest stresses of the table.
     units : dict, optional
         Unit of columns: ``{"hours": "h", "T": "degC"}``. A heading may have it: "T [degC]". A life without one is a number.
-    priors : dict of str to dict, optional
-        Priors that replace defaults, by parameter. Defaults are weak. Scale (``characteristic``, ``median_life`` or
+    priors : dict of str to dict, or "flat", optional
+        Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
+        posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak. Scale (``characteristic``, ``median_life`` or
         ``mean_life``; ``life_ref``, at the harshest stresses, where there is a stress): lognormal, log_sd 2, median the
         largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. ``slope`` of weibull:
         lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.

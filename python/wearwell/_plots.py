@@ -59,8 +59,8 @@ class Plot:
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/joint/study.toml", seed=1)
-        >>> fit.plot("life").to_dict()["title"]
-        'Life until 100 mm³'
+        >>> fit.plot("life").to_dict()["$schema"]
+        'https://vega.github.io/schema/vega-lite/v5.json'
         """
         several = len(self._figures) > 1
         parts = []

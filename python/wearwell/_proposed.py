@@ -47,18 +47,31 @@ def normal(mean, sd, unit=""):
     return {"distribution": "normal", "mean": quantity_text(mean, unit), "sd": quantity_text(sd, unit)}
 
 
+def _flat(default):
+    """The flat prior of a parameter: of its unit, above 0 where the default is."""
+    size = default.get("median", default.get("scale", default.get("mean")))
+    unit = size.split(" ", 1)[1] if isinstance(size, str) else "1"
+    lower = {} if default["distribution"] == "normal" else {"lower": f"0 {unit}" if unit != "1" else 0}
+    return {"distribution": "flat", "unit": unit, **lower}
+
+
 class Priors:
     """The priors of a study, each a default with the reason for it until the caller states one."""
 
     def __init__(self, given):
-        self._given = dict(given or {})
+        self._flat = given == "flat"
+        if isinstance(given, str) and not self._flat:
+            raise InputError(f"priors is {given!r}; it is a dict of priors by parameter, or 'flat'")
+        self._given = {} if self._flat else dict(given or {})
         for name, prior in self._given.items():
             if not isinstance(prior, dict):
                 raise InputError(f"priors: {name} is {type(prior).__name__}; wearwell.lognormal(...) and its like make one")
         self.laws, self.comments = {}, {}
 
     def add(self, name, default, why):
-        if name in self._given:
+        if self._flat:
+            self.laws[name] = _flat(default)
+        elif name in self._given:
             self.laws[name] = self._given.pop(name)
         else:
             self.laws[name], self.comments[name] = default, f"default: {why}"
