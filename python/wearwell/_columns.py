@@ -65,7 +65,7 @@ class Columns:
         """The unit of a column; "" where it is a plain number."""
         if heading in self._units:
             return self._units[heading]
-        match = _bracket.search(heading)
+        match = re.search(r"\[(.*)\]\s*\Z", heading, re.DOTALL)  # as the library reads headings
         if match and match[1].strip():
             return match[1].strip()
         return self._read().unit(heading)

@@ -210,9 +210,10 @@ def predict(fit, study, new, level, kind):
     _, found = conditions(fit, study, frame)
     rows, of = [], ""
     for _, values in found:
-        answers = {each["name"]: each for each in _asked_of(fit, values, {"mean_life": True, "b_lives": [50]})}
-        mean, life = answers["mean life"], answers["life"]
-        ends = mean if kind == "mean" else life
+        asked = {"mean_life": True} if kind == "mean" else {"mean_life": True, "b_lives": [50]}
+        answers = {each["name"]: each for each in _asked_of(fit, values, asked)}
+        mean = answers["mean life"]
+        ends = mean if kind == "mean" else answers["life"]
         rows.append({"mean": float("inf") if mean["predictive"] is None else mean["predictive"], **dict(zip(
             ("lower", "upper"), _life_row(ends, ("q05", "q95")).values()))})
         of = mean["unit"]
