@@ -214,6 +214,7 @@ def test_what_a_column_cannot_be():
     assert "'x [h]' or 'x [d]'" in refusal(ww.life, {"x [h]": [1.0], "x [d]": [2.0]}, "x")
     assert "above 0" in refusal(ww.life, {"x": [-1.0, 0.0]}, "x")
     assert refusal(ww.life, pumps.assign(hours=-pumps["hours"] + 400), "hours", event="failed").startswith("data, row 2, column 'hours'")
+    assert "by: column 'hours' is that of life already" in refusal(ww.life, pumps, "hours", event="failed", by="hours")
     assert "family is 'weibul'" in refusal(ww.life, pumps, "hours", event="failed", family="weibul")
 
 

@@ -29,7 +29,7 @@ class Columns:
         for heading in self.headings:
             self._bare.setdefault(_bracket.sub("", heading).strip(), []).append(heading)
         self._units = {self.heading(key, "units"): unit_text(unit) for key, unit in (units or {}).items()}
-        self._names = {}
+        self._names, self._arguments = {}, {}
         self._used_names = set(taken) | _taken
 
     def heading(self, key, argument):
@@ -47,7 +47,9 @@ class Columns:
         """The heading, which the study now uses."""
         heading = self.heading(key, argument)
         if heading not in self._names:
-            self._names[heading] = self._name_of(heading)
+            self._names[heading], self._arguments[heading] = self._name_of(heading), argument
+        elif self._arguments[heading] != argument:
+            raise InputError(f"{argument}: column '{heading}' is that of {self._arguments[heading]} already")
         return heading
 
     def _name_of(self, heading):
