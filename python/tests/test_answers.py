@@ -27,8 +27,6 @@ def fit_of(name):
             return ww.fit(os.path.join(source, "examples", "joint", "study.toml"), seed=1, method="exact")
         quick = {"event": "failed", "units": {"hours": "h"}, "method": "exact", "seed": 1}
         if name == "groups":
-            return ww.life(pumps, "hours", by="supplier", draws=100, report=False, **quick)
-        if name == "exponential groups":
             return ww.life(pumps, "hours", by="supplier", family="exponential", draws=100, report=False, **quick)
         return ww.life(pumps, "hours", family=name, report=name == "weibull", **quick)
 
@@ -198,7 +196,7 @@ def test_what_measures_no_lives_answers_none():
 
 
 def test_predictions_of_lives():
-    fit = fit_of("exponential groups")
+    fit = fit_of("groups")
     mean = fit.predict(pd.DataFrame({"supplier": ["B"]}, index=["x"]))
     of_b = fit.parameters.loc["mean_life[B]"]
     assert list(mean.index) == ["x"] and mean.attrs["unit"] == "h"

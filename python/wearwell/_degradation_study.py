@@ -82,15 +82,15 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
 
     Examples
     --------
+    One machine; of several ``unit="machine"`` names the column that tells them apart:
+
     >>> import wearwell as ww
-    >>> wear = {"machine": ["A"] * 4 + ["B"] * 4 + ["C"] * 4, "km": [10, 20, 30, 40] * 3,
-    ...         "wear": [11, 19, 32, 41, 14, 31, 44, 58, 9, 17, 24, 33]}
-    >>> fit = ww.degradation(wear, y="wear", x="km", unit="machine", limit="100 um", units={"wear": "um", "km": "km"},
-    ...                      method="exact", report=False)
+    >>> wear = {"km": [10, 20, 30, 40], "wear": [11, 19, 32, 41]}
+    >>> fit = ww.degradation(wear, y="wear", x="km", limit="100 um", units={"wear": "um", "km": "km"}, method="exact", report=False)
     >>> fit.parameters.loc["rate", ["unit", "q50"]].tolist()
-    ['um/km', 1.08...]
-    >>> fit.lives.loc[fit.lives["of"] == "machine B", "q50"].round().tolist()
-    [28.0]
+    ['um/km', 1.028...]
+    >>> fit.lives.loc[0, ["at", "unit"]].tolist()
+    ['to path = 100 um', 'km']
     """
     if path not in ("line", "power"):
         raise InputError(f"path is {path!r}; it is 'line' or 'power'")

@@ -169,10 +169,10 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
 
     >>> ovens = {"T": [150] * 4 + [175] * 4 + [200] * 4, "hours": [3200, 4100, 5000, 5000, 1100, 1500, 1900, 2600, 410, 560, 700, 880],
     ...          "status": ["failed"] * 2 + ["censored"] * 2 + ["failed"] * 8}
-    >>> fit = ww.life(ovens, "hours", event="status", family="lognormal", stress={"T": "arrhenius"}, given={"T": 100},
+    >>> fit = ww.life(ovens, "hours", event="status", family="exponential", stress={"T": "arrhenius"}, given={"T": 100},
     ...               units={"T": "degC", "hours": "h"}, method="exact", report=False)
     >>> fit.parameters.loc["energy", ["unit", "mean"]].tolist()
-    ['eV', 0.7207...]
+    ['eV', 0.7900...]
     """
     if family not in _families:
         raise InputError(f"family is {family!r}; it is {', '.join(_families)}. wearwell.Study has further ones, with priors that you state")
