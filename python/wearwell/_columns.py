@@ -125,8 +125,8 @@ def status_of(columns, event):
                              "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
-    words = {word.lower() for word in columns.words(heading)}
-    codes = {word for word in words if word in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", word)}
+    cells = {cell.lower() for cell in columns.words(heading)}
+    codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
     if not codes:
         return heading
     shown = ", ".join(sorted(codes))

@@ -19,7 +19,7 @@ class FitTables:
         -------
         pandas.DataFrame
             A row for each parameter: ``unit``, ``mean``, ``sd``, quantiles ``q05``, ``q50``, ``q95``, ``ess_bulk`` and
-            ``rhat`` of the draws, and ``prior`` in words. ``parameters`` has more columns, ``results`` all numbers.
+            ``rhat`` of the draws, and ``prior``, described. ``parameters`` has more columns, ``results`` all numbers.
 
         Raises
         ------
