@@ -10,6 +10,11 @@
 #include "wearwell/base/error.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/memory_table.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/life_status.h"
+#include "wearwell/input/prior.h"
+#include "wearwell/models/formula_model/straight_line.h"
+#include "wearwell/study/column_values.h"
 
 namespace wearwell::python {
 namespace {
@@ -73,6 +78,15 @@ Table table_of(const std::string& name, const std::vector<Named>& columns) {
   return table;
 }
 
+// (whether the path begins at 0, whether it falls, its rate): what `wearwell new --from` proposes a prior with.
+std::tuple<bool, bool, double> straight_line(const Table& table, const std::string& axis,
+                                             const std::string& measured,
+                                             const std::optional<std::string>& unit) {
+  const formula_model::StraightLine line = formula_model::straight_line(
+      table, table.column(axis), table.column(measured), unit ? &table.column(*unit) : nullptr);
+  return {line.begins_at_zero, line.falls, line.rate};
+}
+
 }  // namespace
 
 void add_tables(py::module_& module) {
@@ -84,6 +98,20 @@ void add_tables(py::module_& module) {
              for (const Column& each : table.columns) names.push_back(each.name);
              return names;
            })
+      .def("numbers",
+           [](const Table& table, const std::string& heading) {
+             const std::vector<double> numbers = numbers_of(table, table.column(heading));
+             return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+           })
+      .def("words",
+           [](const Table& table, const std::string& heading) {
+             std::vector<std::string> words;
+             for (std::size_t i = 0; i < table.rows; ++i)
+               words.push_back(cell_word(table.column(heading), i));
+             return words;
+           })
+      .def("unit", [](const Table& table,
+                      const std::string& heading) { return table.column(heading).unit; })
       .def("add_units", &embed::add_units);
   module.def("table_of", &table_of);
   module.def("table_of_arrow", [](const std::string& name, const py::capsule& capsule) {
@@ -94,6 +122,9 @@ void add_tables(py::module_& module) {
     return table;
   });
   module.def("arrow_stream_of", &arrow_stream_of);
+  module.def("rounded_up", &rounded_up);
+  module.def("straight_line", &straight_line);
+  module.def("failure_code_of", &failure_code_of);
   module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {
     const py::gil_scoped_release release;
     const embed::ForkGuard guard;

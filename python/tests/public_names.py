@@ -20,6 +20,8 @@ def _of_module(prefix, module, names):
         each = getattr(module, name)
         if isinstance(each, types.ModuleType):
             own = [n for n, value in vars(each).items() if not n.startswith("_") and getattr(value, "__module__", "") == each.__name__]
+            if callable(each):  # wearwell.bearing(...)
+                yield prefix + name, each.__call__
             yield from _of_module(f"{name}.", each, own)
         else:
             yield prefix + name, each
@@ -34,7 +36,7 @@ def public_names():
 
 def docstrings():
     """By name, modules included: the docstring without its indentation."""
-    objects = {"wearwell": wearwell, "bearing": wearwell.bearing, "clutch": wearwell.clutch, "plan": wearwell.plan, **public_names()}
+    objects = {"wearwell": wearwell, "module bearing": wearwell.bearing, "module clutch": wearwell.clutch, "plan": wearwell.plan, **public_names()}
     return {name: inspect.cleandoc(each.__doc__ or "") for name, each in objects.items()}
 
 

@@ -89,7 +89,7 @@ def kinds():
 @pytest.mark.parametrize("data", [pytest.param(d, id=n) for n, d in kinds()])
 def test_any_kind_of_table_gives_the_same_bits(data, usual):
     named = isinstance(data, pd.DataFrame) and "F [N]" in data
-    assert fitted(data, units=None if named else units).summary == usual.summary
+    assert fitted(data, units=None if named else units).results == usual.results
 
 
 def test_pint_quantities_bring_their_units(usual):
@@ -240,7 +240,7 @@ def test_text_with_tables_in_memory(examples, usual):
     table = pd.read_csv(os.path.join(examples, "formula", "wear.csv"), float_precision="round_trip")
     one = ww.Study.from_toml(text, {"wear.csv": table}).fit(**quick)
     two = ww.fit(os.path.join(examples, "formula", "study.toml"), **quick)
-    assert one.summary == two.summary
+    assert one.results == two.results
     bare = re.sub(r'\{ column = "F", unit = "N" \}', '"F"', text)
     three = ww.Study.from_toml(bare, {"wear.csv": table}, units={"wear.csv": {"F": "N"}}).fit(**quick)
     assert three.parameters.equals(two.parameters)
@@ -254,7 +254,7 @@ def test_studies_can_be_pickled(usual):
     again = pickle.loads(pickle.dumps(study(frame, unit=None)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        assert again.fit(seed=1, method="exact", draws=100, report=False).summary == usual.summary
+        assert again.fit(seed=1, method="exact", draws=100, report=False).results == usual.results
     with pytest.raises(TypeError, match="cannot be pickled"):
         pickle.dumps(study(ww.table(frame)))
 

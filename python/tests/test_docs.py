@@ -1,4 +1,4 @@
-"""README.md and docs/reference/python.md: every block of Python, in its order, in one namespace, where the examples are."""
+"""README.md and pages of docs with Python: every block of Python, in its order, in one namespace, where the examples are."""
 
 import os
 import re
@@ -27,6 +27,12 @@ def test_every_block_runs(tmp_path, monkeypatch):
     assert len(blocks) >= 8
     assert sorted(os.listdir("joint-results"))[:2] == ["draws_1.csv", "draws_2.csv"]
     assert space["joint"].trusted and space["left"].loc[0, "of"] == "joint J5"
+
+
+def test_page_for_users_of_lifelines(tmp_path, monkeypatch):
+    """Its numbers are asserted in its blocks: those of peers/peers.csv."""
+    blocks, space = run_blocks(tmp_path, monkeypatch, "docs", "how-to", "coming-from-lifelines.md")
+    assert len(blocks) == 11 and list(space["groups"].summary.index) == ["characteristic[A]", "characteristic[B]", "slope"]
 
 
 def test_block_of_the_readme_runs(tmp_path, monkeypatch):

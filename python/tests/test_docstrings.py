@@ -11,7 +11,7 @@ from public_names import docstrings, public_names, sections
 names = public_names()
 texts = docstrings()
 return_nothing = {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Plan.report", "Plan.write", "Selection.report"}
-raise_nothing = {"ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
+raise_nothing = {"Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
                  "Selection", "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
 
 
@@ -53,7 +53,7 @@ def test_sections(name):
 
 def test_attributes_are_described():
     fit = described(sections(texts["Fit"])["Attributes"])
-    assert fit == {"study", "seed", "trusted", "checks", "summary"}
+    assert fit == {"study", "seed", "trusted", "checks", "results"}
     assert described(sections(texts["Check"])["Attributes"]) == set(ww.Check._fields)
 
 

@@ -4,13 +4,15 @@ import doctest
 import json
 import os
 import re
+import shutil
+import subprocess
 import warnings
 
 import numpy as np
 import pytest
 
 import wearwell as ww
-from conftest import source
+from conftest import binary, source
 from public_names import docstrings
 
 parser = doctest.DocTestParser()
@@ -39,10 +41,20 @@ def clutch_results(folder):
     return folder / "clutch-results"
 
 
+@pytest.fixture(scope="module")
+def campaign(folder):
+    """A simulated campaign of the clutch, as files."""
+    design, truth = (os.path.join(source, "examples", "clutch", name) for name in ("design.csv", "truth.toml"))
+    subprocess.run([binary, "clutch", "simulate", "--design", design, "--truth", truth, "-o", folder / "campaign"], check=True, capture_output=True)
+    shutil.copy(design, folder / "campaign")
+
+
 @pytest.mark.parametrize("name", [name for name, test in examples.items() if test.examples])
 def test_examples_run(name, folder, monkeypatch, request):
     if name.startswith("clutch."):
         request.getfixturevalue("clutch_results")
+    if name == "clutch":
+        request.getfixturevalue("campaign")
     monkeypatch.chdir(folder)
     said = []
     with warnings.catch_warnings():

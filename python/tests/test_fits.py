@@ -32,14 +32,14 @@ def fit(joint):
 
 
 def test_parameters_are_the_summarys_by_quadrature(fit):
-    k = fit.summary["parameters"]["k"]
+    k = fit.results["parameters"]["k"]
     assert fit.parameters.loc["k", "mean"] == k["mean"]
     assert fit.parameters.loc["k", "unit"] == "mm^3/(N m)"
     # Table 5 of An et al. (2011): 7.76e-4 +- 0.92e-4, sigma 5.63.
     assert abs(fit.parameters.loc["k", "mean"] - 7.76e-4) < 0.005e-4
     assert abs(fit.parameters.loc["sigma", "mean"] - 5.63) < 0.005
-    assert fit.predictions.loc[0, "pi95"] == fit.summary["predictions"][0]["pi95"]
-    assert fit.lives.loc[0, "b10"] == fit.summary["life"]["b10"]
+    assert fit.predictions.loc[0, "pi95"] == fit.results["predictions"][0]["pi95"]
+    assert fit.lives.loc[0, "b10"] == fit.results["life"]["b10"]
     assert len(fit.draws) == 4000 and list(fit.draws.columns) == ["k", "sigma"]
     assert fit.sample_stats["divergent"].dtype == bool
     assert fit.tables["parameters"].shape[0] == 2
@@ -148,19 +148,19 @@ def test_threads_fit_at_once_the_same_bits(joint, examples):
     studies = [joint, os.path.join(examples, "life", "study.toml")] * 3
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        alone = [ww.fit(s, seed=4, report=False).summary for s in studies[:2]] * 3
+        alone = [ww.fit(s, seed=4, report=False).results for s in studies[:2]] * 3
         with ThreadPoolExecutor(6) as pool:
-            together = list(pool.map(lambda s: ww.fit(s, seed=4, report=False).summary, studies))
+            together = list(pool.map(lambda s: ww.fit(s, seed=4, report=False).results, studies))
     assert together == alone
 
 
 def _in_child(study, queue):
-    queue.put(ww.fit(study, seed=4, report=False).summary)
+    queue.put(ww.fit(study, seed=4, report=False).results)
 
 
 @pytest.mark.parametrize("how", ["fork", "spawn"])
 def test_forked_and_spawned_children_fit_too(joint, how):
-    here = ww.fit(joint, seed=4, report=False).summary  # starts threads, of which a forked child has none
+    here = ww.fit(joint, seed=4, report=False).results  # starts threads, of which a forked child has none
     context = multiprocessing.get_context(how)
     queue = context.Queue()
     children = [context.Process(target=_in_child, args=(joint, queue)) for _ in range(2)]
@@ -174,9 +174,9 @@ def test_forked_and_spawned_children_fit_too(joint, how):
 
 
 def test_pickle_and_copy(fit, tmp_path):
-    assert copy.copy(fit).summary is fit.summary and copy.deepcopy(fit).summary is fit.summary
+    assert copy.copy(fit).results is fit.results and copy.deepcopy(fit).results is fit.results
     again = pickle.loads(pickle.dumps(fit))
-    assert again.summary == fit.summary and again.checks == fit.checks and str(again) == str(fit)
+    assert again.results == fit.results and again.checks == fit.checks and str(again) == str(fit)
     assert (again.draws == fit.draws).all().all() and (again.sample_stats == fit.sample_stats).all().all()
     for each, name in ((fit, "one"), (again, "two")):
         each.write(tmp_path / name)
@@ -204,10 +204,10 @@ def test_asked_later_is_what_the_study_says(fit, joint):
     text = open(joint).read()
     later = fit.ask({"cycles": [30_000, 20_585]})
     study = ww.Study.from_toml(re.sub(r"cycles *= *\[20585[^\]]*\]", "cycles = [30000, 20585]", text), folder=os.path.dirname(joint))
-    assert study.fit(seed=3, report=False).summary["predictions"] == later["predictions"]
-    assert later["predictions"][1] == fit.summary["predictions"][0]
+    assert study.fit(seed=3, report=False).results["predictions"] == later["predictions"]
+    assert later["predictions"][1] == fit.results["predictions"][0]
     narrow = fit.ask({"cycles": [20_585]}, level=0.5)["predictions"][0]
-    wide = fit.summary["predictions"][0]
+    wide = fit.results["predictions"][0]
     assert wide["pi05"] < narrow["pi05"] < narrow["mean"] < narrow["pi95"] < wide["pi95"]
     with pytest.raises(ww.InputError, match="cykles"):
         fit.ask({"cykles": [1]})
@@ -247,7 +247,7 @@ def test_many_fits_leave_no_memory_behind(joint):
     def some(n):
         for seed in range(n):
             fit = study.fit(seed, method="exact", draws=100, report=False)
-            json.dumps(fit.summary)
+            json.dumps(fit.results)
             fit.draws
 
     some(100)

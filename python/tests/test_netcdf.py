@@ -119,7 +119,7 @@ def test_every_kind_of_study_is_written(examples, tmp_path):
         groups = groups_of(tmp_path / "fit.nc")
         assert len(groups["posterior"].data_vars) == len(fit.parameters), study
         likelihood = next(iter(groups["log_likelihood"].data_vars.values()))
-        assert likelihood.shape[-1] == fit.summary["loo"]["observations"], study
+        assert likelihood.shape[-1] == fit.results["loo"]["observations"], study
         assert np.isfinite(likelihood.to_numpy()).all(), study
         assert groups["observed_data"].data_vars, study
 

@@ -4,7 +4,8 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 import pandas
 
-from . import bearing as bearing, clutch as clutch, plan as plan
+from . import plan as plan
+from .clutch import CycleSum as _CycleSum
 
 __all__: list[str]
 __version__: str
@@ -16,7 +17,15 @@ _Progress = bool | Callable[[str, int, int, float], object] | None
 _Method = Literal["nuts", "exact", "metropolis"] | None
 _F = TypeVar("_F", bound="Fit")
 
+_Event = str | Mapping[str, Any] | None
+_Priors = Mapping[str, _Prior] | None
+_PriorsOrFlat = Mapping[str, _Prior] | Literal["flat"] | None
+_Units = Mapping[str, Any] | None
+_Percentages = float | Sequence[float]
+_Given = Mapping[str, Any] | pandas.DataFrame | None
+
 class InputError(ValueError): ...
+class MissingFileError(InputError, FileNotFoundError): ...
 class MachineError(OSError, RuntimeError): ...
 class NotTrusted(RuntimeError): ...
 class CheckWarning(UserWarning): ...
@@ -29,11 +38,13 @@ class Check(NamedTuple):
 
 class Fit:
     study: Study
-    summary: dict[str, Any]
+    results: dict[str, Any]
     checks: list[Check]
     trusted: bool
     seed: int
     def require_trusted(self: _F) -> _F: ...
+    @property
+    def summary(self) -> pandas.DataFrame: ...
     @property
     def parameters(self) -> pandas.DataFrame: ...
     @property
@@ -69,6 +80,16 @@ class Fit:
         along: str | None = ...,
         given: Mapping[str, _Quantity] | None = ...,
     ) -> pandas.DataFrame: ...
+    def survival_function(self, times: _Quantity | Sequence[_Quantity], given: _Given = ...) -> pandas.DataFrame: ...
+    def hazard(self, times: _Quantity | Sequence[_Quantity], given: _Given = ...) -> pandas.DataFrame: ...
+    def percentile(self, p: float | str | Sequence[float | str], given: _Given = ..., confidence: float = ...) -> pandas.DataFrame: ...
+    def conditional(
+        self, survived: _Quantity, b: _Percentages = ..., given: _Given = ..., confidence: float = ...
+    ) -> pandas.DataFrame: ...
+    def compare(self, *others: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
+    @property
+    def plots(self) -> list[str]: ...
+    def plot(self, name: str | None = ..., ax: Any = ...) -> Any: ...
     def write(self, folder: _Path) -> None: ...
     def report(self, path: _Path) -> None: ...
     def to_netcdf(self, path: _Path) -> None: ...
@@ -76,6 +97,88 @@ class Fit:
     def _repr_html_(self) -> str: ...
     def __copy__(self: _F) -> _F: ...
     def __deepcopy__(self: _F, memo: Any) -> _F: ...
+
+class Plot:
+    name: str
+    figures: list[str]
+    def __init__(self, name: str, figures: Sequence[dict[str, Any]]) -> None: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
+    def draw(self, ax: Any) -> Any: ...
+
+# Modules that can be called, which mypy has no other words for.
+class _Bearing:
+    def __call__(
+        self,
+        data: Any,
+        depth: str,
+        *,
+        contact: str,
+        radius: _Quantity,
+        clearance: _Quantity,
+        unit: str | None = ...,
+        revolutions: str | None = ...,
+        time: str | None = ...,
+        speed: _Quantity | None = ...,
+        pressure: _Quantity | None = ...,
+        force: _Quantity | None = ...,
+        length: _Quantity | None = ...,
+        limit: _Quantity | None = ...,
+        risk: _Quantity | None = ...,
+        at: _Quantity | Sequence[_Quantity] | None = ...,
+        depth_error: _Quantity | None = ...,
+        family: str = ...,
+        count: str | None = ...,
+        units: _Units = ...,
+        priors: _Priors = ...,
+        b: _Percentages = ...,
+        confidence: float = ...,
+        predict: Mapping[str, Any] | None = ...,
+        title: str | None = ...,
+        seed: int | None = ...,
+        method: _Method = ...,
+        chains: int | None = ...,
+        warmup: int | None = ...,
+        draws: int | None = ...,
+        threads: int = ...,
+        report: bool = ...,
+        progress: _Progress = ...,
+    ) -> Fit: ...
+    def rate(self, contact: str, *, unit: str | None = ..., draws: int = ..., seed: int = ..., **inputs: Any) -> dict[str, Any]: ...
+    def depth(
+        self, contact: str, *, unit: str | None = ..., limit: str | None = ..., draws: int = ..., seed: int = ..., **inputs: Any
+    ) -> dict[str, Any]: ...
+    def pressure(self, contact: str, *, unit: str | None = ..., draws: int = ..., seed: int = ..., **inputs: Any) -> dict[str, Any]: ...
+    def length(self, contact: str, *, unit: str | None = ..., draws: int = ..., seed: int = ..., **inputs: Any) -> dict[str, Any]: ...
+    def life(self, contact: str, *, unit: str | None = ..., draws: int = ..., seed: int = ..., **inputs: Any) -> dict[str, Any]: ...
+
+class _Clutch:
+    CycleSum = _CycleSum
+    def __call__(
+        self,
+        design: Any,
+        cycles: Any,
+        weighings: Any,
+        *,
+        density: _Quantity,
+        depth: _Quantity,
+        area: _Quantity,
+        balance_sd: _Quantity,
+        traces: Any = ...,
+        points: Mapping[str, Mapping[str, _Quantity]] | None = ...,
+        levels: float | Sequence[float] | None = ...,
+        missing_cycles: Literal["refuse", "fill"] = ...,
+        search: Mapping[str, float] | None = ...,
+        replicates: int | None = ...,
+        units: Mapping[str, Mapping[str, Any]] | None = ...,
+        title: str | None = ...,
+        threads: int = ...,
+        report: bool = ...,
+        progress: _Progress = ...,
+    ) -> Fit: ...
+
+bearing: _Bearing
+clutch: _Clutch
 
 class ArrowTable:
     def __init__(self, columns: Sequence[tuple[str, str, Any]]) -> None: ...
@@ -133,7 +236,155 @@ class Study:
         progress: _Progress = ...,
     ) -> Fit: ...
 
-def fit(study: Study | _Path, seed: int | None = ..., **options: Any) -> Fit: ...
+def fit(
+    study: Study | _Path,
+    seed: int | None = ...,
+    *,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def life(
+    data: Any,
+    life: str | Sequence[str],
+    *,
+    event: _Event = ...,
+    entry: str | None = ...,
+    count: str | None = ...,
+    family: str = ...,
+    by: str | None = ...,
+    shape: Literal["shared", "separate"] = ...,
+    stress: Mapping[str, str] | None = ...,
+    given: Mapping[str, _Quantity] | None = ...,
+    units: _Units = ...,
+    priors: _PriorsOrFlat = ...,
+    b: _Percentages = ...,
+    confidence: float = ...,
+    predict: Mapping[str, Any] | None = ...,
+    unused: str | Sequence[str] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def degradation(
+    data: Any,
+    y: str,
+    x: str,
+    *,
+    unit: str | Literal[False] | None = ...,
+    limit: _Quantity | None = ...,
+    path: Literal["line", "power"] = ...,
+    family: str = ...,
+    starts_at_zero: bool | None = ...,
+    units: _Units = ...,
+    priors: _PriorsOrFlat = ...,
+    b: _Percentages = ...,
+    confidence: float = ...,
+    predict: Mapping[str, Any] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def sn(
+    data: Any,
+    stress: str,
+    life: str,
+    *,
+    event: _Event = ...,
+    stress_ratio: str | float | None = ...,
+    mean_stress: str | float | None = ...,
+    correction: str | None = ...,
+    curve: str = ...,
+    fatigue_limit: str = ...,
+    family: str = ...,
+    count: str | None = ...,
+    label: str | None = ...,
+    units: _Units = ...,
+    priors: _Priors = ...,
+    b: _Percentages = ...,
+    confidence: float = ...,
+    survival_to: _Quantity | Sequence[_Quantity] | None = ...,
+    required_life: _Quantity | Sequence[_Quantity] | None = ...,
+    reliability: _Quantity | Sequence[_Quantity] | None = ...,
+    predict: Mapping[str, Any] | None = ...,
+    unused: str | Sequence[str] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def staircase(
+    data: Any,
+    stress: str,
+    event: str | Mapping[str, Any],
+    *,
+    count: str | None = ...,
+    limit_family: str = ...,
+    units: _Units = ...,
+    priors: _Priors = ...,
+    reliability: _Quantity | Sequence[_Quantity] = ...,
+    confidence: float = ...,
+    predict: Mapping[str, Any] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def joint(
+    data: Any,
+    volume: str,
+    cycles: str,
+    *,
+    work_per_cycle: _Quantity | None = ...,
+    work: str | None = ...,
+    force: str | None = ...,
+    slip: str | None = ...,
+    limit: _Quantity | None = ...,
+    risk: _Quantity | None = ...,
+    at: _Quantity | Sequence[_Quantity] | None = ...,
+    family: str = ...,
+    count: str | None = ...,
+    units: _Units = ...,
+    priors: _Priors = ...,
+    b: _Percentages = ...,
+    confidence: float = ...,
+    predict: Mapping[str, Any] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
 def table(data: Any, *, units: Mapping[str, Any] | None = ..., name: str = ...) -> Any: ...
 
 class Selection:
@@ -174,7 +425,7 @@ class Comparison:
     def __init__(self, summary: str, text: str, page: str) -> None: ...
     def report(self, path: _Path) -> None: ...
 
-def compare(*fits: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
+def compare(*fits: Fit | _Path | Mapping[str, Fit | _Path], names: Sequence[str] | None = ...) -> Comparison: ...
 
 class Plan:
     title: str

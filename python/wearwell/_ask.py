@@ -129,6 +129,11 @@ def predict(fit, new, level, kind, along):
     columns = columns_of(study)
     conditions = conditions_of(study, columns)
     frame = _frame_of(new)
+    if along is None:
+        from ._lives_of import is_of_lives, predict as predict_lives
+
+        if is_of_lives(study) and axis_of(study, columns, None) is None:
+            return predict_lives(fit, study, frame, level, kind)
     unknown = [c for c in frame.columns if c not in columns]
     if unknown:
         raise InputError(f"new: the study has no column {unknown[0]!r} (columns: {', '.join(conditions)})")

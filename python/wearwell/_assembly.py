@@ -3,12 +3,13 @@
 import re
 
 from . import _toml
-from ._data import columns_of_few_kinds, headings_of, table_of
+from ._data import columns_of_few_kinds, headings_of, no_column, table_of
 from ._errors import InputError
 
 _name = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _heading = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*)\s*(?:[\[(].*)?\Z", re.DOTALL)
 _text = re.compile(r'"[^"]*"|\[[^\]]*\]')  # of an expression: texts and units are no names
+_index = re.compile(r"[A-Za-z0-9_]\[([A-Za-z][A-Za-z0-9_]*)\]")  # m[supplier]: a value for each level of a label
 _special = ("status", "lower", "upper", "entry", "count")
 # Of a family: the slot that the formula gives, the slot of its scatter, and the default name of that parameter.
 _slots = {
@@ -36,7 +37,7 @@ def _names_in(*texts):
         elif isinstance(text, (list, tuple)):
             found |= _names_in(*text)
         elif isinstance(text, str):
-            found |= set(_name.findall(_text.sub(" ", text)))
+            found |= set(_name.findall(_text.sub(" ", text))) | set(_index.findall(text))
     return found
 
 
@@ -62,22 +63,14 @@ def _lines(formula):
     return lines
 
 
-def _status(status, columns, headings):
+def _status(status, data, columns, headings):
     """(heading, what stands in [data.columns])"""
     entry = dict(status) if isinstance(status, dict) else {"column": status}
     heading = columns.get(entry.get("column"), entry.get("column"))
     if heading not in headings:
-        raise InputError(f"status: data has no column '{heading}' (columns: {', '.join(map(str, headings))}); it is like 'event' or "
-                         "{'column': 'event', 'failure': 1}")
+        raise InputError(f"{no_column(data, headings, heading, 'status')}; it is like 'event' or {{'column': 'event', 'failure': 1}}")
     entry["column"] = heading
     return heading, entry if len(entry) > 1 else heading
-
-
-def in_python(message):
-    """What a message says of keys of a study file, as arguments of Study."""
-    message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d|"[^"]*") \}', r'status={"column": \1, "failure": \2}', message)
-    message = re.sub(r'status = ("[^"]*")', r"status=\1", message)
-    return re.sub(r"unused = (\[[^\]]*\]) under \[data\]", r"unused=\1", message)
 
 
 def _middles(lines, likelihood):
@@ -149,10 +142,10 @@ def assemble(formula, data, priors, units, unit, random_effects, family, scatter
             name_of[heading] = match[1]
     for key in units:
         if key not in name_of and key not in columns:
-            raise InputError(f"units: data has no column '{key}' (columns: {', '.join(map(str, headings))})")
+            raise no_column(data, headings, key, "units")
     units = {name_of.get(k, k): v for k, v in units.items()}
     if unit is not None and unit not in columns:
-        raise InputError(f"unit: data has no column '{unit}' (columns: {', '.join(map(str, headings))})")
+        raise no_column(data, headings, unit, "unit")
     lines = _lines(formula)
     priors = dict(priors)
     for parameter, prior in priors.items():
@@ -168,11 +161,11 @@ def assemble(formula, data, priors, units, unit, random_effects, family, scatter
     chosen = {n: h for n, h in columns.items() if n in used}
     in_file = {n: {"column": h, "unit": units[n]} if n in units else h for n, h in chosen.items()}
     if status is not None:
-        chosen["status"], in_file["status"] = _status(status, columns, headings)
+        chosen["status"], in_file["status"] = _status(status, data, columns, headings)
     unused = [unused] if isinstance(unused, str) else list(unused or ())
     for key in unused:
         if key not in name_of and key not in columns and key not in headings:
-            raise InputError(f"unused: data has no column '{key}' (columns: {', '.join(map(str, headings))})")
+            raise no_column(data, headings, key, "unused")
     unused = [columns.get(key, key) for key in unused]
     parts = [_toml.table("", {"title": title or "; ".join(f"{k} = {v}" for k, v in _lines(formula).items()), "model": "formula"})]
     parts.append(_toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}))

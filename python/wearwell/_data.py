@@ -5,12 +5,13 @@ reads it once, into its own memory. Other numbers are converted on the way (one 
 by object.
 """
 
+import difflib
 import os
 
 import numpy as np
 
 from . import _core
-from ._errors import InputError
+from ._errors import InputError, missing_files
 from ._toml import unit_text
 
 _exact = 2**53  # whole numbers beyond have no double of their own
@@ -49,6 +50,8 @@ def _texts(values, where):
         return "" if missing else "str" if isinstance(each, str) else type(each).__name__
 
     kinds = [kind(each) for each in values]
+    if numbers := _whole_numbers(values, kinds, where):
+        return numbers[0]
     first = next((k for k in kinds if k), "str")
     other = next((row for row, k in enumerate(kinds) if k and k != first), None)
     if other is not None:
@@ -62,6 +65,19 @@ def _texts(values, where):
         raise InputError(f"{_at(where, row)}: {first} in a column of objects, which may hold texts alone; numbers need a dtype of "
                          "numbers (astype(float))")
     return [None if not k else each for k, each in zip(kinds, values)]
+
+
+def _whole_numbers(values, kinds, where):
+    """A column of objects that are whole numbers, all of them, as numbers: such frames come from databases and from JSON."""
+    if not any(kinds) or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, (int, np.integer)) for k, each in zip(kinds, values) if k):
+        return None
+    return [_numbers(np.array([np.nan if not k else _exactly(each, where) for k, each in zip(kinds, values)], dtype=float), where)]
+
+
+def _exactly(value, where):
+    if abs(int(value)) > _exact:
+        raise InputError(f"{where}: the whole number {value} lies beyond 2^53 and cannot be kept to its last digit")
+    return int(value)
 
 
 def _at(where, row):
@@ -181,7 +197,8 @@ def table_of(data, name="data", units=None, only=None):
     if _is_series(data):
         headings_of(data, name)
     if isinstance(data, (str, os.PathLike)):
-        table = _core.table_of_file(os.fspath(data), None)
+        with missing_files():
+            table = _core.table_of_file(os.fspath(data), None)
     elif hasattr(data, "columns") and hasattr(data, "iloc"):  # pandas
         names = list(data.columns)
         _headings(names, name)
@@ -252,6 +269,16 @@ def _has_few_kinds(column):
     if isinstance(values, list):
         return len({each for each in values if each}) <= most
     return len(np.unique(values[values == values])) <= most
+
+
+def no_column(data, headings, key, where):
+    """The error of a column that is not there; it knows of levels of the index and of names that are near."""
+    levels = [each for each in getattr(getattr(data, "index", None), "names", ()) or () if each is not None] if hasattr(data, "iloc") else []
+    if key in levels:
+        return InputError(f"{where}: data has no column '{key}'; it is a level of the index, and data.reset_index() makes it a column")
+    near = difflib.get_close_matches(str(key), [str(each) for each in headings], n=1, cutoff=0.75)
+    return InputError(f"{where}: data has no column '{key}' (columns: {', '.join(map(str, headings))})"
+                      + (f"; did you mean '{near[0]}'?" if near else ""))
 
 
 def headings_of(data, name="data"):

@@ -1,5 +1,6 @@
 """Exceptions and warnings: the words are those of the command line."""
 
+import contextlib
 import os
 import sys
 import warnings
@@ -18,6 +19,20 @@ class InputError(ValueError):
     ... except ww.InputError as error:
     ...     print(str(error).split(";")[0])
     median is list
+    """
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """A file is missing: a study, or a table. It is an InputError and a FileNotFoundError.
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> try:
+    ...     ww.fit("nope.toml")
+    ... except FileNotFoundError as error:
+    ...     print(type(error).__name__)
+    MissingFileError
     """
 
 
@@ -64,8 +79,19 @@ class CheckWarning(UserWarning):
     """
 
 
-for _each in (InputError, MachineError, NotTrusted, CheckWarning):
+for _each in (InputError, MissingFileError, MachineError, NotTrusted, CheckWarning):
     _each.__module__ = "wearwell"
+
+
+@contextlib.contextmanager
+def missing_files():
+    """An InputError of a file that is not there is a FileNotFoundError too."""
+    try:
+        yield
+    except InputError as error:
+        if "no such file" in str(error) and not isinstance(error, MissingFileError):
+            raise MissingFileError(str(error)) from None
+        raise
 
 
 def warn(message):

@@ -7,11 +7,12 @@ from ._check import checks_of
 from ._errors import InputError, NotTrusted, warn_of
 from ._fit_answers import FitAnswers
 from ._fit_files import FitFiles
+from ._fit_lives import FitLives
 from ._fit_tables import FitTables
 from ._notebook import html_of
 
 
-class Fit(FitTables, FitAnswers, FitFiles):
+class Fit(FitTables, FitAnswers, FitLives, FitFiles):
     """A fitted study: the posterior, what follows from it, and the checks that decide whether to trust it.
 
     ``Study.fit`` and ``wearwell.fit`` make it. It does not change; threads may share it, and it can be copied and
@@ -28,7 +29,7 @@ class Fit(FitTables, FitAnswers, FitFiles):
         Whether no check failed.
     checks : list of Check
         All checks, with verdict, finding and advice.
-    summary : dict
+    results : dict
         All numbers of the result, as ``wearwell fit --json`` prints them (summary.json).
 
     Examples
@@ -48,10 +49,10 @@ class Fit(FitTables, FitAnswers, FitFiles):
         self = cls.__new__(cls)
         self.study, self._run, self._choice, self._kept = study, run, choice, None
         self._summary_text = run.summary()
-        self.summary = json.loads(self._summary_text)
-        self.checks = checks_of(self.summary)
-        self.trusted = self.summary["trusted"]
-        self.seed = self.summary["seed"]
+        self.results = json.loads(self._summary_text)
+        self.checks = checks_of(self.results)
+        self.trusted = self.results["trusted"]
+        self.seed = self.results["seed"]
         warn_of(self.checks)
         return self
 
@@ -87,7 +88,7 @@ class Fit(FitTables, FitAnswers, FitFiles):
             run = self.study._read.run(choice["method"] or "", choice["chains"], choice["warmup"], choice["draws"],
                                        choice["seed"], 0, False, None)
             again = json.loads(run.summary())
-            if again["data"]["fingerprint"] != self.summary["data"]["fingerprint"]:
+            if again["data"]["fingerprint"] != self.results["data"]["fingerprint"]:
                 raise InputError(f"the data of {self.study!r} have changed since this fit")
             self._run = run
         return self._run
@@ -102,7 +103,7 @@ class Fit(FitTables, FitAnswers, FitFiles):
     def __repr__(self):
         word = "trusted" if self.trusted else "not trusted"
         failed = [c.name for c in self.checks if c.verdict == "fail"]
-        return f"<wearwell.Fit of {self.summary['title']!r}: {word}{' (' + ', '.join(failed) + ')' if failed else ''}>"
+        return f"<wearwell.Fit of {self.results['title']!r}: {word}{' (' + ', '.join(failed) + ')' if failed else ''}>"
 
     def _repr_html_(self):
         return html_of(self)

@@ -58,7 +58,8 @@ class FitAnswers:
             "mean": the true mean of the median item, with a credible interval. "next": a measurement of an item not seen
             yet, with a prediction interval. "unit": a measurement of the item that the label column of ``new`` names,
             by its own random effects given its data (an empty cell: a new item). Up to the item's last row the formula
-            holds as in the data; beyond, where conditions change, its path goes on from its present value.
+            holds as in the data; beyond, where conditions change, its path goes on from its present value. Of lives, "mean"
+            is the mean life of all items, "next" the life of the next one, with intervals of 90 %.
         along : str, optional
             Column that is the axis of wear; needed where the formula is only a rate or a running sum, and for
             ``kind="unit"`` with several numeric conditions.

@@ -1,5 +1,7 @@
 """The files of a fit."""
 
+import functools
+import json
 import os
 import tempfile
 
@@ -77,6 +79,74 @@ class FitFiles:
         True
         """
         _core.write_file(os.fspath(path), self._page())
+
+    @functools.cached_property
+    def _figures(self):
+        from ._plots import figures_of
+
+        files = self._files()
+        if "report.json" not in files:
+            raise InputError("this fit was made with report=False; fit it again with a report")
+        return figures_of(json.loads(files["report.json"]))
+
+    @property
+    def plots(self):
+        """Names of the plots that ``plot`` makes.
+
+        Returns
+        -------
+        list of str
+            Common names first, such as "life" and "posterior", then those of the figures of the report.
+
+        Raises
+        ------
+        InputError
+            If the fit was made with ``report=False``.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1)
+        >>> fit.plots[:4]
+        ['curve', 'posterior', 'pairs', 'residuals']
+        """
+        from ._plots import names_of
+
+        return names_of(self._figures)
+
+    def plot(self, name=None, ax=None):
+        """A picture of the fit: a figure of its report.
+
+        Parameters
+        ----------
+        name : str, optional
+            "life", "probability" (probability paper), "curve" (S-N curve, wear against cycles, path of a new unit), "hazard",
+            "posterior" (of each parameter, with its prior), "pairs", "residuals", "paths", "trace", "chains", or the name of
+            a figure of the report: ``plots`` lists those that this fit has. By default the first figure of the report.
+        ax : matplotlib.axes.Axes or sequence of them, optional
+            Axes to draw on; one for each figure.
+
+        Returns
+        -------
+        Plot or ax
+            A plot, which notebooks draw by Vega-Lite; ``ax``, if it was given.
+
+        Raises
+        ------
+        InputError
+            If the fit has no such plot, was made with ``report=False``, or there are fewer axes than figures.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1)
+        >>> fit.plot("life")
+        <wearwell.Plot 'life': life>
+        """
+        from ._plots import plot_of
+
+        plot = plot_of(self._figures, name)
+        return plot if ax is None else plot.draw(ax)
 
     def to_netcdf(self, path):
         """Write draws, sampler statistics, log-likelihoods and data as NetCDF-4, for ArviZ and xarray.

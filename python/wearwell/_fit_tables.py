@@ -12,6 +12,30 @@ class FitTables:
     """What a fit found, as data frames. Part of ``Fit``."""
 
     @functools.cached_property
+    def summary(self):
+        """The parameters on one screen.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each parameter: ``unit``, ``mean``, ``sd``, quantiles ``q05``, ``q50``, ``q95``, ``ess_bulk`` and
+            ``rhat`` of the draws, and ``prior``, described. ``parameters`` has more columns, ``results`` all numbers.
+
+        Raises
+        ------
+        InputError
+            If the study has no posterior, as of a clutch.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/joint/study.toml", seed=1, report=False)
+        >>> fit.summary[["unit", "q50"]].loc["sigma"].tolist()
+        ['mm^3', 4.97...]
+        """
+        return self.parameters[["unit", "mean", "sd", "q05", "q50", "q95", "ess_bulk", "rhat", "prior"]]
+
+    @functools.cached_property
     def parameters(self):
         """Posterior of each parameter.
 
@@ -35,7 +59,7 @@ class FitTables:
         >>> fit.parameters.loc["sigma", ["mean", "q05", "q95"]].astype(float).round(2).tolist()
         [5.63, 2.78, 10.95]
         """
-        return _frames.parameters(self.summary)
+        return _frames.parameters(self.results)
 
     @functools.cached_property
     def predictions(self):
@@ -61,7 +85,7 @@ class FitTables:
         >>> fit.predictions.loc[0, ["at", "mean", "pi05", "pi95"]].astype(float).round(1).tolist()
         [20585.0, 95.3, 74.9, 115.7]
         """
-        return _frames.predictions(self.summary)
+        return _frames.predictions(self.results)
 
     @functools.cached_property
     def quantities(self):
@@ -85,7 +109,7 @@ class FitTables:
         >>> list(fit.quantities.columns[:5])
         ['name', 'of', 'at', 'unit', 'is_life']
         """
-        return _frames.quantities(self.summary)
+        return _frames.quantities(self.results)
 
     @functools.cached_property
     def lives(self):
@@ -100,7 +124,7 @@ class FitTables:
         Raises
         ------
         InputError
-            If the study has no posterior. Lives of a clutch, each with two intervals, are in ``fit.summary["life"]``
+            If the study has no posterior. Lives of a clutch, each with two intervals, are in ``fit.results["life"]``
             and ``fit.tables``.
 
         Examples
@@ -112,7 +136,7 @@ class FitTables:
         >>> fit.lives.loc[0, ["b10", "b50"]].astype(float).round(-2).tolist()
         [19000.0, 21600.0]
         """
-        return _frames.lives(self.summary)
+        return _frames.lives(self.results)
 
     @functools.cached_property
     def _array(self):
@@ -152,7 +176,7 @@ class FitTables:
         """
         import pandas
 
-        names = list(_frames.require(self.summary, "parameters", "draws"))
+        names = list(_frames.require(self.results, "parameters", "draws"))
         return pandas.DataFrame(self._array.reshape(-1, len(names)), columns=names, index=self._index(), copy=False)
 
     @functools.cached_property
@@ -179,7 +203,7 @@ class FitTables:
         """
         import pandas
 
-        _frames.require(self.summary, "parameters", "draws")
+        _frames.require(self.results, "parameters", "draws")
         kinds = {"divergent": bool, "treedepth": int, "n_leapfrog": int}
         return pandas.DataFrame({k: v.reshape(-1).astype(kinds.get(k, float), copy=False) for k, v in self._stats.items()},
                                 index=self._index())
@@ -239,7 +263,7 @@ class FitTables:
         from ._arrow import arrow
 
         if name in ("draws", "sample_stats", "parameters", "predictions", "quantities", "lives"):
-            units = {k: each["unit"] for k, each in self.summary["parameters"].items()} if name == "draws" else None
+            units = {k: each["unit"] for k, each in self.results["parameters"].items()} if name == "draws" else None
             return arrow(getattr(self, name), units)
         if name not in self.tables:
             raise InputError(f"the fit has no table {name!r}; it has draws, sample_stats, parameters, predictions, quantities, lives, "

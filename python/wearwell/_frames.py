@@ -24,7 +24,7 @@ def _life(value):
 def require(summary, key, what):
     """This part of the summary of a posterior; InputError where the model has none."""
     if "sampler" not in summary or key not in summary:
-        raise InputError(f"a study of the model {summary['model']} has no {what}; fit.summary and fit.tables hold what it found")
+        raise InputError(f"a study of the model {summary['model']} has no {what}; fit.results and fit.tables hold what it found")
     return summary[key]
 
 

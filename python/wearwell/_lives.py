@@ -65,7 +65,7 @@ def _of_preset(study, limit, unit, survived, along):
     if survived is not None:
         raise InputError(f"survived needs a study of a formula; for the model {model} "
                          + ("fit.ask(predict) with survival_to gives the probability of survival" if model == "sn" else
-                            "fit.summary['life'] has the time within which to inspect"))
+                            "fit.results['life'] has the time within which to inspect"))
     if along is not None:
         raise InputError(f"along needs a study of a formula; lives of the model {model} have their axis: leave along out")
     table = {k: v for k, v in study.get("predict", {}).items() if k in _kept[model]}

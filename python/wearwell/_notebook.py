@@ -10,10 +10,10 @@ def html_of(fit):
     worst = "fail" if not fit.trusted else "warn" if any(c.verdict == "warn" for c in fit.checks) else "pass"
     word = {"pass": "trusted", "warn": "trusted, with warnings", "fail": "not trusted"}[worst]
     out = [f'<div style="border-left:4px solid {color[worst]};padding:0 1em">'
-           f"<p><b>{html.escape(fit.summary['title'])}</b>: {word}</p>"]
+           f"<p><b>{html.escape(fit.results['title'])}</b>: {word}</p>"]
     out += [f"<p>{html.escape(f'{c.name}: {c.detail}. {c.advice}'.rstrip())}</p>"
             for c in fit.checks if c.verdict != "pass"]
-    posterior = "sampler" in fit.summary
+    posterior = "sampler" in fit.results
     if posterior:
         shown = fit.parameters[["unit", "mean", "sd", "q05", "q50", "q95"]]
         out.append(shown.to_html(float_format=lambda x: f"{x:.4g}", border=0))

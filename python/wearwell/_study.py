@@ -4,9 +4,10 @@ import os
 import re
 
 from . import _core, _toml
-from ._assembly import assemble, in_python
+from ._assembly import assemble
+from ._messages import in_python
 from ._data import table_of
-from ._errors import InputError
+from ._errors import InputError, missing_files
 from ._fit import Fit
 from ._progress import reporter
 
@@ -92,6 +93,16 @@ class Study:
             raise InputError(in_python(str(error))) from None
 
     @classmethod
+    def _made(cls, text, given, arguments=None):
+        """A study that a function made of its arguments; ``given``: by name (table, data, headings that it holds)."""
+        self = cls.__new__(cls)
+        try:
+            return self._set(text, "study", {k: table for k, (table, _, _) in given.items()},
+                             {k: (data, {}, only) for k, (_, data, only) in given.items()})
+        except InputError as error:
+            raise InputError(in_python(str(error), arguments or {})) from None
+
+    @classmethod
     def from_toml(cls, text, data=None, *, units=None, folder="", name="study"):
         """A study as text, with its tables in memory or in files.
 
@@ -162,18 +173,20 @@ class Study:
         >>> ww.Study.from_file("examples/joint/no.toml")
         Traceback (most recent call last):
             ...
-        wearwell.InputError: ...examples/joint/no.toml...
+        wearwell.MissingFileError: ...examples/joint/no.toml...
         """
         self = cls.__new__(cls)
         self._path = os.path.abspath(os.fspath(path))
         self._given, self._shown = {}, os.fspath(path)
-        self._read = _core.read_file(os.fspath(path))
+        with missing_files():
+            self._read = _core.read_file(os.fspath(path))
         self.toml = self._read.text
         return self
 
     def _set(self, text, path, tables, given):
         self.toml, self._path, self._shown, self._given = text, path, path, given
-        self._read = _core.read_text(text, path, tables)
+        with missing_files():
+            self._read = _core.read_text(text, path, tables)
         return self
 
     def description(self):
@@ -299,7 +312,7 @@ def _without_table(text, name):
     return "\n".join(kept)
 
 
-def fit(study, seed=None, **options):
+def fit(study, seed=None, *, method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit a study file, or a Study: compute the posterior, check it, and predict.
 
     Parameters
@@ -308,8 +321,16 @@ def fit(study, seed=None, **options):
         Path of a study file (TOML), or a study.
     seed : int, optional
         Seed of the random numbers; by default that of the study, else 1.
-    **options
-        ``method``, ``chains``, ``warmup``, ``draws``, ``threads``, ``report`` and ``progress``, as of ``Study.fit``.
+    method : {"nuts", "exact", "metropolis"}, optional
+        How draws are made, as of ``Study.fit``.
+    chains, warmup, draws : int, optional
+        Chains, iterations of each that are discarded, and draws kept of each; default 4, 1000 and 1000.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    report : bool
+        Whether to compute what ``Fit.plot`` and ``Fit.report`` show too.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds).
 
     Returns
     -------
@@ -319,7 +340,8 @@ def fit(study, seed=None, **options):
     Raises
     ------
     InputError
-        If the study, its data or an option is wrong.
+        If the study, its data or an option is wrong. A file that is missing is a MissingFileError, which is a
+        FileNotFoundError too.
     MachineError
         If memory or another resource fails.
 
@@ -336,5 +358,8 @@ def fit(study, seed=None, **options):
     True
     """
     if not isinstance(study, Study):
+        if not isinstance(study, (str, os.PathLike)):
+            raise InputError(f"study is {type(study).__name__}; it is the path of a study file or a Study. A table is fitted by "
+                             "wearwell.life, sn, staircase, degradation, joint or bearing")
         study = Study.from_file(study)
-    return study.fit(seed, **options)
+    return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

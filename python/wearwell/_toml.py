@@ -67,8 +67,10 @@ def value(item, what):
     raise InputError(f"{what} is {type(item).__name__}; a study holds texts, numbers, lists and dicts of them")
 
 
-def table(name, entries):
-    """A table with its keys, one a line."""
+def table(name, entries, comments=None):
+    """A table with its keys, one a line; ``comments`` by key."""
     lines = [f"[{name}]"] if name else []
-    lines += [f"{_key(str(k))} = {value(v, f'{name}.{k}')}" for k, v in entries.items()]
+    for k, v in entries.items():
+        comment = f"    # {comments[k]}" if comments and k in comments else ""
+        lines.append(f"{_key(str(k))} = {value(v, f'{name}.{k}')}{comment}")
     return "\n".join(lines) + "\n"

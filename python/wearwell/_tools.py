@@ -262,7 +262,7 @@ def compare(*fits, names=None):
     Parameters
     ----------
     *fits : Fit, str or path
-        Two or more fits, or folders that ``Fit.write`` or ``wearwell fit`` wrote.
+        Two or more fits, or folders that ``Fit.write`` or ``wearwell fit`` wrote; or a dict of them by name.
     names : sequence of str, optional
         Names in the order of the fits; by default "a", "b", ..., and of a folder its path.
 
@@ -281,10 +281,14 @@ def compare(*fits, names=None):
     >>> import wearwell as ww
     >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
     >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
-    >>> both = ww.compare(normal, lognormal, names=["normal", "lognormal"])
+    >>> both = ww.compare({"normal": normal, "lognormal": lognormal})
     >>> sorted(study["study"] for study in both.summary["studies"])
     ['lognormal', 'normal']
     """
+    if len(fits) == 1 and isinstance(fits[0], dict):
+        if names is not None:
+            raise InputError("names and the keys of the dict say the same; leave names out")
+        names, fits = [str(each) for each in fits[0]], list(fits[0].values())
     if len(fits) < 2:
         raise InputError("a comparison takes two fits at least")
     if names is not None and len(names) != len(fits):

@@ -119,3 +119,4 @@ class CycleSum:
         return pandas.DataFrame(
             [{k: v for k, v in each.items() if k != "outside"} for each in self.summary["plates"]]
         ).set_index("plate") if self.summary["plates"] else pandas.DataFrame()
+

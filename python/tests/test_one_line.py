@@ -1,0 +1,335 @@
+"""One line for a table: what studies it makes, their numbers beside other programs, and what is refused."""
+
+import copy
+import functools
+import os
+import pickle
+import tomllib
+import warnings
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import wearwell as ww
+from conftest import source
+
+here = os.path.join(os.path.dirname(__file__), "peers")
+pumps = pd.read_csv(os.path.join(here, "pumps.csv"))
+units = {"hours": "h"}
+wear = pd.DataFrame({"machine": ["A"] * 4 + ["B"] * 4 + ["C"] * 4, "km": [10.0, 20, 30, 40] * 3,
+                     "wear": [11.0, 19, 32, 41, 14, 31, 44, 58, 9, 17, 24, 33]})
+
+
+def table_of(path):
+    return pd.read_csv(os.path.join(source, "examples", *path.split("/")))
+
+
+@functools.lru_cache(maxsize=None)
+def _fitted(function, arguments, options):
+    data = {"pumps": pumps, "bearings": table_of("life/bearings.csv"), "devices": table_of("accelerated/device_a.csv"), "wear": wear}
+    name, *rest = arguments
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        return getattr(ww, function)(data[name], *rest, method="exact", draws=50, chains=2, report=False,
+                                     **{k: dict(v) if isinstance(v, tuple) and v and isinstance(v[0], tuple) else v for k, v in options})
+
+
+def fitted(function, *arguments, **options):
+    """A fit, made once for all tests."""
+    return _fitted(function, arguments, tuple((k, tuple(v.items()) if isinstance(v, dict) else v) for k, v in options.items()))
+
+
+def refusal(function, *arguments, **options):
+    with pytest.raises(ww.InputError) as error:
+        function(*arguments, report=False, **options)
+    return str(error.value)
+
+
+# ---- Numbers beside other programs: maximum likelihood estimates by R's survival, peers/peers.R.
+
+peers = pd.read_csv(os.path.join(here, "peers.csv")).set_index(["task", "parameter"])["value"]
+tasks = {
+    "complete": ("bearings", "million_revolutions", {}),
+    "censored": ("pumps", "hours", {"event": "failed"}),
+    "lognormal": ("pumps", "hours", {"event": "failed", "family": "lognormal"}),
+    "loglogistic": ("pumps", "hours", {"event": "failed", "family": "loglogistic"}),
+    "exponential": ("pumps", "hours", {"event": "failed", "family": "exponential"}),
+    "interval": ("pumps", ("last_ok", "first_failed"), {"unused": "failed"}),
+    "entry": ("pumps", "hours", {"event": "failed", "entry": "since"}),
+    "arrhenius": ("devices", "hours", {"event": "status", "count": "count", "family": "lognormal", "stress": {"temperature_C": "arrhenius"},
+                                       "units": {"temperature_C": "degC"}}),
+}
+
+
+@pytest.mark.parametrize("task", tasks)
+def test_with_flat_priors_the_mode_is_the_estimate_of_survreg(task):
+    data, life, options = tasks[task]
+    mode = fitted("life", data, life, priors="flat", **options).results["mode"]
+    assert mode["maximum_likelihood"]
+    for name, value in peers[task].items():
+        assert abs(mode["parameters"][name]["value"] / value - 1) < 2e-5, name
+
+
+def test_every_task_has_a_peer():
+    assert set(tasks) == set(peers.index.get_level_values("task"))
+
+
+# ---- Default priors are those of `wearwell new --from`.
+
+def priors_of_new(wearwell, tmp_path, frame, *options):
+    frame.to_csv(tmp_path / "table.csv", index=False)
+    code, out, error = wearwell("new", tmp_path / "study", "--from", tmp_path / "table.csv", *options)
+    assert code == 0, out + error
+    return tomllib.loads((tmp_path / "study" / "study.toml").read_text())["prior"]
+
+
+def priors_of(study):
+    return tomllib.loads(study.toml)["prior"]
+
+
+def test_default_priors_of_lives_are_those_of_the_program(wearwell, tmp_path):
+    new = priors_of_new(wearwell, tmp_path, pumps[["hours", "failed"]])
+    assert priors_of(made(ww.life, pumps, "hours", event="failed", units=units)) == new == {
+        "characteristic": {"distribution": "lognormal", "median": "1000 h", "log_sd": 2},
+        "slope": {"distribution": "lognormal", "median": 1.5, "log_sd": 0.7}}
+
+
+def test_default_priors_under_stress_are_those_of_the_program(wearwell, tmp_path):
+    devices = table_of("accelerated/device_a.csv")
+    new = priors_of_new(wearwell, tmp_path, devices.rename(columns={"temperature_C": "temperature [degC]", "hours": "life [h]"}))
+    ours = priors_of(made(ww.life, devices, "hours", event="status", count="count", stress={"temperature_C": "arrhenius"},
+                          units={"temperature_C": "degC", "hours": "h"}))
+    assert ours == new and ours["energy"] == {"distribution": "normal", "mean": "0.7 eV", "sd": "0.3 eV"}
+
+
+@pytest.mark.parametrize("lift", [0, 500])
+def test_default_priors_of_paths_are_those_of_the_program(wearwell, tmp_path, lift):
+    frame = wear.assign(wear=wear["wear"] + lift).rename(columns={"wear": "wear [um]", "km": "distance [km]"})
+    new = priors_of_new(wearwell, tmp_path, frame, "--column", "unit=machine")
+    new["rate_scatter"] = new.pop("scatter")
+    assert priors_of(made(ww.degradation, frame, "wear", "distance", unit="machine")) == new
+    assert ("start" in new) == (lift > 0)
+
+
+def made(function, *arguments, **options):
+    """The study that a function makes, without its fit."""
+    kept = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ww.Study, "fit", lambda study, *_, **__: kept.append(study))
+        function(*arguments, **options)
+    return kept[0]
+
+
+def test_families_scatter_alike_under_their_default_priors():
+    """The standard deviation of ln life under the default median of each shape, by draws of unit scale."""
+    rng = np.random.default_rng(1)
+    shapes = {family: tomllib.loads(made(ww.life, pumps, "hours", event="failed", family=family).toml)["prior"] for family in
+              ("weibull", "lognormal", "loglogistic", "gamma", "birnbaum-saunders")}
+    u, z = rng.uniform(size=200_000), rng.normal(size=200_000)
+    drawn = {
+        "weibull": np.log(-np.log(u)) / shapes["weibull"]["slope"]["median"],
+        "lognormal": shapes["lognormal"]["sigma"]["median"] * z,
+        "loglogistic": np.log(u / (1 - u)) / shapes["loglogistic"]["shape"]["median"],
+        "gamma": np.log(rng.gamma(shapes["gamma"]["shape"]["median"], size=len(u))),
+        "birnbaum-saunders": 2 * np.arcsinh(shapes["birnbaum-saunders"]["alpha"]["median"] * z / 2),
+    }
+    for family, values in drawn.items():
+        assert 0.78 < values.std() < 0.9, family
+
+
+def test_the_study_says_which_priors_are_defaults():
+    toml = made(ww.life, pumps, "hours", event="failed", priors={"slope": ww.lognormal(2, 0.5)}).toml
+    assert 'characteristic = { distribution = "lognormal", median = 1000.0, log_sd = 2 }    # default: a factor of 27' in toml
+    assert 'slope = { distribution = "lognormal", median = 2, log_sd = 0.5 }\n' in toml
+    assert "slopes" in refusal(ww.life, pumps, "hours", event="failed", priors={"slopes": ww.lognormal(2, 0.5)})
+    assert "'flat'" in refusal(ww.life, pumps, "hours", event="failed", priors="jeffreys")
+
+
+# ---- How lives ended.
+
+words = np.where(pumps["failed"] == 1, "failed", "censored")
+
+
+@pytest.mark.parametrize("event", [
+    pumps["failed"].astype(bool), pumps["failed"].astype(float), pumps["failed"].astype("boolean"), pd.Series(words),
+    pd.Series(np.where(pumps["failed"] == 1, "F", "suspended")), pd.Series(words).astype("category"), pumps["failed"].astype(object)])
+def test_events_of_all_kinds_are_the_same(event):
+    usual = made(ww.life, pumps[["hours", "failed"]], "hours", event="failed").description()
+    assert "9 exact, 3 right-censored" in usual
+    assert made(ww.life, pumps[["hours"]].assign(failed=event), "hours", event="failed").description() == usual
+
+
+def test_an_event_that_can_be_read_in_two_ways_is_refused_with_both():
+    frame = pumps[["hours"]].assign(censored=1 - pumps["failed"])
+    said = refusal(ww.life, frame, "hours", event="censored")
+    assert "event={'column': 'censored', 'failure': 0}" in said and "event={'column': 'censored', 'failure': 1}" in said
+    study = made(ww.life, frame, "hours", event={"column": "censored", "failure": 0})
+    assert 'status = { column = "censored", failure = 0 }' in study.toml
+    assert "9 exact, 3 right-censored" in study.description()
+    said = refusal(ww.life, frame.assign(censored=1 + pumps["failed"]), "hours", event="censored")
+    assert "codes 1, 2" in said and "2 left-censored" in said
+    assert made(ww.life, frame.assign(censored=words), "hours", event="censored")  # words say it themselves
+
+
+def test_a_column_that_may_be_an_event_is_not_passed_over():
+    assert 'event="failed"' in refusal(ww.life, pumps, "hours") and 'unused=["failed"]' in refusal(ww.life, pumps, "hours")
+    assert "'stuck' is not a status" in refusal(ww.life, pumps.assign(failed="stuck"), "hours", event="failed")
+    assert "no column 'fialed'" in refusal(ww.life, pumps, "hours", event="fialed") and "'failed'?" in refusal(ww.life, pumps, "hours", event="fialed")
+    assert "the key 'runouts'" in refusal(ww.life, pumps, "hours", event={"column": "failed", "runouts": "x"})
+
+
+# ---- Columns, units, conditions.
+
+def test_no_unit_of_temperature_is_guessed():
+    frame = pd.DataFrame({"hours": [100.0, 200, 30, 50], "T": [350.0, 350, 400, 400]})
+    said = refusal(ww.life, frame, "hours", stress={"T": "arrhenius"})
+    assert "units={'T': 'degC'}" in said and "units={'T': 'K'}" in said
+    for each in (frame, frame.rename(columns={"T": "T [K]"})):
+        options = {"units": {"T": "K"}} if each is frame else {}
+        toml = made(ww.life, each, "hours", stress={"T": "eyring"}, **options).toml
+        assert 'T_ref = "400 K"' in toml and "T_ref/T * exp(energy/boltzmann * (1/T - 1/T_ref))" in toml and 'given = { T = "350 K" }' in toml
+    assert "arrhenius, eyring, inverse power" in refusal(ww.life, frame, "hours", stress={"T": "arrhenus"})
+    assert "one value in all rows" in refusal(ww.life, frame.assign(T=1.0), "hours", stress={"T": "inverse power"})
+    assert "above 0" in refusal(ww.life, frame.assign(T=[0, 0, 1.0, 1]), "hours", stress={"T": "inverse power"})
+
+
+def test_groups_with_shapes_of_their_own():
+    separate = made(ww.life, pumps, "hours", event="failed", by="supplier", shape="separate").toml
+    assert 'scale = "characteristic[supplier]"\nshape = "slope[supplier]"' in separate and 'given = { supplier = "A" }' in separate
+    shared = made(ww.life, pumps, "hours", event="failed", by="supplier", given={"supplier": "B"}).toml
+    assert 'shape = "slope"\n' in shared and 'given = { supplier = "B" }' in shared
+    assert "needs by" in refusal(ww.life, pumps, "hours", event="failed", shape="separate")
+    assert "no 'C' (A, B)" in refusal(ww.life, pumps, "hours", event="failed", by="supplier", given={"supplier": "C"})
+    assert "no condition" in refusal(ww.life, pumps, "hours", event="failed", given={"supplier": "A"})
+
+
+def test_what_a_column_cannot_be():
+    by_index = pumps.set_index("hours")
+    assert "level of the index, and data.reset_index()" in refusal(ww.life, by_index, "hours", event="failed")
+    with pytest.raises(ww.InputError, match=r"unit: data has no column 'machine'; it is a level of the index"):
+        ww.Study("wear = k*km", wear.set_index("machine"), priors={"k": ww.half_normal(1), "sigma": ww.half_normal(1)}, unit="machine")
+    assert "life is 3; it is the heading of a column" in refusal(ww.life, pumps, 3, event="failed")
+    assert "event is int; it is the heading of a column" in refusal(ww.life, pumps, "hours", event=3)
+    assert "'x [h]' or 'x [d]'" in refusal(ww.life, {"x [h]": [1.0], "x [d]": [2.0]}, "x")
+    assert "above 0" in refusal(ww.life, {"x": [-1.0, 0.0]}, "x")
+    assert refusal(ww.life, pumps.assign(hours=-pumps["hours"] + 400), "hours", event="failed").startswith("data, row 2, column 'hours'")
+    assert "by: column 'hours' is that of life already" in refusal(ww.life, pumps, "hours", event="failed", by="hours")
+    assert "family is 'weibul'" in refusal(ww.life, pumps, "hours", event="failed", family="weibul")
+
+
+def test_headings_with_units_spaces_and_words_of_the_language(tmp_path):
+    frame = pumps[["hours", "failed"]].set_axis(["running hours [h]", "has failed"], axis=1)
+    toml = made(ww.life, frame, "running hours", event="has failed").toml
+    assert 'running_hours = "running hours [h]"' in toml and 'median = "1000 h"' in toml
+    assert "median = 1000.0" in made(ww.life, frame.rename(columns={"running hours [h]": "hours (h)"}), "hours", event="has failed").toml  # no unit
+    assert "log_column = " in made(ww.life, {"log": [1.0, 2.0]}, "log").toml
+    frame.to_csv(tmp_path / "pumps.csv", index=False)
+    assert tomllib.loads(made(ww.life, tmp_path / "pumps.csv", "running hours", event="has failed").toml) == tomllib.loads(toml)
+
+
+def test_whole_numbers_among_objects_are_numbers():
+    assert made(ww.life, pumps.astype({"hours": object}), "hours", event="failed").description() == (
+        made(ww.life, pumps, "hours", event="failed").description())
+    assert "float in a column of objects" in refusal(ww.life, pumps.assign(hours=pumps["hours"].astype(float).astype(object)), "hours", event="failed")
+    assert "beyond 2^53" in refusal(ww.life, {"x": pd.Series([1, 2**60], dtype=object)}, "x")
+
+
+# ---- The other functions.
+
+def test_paths_of_units_need_their_column():
+    assert "unit is missing: km falls at row 5 from 40 to 10" in refusal(ww.degradation, wear, "wear", "km")
+    toml = made(ww.degradation, wear, "wear", "km", unit=False).toml
+    assert "random_effects" not in toml and 'path = "rate * km"' in toml
+    assert "units={'wear': 'um'}" in refusal(ww.degradation, wear, "wear", "km", unit="machine", limit="100 um")
+    assert "limit = { path = 100.0 }" in made(ww.degradation, wear, "wear", "km", unit="machine", limit=100).toml
+    power = made(ww.degradation, wear, "wear", "km", unit="machine", path="power", units={"km": "km", "wear": "um"}).toml
+    assert 'path = "rate * (km/1 [km])^power"' in power
+    falls = made(ww.degradation, wear.assign(wear=500 - wear["wear"]), "wear", "km", unit="machine", limit=400).toml
+    assert 'path = "start - rate * km"' in falls
+    process = made(ww.degradation, wear, "wear", "km", unit="machine", family="gamma-process", limit=100).toml
+    assert 'scale = "step_ratio"' in process and "limit = { wear = 100.0 }" in process
+    assert "begins at 0" in refusal(ww.degradation, wear.assign(wear=500 + wear["wear"]), "wear", "km", unit="machine", family="wiener-process")
+
+
+def test_presets_are_their_study_files():
+    joint = made(ww.joint, table_of("joint/joint_wear.csv"), "volume_mm3", "cycles", work_per_cycle="5.966 N m", limit="100 mm^3",
+                 units={"volume_mm3": "mm^3"})
+    assert tomllib.loads(joint.toml)["predict"] == {"limit": "100 mm^3", "cycles": [41170.0], "b_lives": [1, 10], "credible_level": 0.9}
+    assert "work_per_cycle is missing" in refusal(ww.joint, {"n": [1], "V": [1.0]}, "V", "n", units={"V": "mm^3"})
+    tests = table_of("fatigue/tests.csv")
+    sn = tomllib.loads(made(ww.sn, tests, "stress_amplitude_MPa", "cycles", event="status", stress_ratio="stress_ratio",
+                            units={"stress_amplitude_MPa": "MPa"}, required_life="1e6 cycles", reliability="90 %", predict={"stress_ratio": 0.1}).toml)
+    assert sn["law"] == {"mean_stress": "goodman"} and sn["predict"]["required_life"] == ["1e6 cycles"]
+    assert "needs stress_ratio or mean_stress" in refusal(ww.sn, tests, "stress_amplitude_MPa", "cycles", event="status", correction="gerber")
+    assert "correction is 'goodmann'" in refusal(ww.sn, tests, "stress_amplitude_MPa", "cycles", correction="goodmann")
+    inspections = table_of("bearing/inspections.csv")
+    conditions = {"contact": "stationary", "radius": "10 mm", "clearance": "clearance_um", "revolutions": "revolutions", "length": "20 mm"}
+    of = {"depth_um": "um", "clearance_um": "um", "force_N": "N"}
+    bearing = tomllib.loads(made(ww.bearing, inspections, "depth_um", unit="bearing", force="force_N", units=of, **conditions).toml)
+    assert bearing["conditions"] == {"contact": "stationary", "radius": "10 mm", "length": "20 mm"}
+    assert bearing["prior"] == {"k_scatter": {"distribution": "default"}}
+    assert "pressure is missing" in refusal(ww.bearing, inspections, "depth_um", units=of, **conditions)
+    assert "no column 'forces'" in refusal(ww.bearing, inspections, "depth_um", force="forces", units=of, **conditions)
+    assert ww.bearing.length and ww.clutch.CycleSum  # the modules are modules still
+    assert "'failure': 0} reads 0 or False" in refusal(ww.staircase, {"S": [1.0, 2], "censored": [0, 1]}, "S", "censored", units={"S": "MPa"})
+
+
+def test_clutch_of_tables_in_memory():
+    """Of tables too short to be fitted: the example of the docstring is fitted."""
+    point = {"slip_speed [rpm]": [1200.0], "torque [N m]": [25.0], "temperature [degC]": [120.0], "closing_time [s]": [0.9]}
+    design = {"point": [1], "role": ["model"], **point}
+    cycles = {"plate": [1], "cycle": [1], **point, "energy": [25131.0]}
+    weighings = {"plate": [1], "cycle": [0], "block": ["start"], "mass [g]": [249.9995]}
+    kept = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ww.Study, "_made", classmethod(lambda cls, text, given, arguments: kept.append((text, given)) or cls.__new__(cls)))
+        patch.setattr(ww.Study, "fit", lambda study, **_: None)
+        ww.clutch(design, cycles, weighings, density="2.2 g/cm^3", depth="1 mm", area="100 cm^2", balance_sd="1 mg", replicates=0,
+                  points={"steep hill": {"slip_speed": "2800 rpm", "torque": "75 N m", "temperature": "240 degC", "closing_time": "3.4 s"}},
+                  units={"cycles": {"energy": "J"}})
+    text = tomllib.loads(kept[0][0])
+    assert text["data"] == {"design": "design", "cycles": "cycles", "weighings": "weighings"} and text["lining"]["area"] == "100 cm^2"
+    assert text["life"]["points"]["steep hill"]["torque"] == "75 N m" and text["uncertainty"] == {"replicates": 0}
+    assert kept[0][1]["cycles"][0].unit("energy") == "J"
+    with pytest.raises(ww.InputError, match="'cycle' is no table"):
+        ww.clutch(design, cycles, weighings, density=1, depth=1, area=1, balance_sd=1, units={"cycle": {}})
+    with pytest.raises(ww.InputError, match="cycles, column 'energy' has no unit"):
+        ww.clutch(design, cycles, weighings, density="2.2 g/cm^3", depth="1 mm", area="100 cm^2", balance_sd="1 mg")
+
+
+def test_fit_of_one_line_can_be_pickled_and_copied():
+    fit = fitted("life", "pumps", "hours", event="failed", units=units)
+    again = pickle.loads(pickle.dumps(fit))
+    assert again.results == fit.results and again.study.toml == fit.study.toml and copy.deepcopy(fit) is fit
+    assert again.percentile(10).equals(fit.percentile(10))
+
+
+# ---- Errors in the words of the caller.
+
+def test_words_of_errors_are_those_of_the_call(tmp_path):
+    with pytest.raises(TypeError, match=r"fit\(\) got an unexpected keyword argument 'chain'") as error:
+        ww.fit("study.toml", chain=4)
+    assert "Study.fit" not in str(error.value)
+    with pytest.raises(FileNotFoundError, match="nope.toml") as missing:
+        ww.fit(tmp_path / "nope.toml")
+    assert isinstance(missing.value, ww.InputError) and isinstance(missing.value, ValueError)
+    with pytest.raises(FileNotFoundError, match="nope.csv"):
+        ww.table(tmp_path / "nope.csv")
+    assert "wearwell.life" in refusal(ww.fit, pumps)
+    with pytest.raises(ww.InputError, match=r"^priors: k") as said:
+        ww.Study("wear = k*km", wear, priors={"k": ww.lognormal(1, -1), "sigma": ww.half_normal(1)})
+    assert "study:" not in str(said.value)
+
+
+def test_warnings_stand_at_the_callers_line():
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        ww.joint({"n": [1, 100, 1000, 5000, 10000], "V": [1.59, 2.57, 8.10, 24.48, 46.21]}, "V", "n", work_per_cycle="5.966 N m",
+                 units={"V": "mm^3"}, method="exact", draws=50, report=False)
+    assert caught and all(each.filename == __file__ for each in caught if each.category is ww.CheckWarning)
+
+
+def test_help_begins_with_what_people_need():
+    first = ww.__doc__.split("\n")
+    assert first[2].startswith("One line for a table") and "``life``" in ww.__doc__ and ww.__all__[0] == "life"

@@ -1,0 +1,142 @@
+"""The columns of a table that a study uses: their headings, names, units and values."""
+
+import re
+
+from . import _core
+from ._data import columns_of_few_kinds, headings_of, no_column, table_of
+from ._errors import InputError
+from ._toml import unit_text
+
+_bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
+# Words of the formula language and of a study's [data.columns], which no column can be called.
+_taken = {"status", "lower", "upper", "entry", "count", "unused", "pi", "and", "or", "not", "exp", "log", "log10", "min", "max", "cum", "where", "abs",
+          "sqrt", "pow", "sin", "cos", "tan", "tanh", "erf", "erfc", "probit", "gamma", "lgamma", "digamma", "boltzmann"}
+_truths = {"0", "1", "true", "false", "yes", "no", "y", "n"}
+
+
+class Columns:
+    """Columns are asked for by heading, or by its part before a unit: "life" finds "life [h]"."""
+
+    def __init__(self, data, units, taken=()):
+        self.data = data
+        self.headings = headings_of(data)
+        self._whole = self._part = None  # a table of the library: of everything, or of the columns in use
+        self._part_of = set()
+        if self.headings is None:
+            self._whole = table_of(data)
+            self.headings = self._whole.headings()
+        self._bare = {}
+        for heading in self.headings:
+            self._bare.setdefault(_bracket.sub("", heading).strip(), []).append(heading)
+        self._units = {self.heading(key, "units"): unit_text(unit) for key, unit in (units or {}).items()}
+        self._names, self._arguments = {}, {}
+        self._used_names = set(taken) | _taken
+
+    def heading(self, key, argument):
+        """The heading of the column that an argument names."""
+        if not isinstance(key, str):
+            raise InputError(f"{argument} is {type(key).__name__}; it is the heading of a column (columns: {', '.join(self.headings)})")
+        found = [key] if key in self.headings else self._bare.get(key, [])
+        if len(found) > 1:
+            raise InputError(f"{argument}: '{key}' may be '{found[0]}' or '{found[1]}'; write the whole heading")
+        if not found:
+            raise no_column(self.data, self.headings, key, argument)
+        return found[0]
+
+    def take(self, key, argument):
+        """The heading, which the study now uses."""
+        heading = self.heading(key, argument)
+        if heading not in self._names:
+            self._names[heading], self._arguments[heading] = self._name_of(heading), argument
+        elif self._arguments[heading] != argument:
+            raise InputError(f"{argument}: column '{heading}' is that of {self._arguments[heading]} already")
+        return heading
+
+    def _name_of(self, heading):
+        bare = re.sub(r"\W+", "_", _bracket.sub("", heading).strip(), flags=re.ASCII).strip("_")
+        name = bare if re.match(r"[A-Za-z]", bare) else f"column_{bare}".rstrip("_")
+        while name in self._used_names or name in self._names.values():
+            name += "_"
+        return name.rstrip("_") + "_column" if name.endswith("_") else name
+
+    def name(self, heading):
+        """The name of the column in formulas."""
+        return self._names[heading]
+
+    def unit(self, heading):
+        """The unit of a column; "" where it is a plain number."""
+        if heading in self._units:
+            return self._units[heading]
+        match = re.search(r"\[(.*)\]\s*\Z", heading, re.DOTALL)  # as the library reads headings
+        if match and match[1].strip():
+            return match[1].strip()
+        return self._read().unit(heading)
+
+    def entry(self, heading):
+        """What [data.columns] says of a column of numbers."""
+        return {"column": heading, "unit": self._units[heading]} if heading in self._units else heading
+
+    def _read(self):
+        if self._whole is not None:
+            return self._whole
+        if not set(self._names) <= self._part_of:
+            self._part_of = set(self._names)
+            self._part = table_of(self.data, only=self._part_of)
+        return self._part
+
+    def numbers(self, heading):
+        """The numbers of a column without those that are missing; InputError names a text."""
+        import numpy
+
+        values = numpy.asarray(self._read().numbers(heading))
+        return values[numpy.isfinite(values)]
+
+    def words(self, heading):
+        """The cells of a column as texts, whole numbers without a point."""
+        return self._read().words(heading)
+
+    def levels(self, heading):
+        """The labels of a column in the order in which they come."""
+        return [each for each in dict.fromkeys(self.words(heading)) if each]
+
+    def line(self, axis, measured, unit):
+        """(whether a straight path begins at 0, whether it falls, its rate)"""
+        return _core.straight_line(self._read(), axis, measured, unit)
+
+    def table(self, unused=()):
+        """The table for the library, and the headings that it holds (None: all)."""
+        if self._whole is not None:
+            return self._whole, None
+        only = set(self._names)
+        only |= columns_of_few_kinds(self.data, [h for h in self.headings if h not in only and h not in unused])
+        return table_of(self.data, only=only), only
+
+
+def _in_two_ways(heading, what, readings):
+    return InputError(f"event: column '{heading}' holds {what}: {'; or '.join(readings)}")
+
+
+def status_of(columns, event):
+    """What [data.columns] says of the column of ``event``: how each life ended."""
+    if isinstance(event, dict):
+        unknown = next((key for key in event if key not in ("column", "failure", "runout", "left", "interval")), None)
+        if unknown or "column" not in event:
+            raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'end', 'failure': 1}} "
+                             "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
+        return {**event, "column": columns.take(event["column"], "event")}
+    heading = columns.take(event, "event")
+    cells = {cell.lower() for cell in columns.words(heading)}
+    codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
+    if not codes:
+        return heading
+    shown = ", ".join(sorted(codes))
+    if codes - _truths:
+        raise _in_two_ways(heading, f"the codes {shown}", [
+            f"event={{'column': '{heading}', 'failure': 1}} reads 1 failed, 0 still running, 2 left-censored, 3 interval",
+            f"event={{'column': '{heading}', 'failure': 0}} reads 0 failed, 1 still running, -1 left-censored, 2 interval",
+            "if 2 is a failure, as in the codes 1 and 2 of some tables, or another cause of failure, make a column of True and False"])
+    if _core.failure_code_of(heading) == 0:
+        raise _in_two_ways(heading, f"{shown}, and its name says that it marks the lives that did not end", [
+            f"event={{'column': '{heading}', 'failure': 0}} reads 0 or False as failed",
+            f"event={{'column': '{heading}', 'failure': 1}} reads 1 or True as failed"])
+    return {"column": heading, "failure": 1}

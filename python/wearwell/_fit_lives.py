@@ -1,0 +1,190 @@
+"""Distributions of life that a fit answers later, under any conditions."""
+
+from ._errors import InputError
+
+_doc_given = """        given : dict or data frame, optional
+            Conditions, by column: values of one, or a row each of several; plain numbers in the unit of the column. What is
+            left out is as the study predicts. By default a row for each group that has parameters of its own."""
+
+
+def _described(function):
+    function.__doc__ = function.__doc__.replace("        <given>", _doc_given)
+    return function
+
+
+class FitLives:
+    """Survival, hazard and percentiles of fits of lives. Part of ``Fit``."""
+
+    @_described
+    def survival_function(self, times, given=None):
+        """Probability that an item outlasts given lives.
+
+        Parameters
+        ----------
+        times : float, str or sequence
+            Lives; plain numbers in the unit of the column of lives.
+        <given>
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each condition and life, indexed by them. Columns: quantiles ``q05``, ``q50``, ``q95`` of the share of
+            all items that survives, and ``predictive``, the probability that the next item does.
+
+        Raises
+        ------
+        InputError
+            If the study is not of lives, or a condition is unknown or missing.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fit = ww.life(pumps, "hours", event="failed", method="exact", draws=100, report=False)
+        >>> fit.survival_function([200, 500]).round(2)
+                q05   q50   q95  predictive
+        hours
+        200    0.68  0.87  0.96        0.85
+        500    0.27  0.48  0.70        0.48
+        """
+        from ._lives_of import survival_function
+
+        return survival_function(self, times, given)
+
+    @_described
+    def hazard(self, times, given=None):
+        """Failure rate of those that have reached given lives.
+
+        Parameters
+        ----------
+        times : float, str or sequence
+            Lives; plain numbers in the unit of the column of lives.
+        <given>
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each condition and life, indexed by them, with the quantiles ``q05``, ``q50`` and ``q95`` of the rate;
+            ``attrs["unit"]`` is its unit.
+
+        Raises
+        ------
+        InputError
+            If the study is not of lives, or a condition is unknown or missing.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fit = ww.life(pumps, "hours", event="failed", method="exact", draws=100, report=False)
+        >>> fit.hazard([200, 500])["q50"].is_monotonic_increasing
+        True
+        """
+        from ._lives_of import hazard
+
+        return hazard(self, times, given)
+
+    @_described
+    def percentile(self, p, given=None, confidence=0.9):
+        """Lives by which p percent have failed: B-lives.
+
+        Parameters
+        ----------
+        p : float, str or sequence
+            Percentages that have failed, from 1 to below 100: 10 for B10. Below 1 write "0.1 %".
+        <given>
+        confidence : float
+            Probability with which ``bound`` is exceeded.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each condition and percentage, indexed by them. Columns: quantiles ``q05``, ``q50``, ``q95`` of the
+            B-life of all items, ``predictive`` (that of the next item) and ``bound``; ``attrs["unit"]`` is their unit.
+
+        Raises
+        ------
+        InputError
+            If the study is not of lives, a condition is unknown or missing, or ``p`` may be a fraction.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fit = ww.life(pumps, "hours", event="failed", method="exact", draws=100, report=False)
+        >>> fit.percentile([10, 50])["q50"].round(-1).tolist()
+        [170.0, 480.0]
+        """
+        from ._lives_of import percentile
+
+        return percentile(self, p, given, confidence)
+
+    @_described
+    def conditional(self, survived, b=(1, 10, 50), given=None, confidence=0.9):
+        """Remaining useful life of items that have reached a life.
+
+        Parameters
+        ----------
+        survived : float, str or pint quantity
+            The life that they have reached; a plain number in the unit of the column of lives.
+        b : float or sequence of float
+            Percentages of B-lives, counted from there.
+        <given>
+        confidence : float
+            Probability with which ``bound`` is exceeded.
+
+        Returns
+        -------
+        pandas.DataFrame
+            For each condition a row for the probability of survival to ``survived`` (in percent), the mean remaining useful
+            life and each B-life of it, with ``unit``, quantiles ``q05``, ``q50``, ``q95``, ``predictive`` and ``bound``.
+
+        Raises
+        ------
+        InputError
+            If the study is not of lives, a condition is unknown or missing, or fewer than 0.1 % survive.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fit = ww.life(pumps, "hours", event="failed", method="exact", draws=100, report=False)
+        >>> list(fit.conditional(300, b=10).index)
+        ['survival to 300', 'mean remaining useful life', 'B10 remaining useful life']
+        """
+        from ._lives_of import conditional
+
+        return conditional(self, survived, b, given, confidence)
+
+    def compare(self, *others, names=None):
+        """Rank this fit and others of the same data, as ``wearwell.compare``.
+
+        Parameters
+        ----------
+        *others : Fit, str or path
+            Other fits, or folders of results.
+        names : sequence of str, optional
+            Names of all fits, this one first.
+
+        Returns
+        -------
+        Comparison
+            Criteria, their differences with standard errors, weights, and parameters.
+
+        Raises
+        ------
+        InputError
+            If there is no other fit, another number of names, or a folder holds no result.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fits = [ww.life(pumps, "hours", event="failed", family=each, method="exact", draws=100, report=False)
+        ...         for each in ("weibull", "lognormal")]
+        >>> sorted(each["study"] for each in fits[0].compare(fits[1], names=["weibull", "lognormal"]).summary["studies"])
+        ['lognormal', 'weibull']
+        """
+        from ._tools import compare
+
+        return compare(self, *others, names=names)

@@ -1,0 +1,36 @@
+"""What all functions that fit a table share: the options of the fit, and what they return and raise."""
+
+_options = """    seed : int, optional
+        Seed of the random numbers; default 1. One seed gives the same numbers to the bit.
+    method : {"nuts", "exact", "metropolis"}, optional
+        How draws are made: the No-U-Turn sampler (default), independently by quadrature (up to 4 parameters), or Metropolis.
+    chains, warmup, draws : int, optional
+        Chains, iterations of each that are discarded, and draws kept of each; default 4, 1000 and 1000.
+    threads : int
+        Threads, 0 for all. No number depends on it.
+    report : bool
+        Whether to compute what ``Fit.plot`` and ``Fit.report`` show too.
+    progress : bool or callable, optional
+        True for a bar, or a function of (what, done, total, seconds)."""
+
+_ends = """    Returns
+    -------
+    Fit
+        The fit. ``fit.study.toml`` is the study as a file, with every prior; ask ``fit.trusted`` before you use a number.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, can be read in two ways or lacks its unit, or a cell is wrong; the message names argument, or
+        row and column.
+
+    Warns
+    -----
+    CheckWarning
+        For each check that warns or fails."""
+
+
+def fits(function):
+    """Puts the common parts into the docstring."""
+    function.__doc__ = function.__doc__.replace("    <options of the fit>", _options).replace("    <what it returns>", _ends)
+    return function

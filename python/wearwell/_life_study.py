@@ -1,0 +1,231 @@
+"""Lives in one line: a distribution, groups, and stresses that shorten a life."""
+
+from . import _toml
+from ._columns import Columns, status_of
+from ._errors import InputError
+from ._fit_options import fits
+from ._proposed import Priors, factor_27, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
+from ._study import Study
+
+_slope = ("slope", {"distribution": "lognormal", "median": 1.5, "log_sd": 0.7}, "below 1 early failures, 1 random failures, above wear-out")
+_of_spread = "life scatters as under the default of weibull"
+
+
+def _spread_of(name, scale=spread, log_sd=spread_log_sd):
+    return name, {"distribution": "lognormal", "median": round(scale, 2), "log_sd": log_sd}, _of_spread
+
+
+# Of a family: the name of what the formula gives, its parameters in [likelihood] of that name, and the parameters of its shape.
+# Their defaults have the same spread of ln life: its standard deviation is 1.81/shape of a log-logistic and about
+# 1/sqrt(shape) of a gamma life.
+_families = {
+    "weibull": ("characteristic", {"scale": "{}", "shape": "slope"}, [_slope]),
+    "exponential": ("mean_life", {"mean": "{}"}, []),
+    "lognormal": ("median_life", {"median": "{}", "log_sd": "sigma"}, [_spread_of("sigma")]),
+    "loglogistic": ("median_life", {"scale": "{}", "shape": "shape"}, [_spread_of("shape", 1.8138 / spread)]),
+    "gamma": ("mean_life", {"scale": "{}/shape", "shape": "shape"}, [_spread_of("shape", 1.8, 1.2)]),
+    "inverse-gaussian": ("mean_life", {"mean": "{}", "shape": "{}/variation^2"}, [_spread_of("variation")]),
+    "birnbaum-saunders": ("median_life", {"scale": "{}", "shape": "alpha"}, [_spread_of("alpha")]),
+}
+_harsh = "the harshest tested"
+_stresses = ("arrhenius", "eyring", "inverse power")
+
+
+def _stress(columns, heading, model, laws):
+    """(factor of the life, constants, parameter of the stress, its default and why)"""
+    name = columns.name(heading)
+    values = columns.numbers(heading)
+    unit = columns.unit(heading)
+    if len(values) == 0 or values.min() == values.max():
+        raise InputError(f"stress: column '{heading}' has one value in all rows; what does not differ says nothing of a stress: leave it out")
+    if model == "inverse power":
+        if values.min() <= 0:
+            raise InputError(f"stress: column '{heading}' has the value {values.min():g}; an inverse power needs values above 0")
+        return (f" * ({name}/{name}_ref)^-{name}_power", {f"{name}_ref": quantity_text(values.max(), unit)}, f"{name}_power",
+                normal(5.0, 5.0), "exponent; a higher one shortens the life more")
+    if not unit:
+        raise InputError(f"stress: {model} needs a temperature, and column '{heading}' ({values.min():g} to {values.max():g}) has no unit: "
+                         f"units={{'{heading}': 'degC'}} if these are degrees Celsius, units={{'{heading}': 'K'}} if they are kelvin")
+    energy = "energy" if "energy" not in laws else f"{name}_energy"
+    before = f" * {name}_ref/{name}" if model == "eyring" else ""
+    return (f"{before} * exp({energy}/boltzmann * (1/{name} - 1/{name}_ref))",
+            {"boltzmann": "8.617333262e-5 eV/K", f"{name}_ref": quantity_text(values.max(), unit)}, energy,
+            normal(0.7, 0.3, "eV"), "activation energy of aging processes")
+
+
+def _conditions(columns, by, stress, given):
+    """[predict] given: what the caller states, else the first group and the mildest stresses."""
+    given = {columns.heading(key, "given"): value for key, value in (given or {}).items()}
+    conditions = {}
+    for heading in ([by] if by else []) + list(stress):
+        value = given.pop(heading, None)
+        if heading == by:
+            levels = columns.levels(by)
+            value = levels[0] if value is None else str(value)
+            if value not in levels:
+                raise InputError(f"given: column '{by}' has no '{value}' ({', '.join(levels[:10])})")
+        else:
+            unit = columns.unit(heading)
+            if value is None:
+                value = quantity_text(columns.numbers(heading).min(), unit)
+            elif not isinstance(value, str) and not hasattr(value, "magnitude"):
+                value = quantity_text(value, unit)
+        conditions[columns.name(heading)] = _toml.quantity(value, f"given.{heading}")
+    if given:
+        raise InputError(f"given: '{next(iter(given))}' is no condition of the life; by and stress name those")
+    return conditions
+
+
+def _lives(columns, life):
+    """(what [data.columns] says, name of the life, largest and middle value, unit)"""
+    if isinstance(life, str):
+        heading = columns.take(life, "life")
+        values = sorted(columns.numbers(heading))
+        return {columns.name(heading): columns.entry(heading)}, columns.name(heading), values, columns.unit(heading)
+    if not isinstance(life, (tuple, list)) or len(life) != 2:
+        raise InputError(f"life is {life!r}; it is the heading of a column, or the two of an interval: ('last_ok', 'first_failed')")
+    lower, upper = (columns.take(each, "life") for each in life)
+    units = columns.unit(lower), columns.unit(upper)
+    if units[0] != units[1]:
+        raise InputError(f"life: column '{lower}' is in {units[0] or 'plain numbers'} and '{upper}' in {units[1] or 'plain numbers'}; "
+                         "both ends need the same unit")
+    ends = sorted([*columns.numbers(lower), *columns.numbers(upper)])
+    return {"lower": columns.entry(lower), "upper": columns.entry(upper)}, "life", ends, units[0]
+
+
+@fits
+def life(data, life, *, event=None, entry=None, count=None, family="weibull", by=None, shape="shared", stress=None, given=None,
+         units=None, priors=None, b=(1, 10, 50), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None,
+         chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
+    """Fit a distribution of life to a table: censored, truncated, by group, under stress.
+
+    Parameters
+    ----------
+    data : table
+        A row for each item, or for ``count`` equal ones: whatever ``wearwell.table`` takes.
+    life : str or (str, str)
+        Column of the life, failed or not; or the two columns of an interval in which it ended (an empty upper end: it still
+        runs, an empty lower end: it failed before the upper end).
+    event : str or dict, optional
+        Column that says how each life ended: True or 1 where it failed, False or 0 where it still ran; or words, such as
+        "failed", "censored", "suspended", "runout", "left", "interval". A dict says what codes and words mean:
+        ``{"column": "censored", "failure": 0}``. Without it all lives ended with a failure.
+    entry : str, optional
+        Column of the age at which observation began (left truncation).
+    count : str, optional
+        Column of the number of equal items in a row.
+    family : {"weibull", "exponential", "lognormal", "loglogistic", "gamma", "inverse-gaussian", "birnbaum-saunders"}
+        Distribution of the lives.
+    by : str, optional
+        Column of groups, such as suppliers. Each group has its own scale.
+    shape : {"shared", "separate"}
+        Whether all groups have one shape (default), or each has its own.
+    stress : dict of str to str, optional
+        By column "arrhenius" or "eyring" (temperatures, whose unit must be stated) or "inverse power" (voltage, load,
+        humidity): how a life shortens. Groups share the effect of a stress.
+    given : dict, optional
+        Conditions of the lives that are predicted; plain numbers in the unit of their column. By default the first group and
+        the mildest stresses of the table.
+    units : dict, optional
+        Unit of columns: ``{"hours": "h", "T": "degC"}``. A heading may have it: "T [degC]". A life without one is a number.
+    priors : dict of str to dict, or "flat", optional
+        Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
+        posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak. Scale (``characteristic``, ``median_life`` or
+        ``mean_life``; ``life_ref``, at the harshest stresses, where there is a stress): lognormal, log_sd 2, median the
+        largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. ``slope`` of weibull:
+        lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.
+        ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5.
+    b : float or sequence of float
+        Percentages of B-lives.
+    confidence : float
+        Probability with which their lower bounds are exceeded.
+    predict : dict, optional
+        Further keys of ``[predict]`` of a formula study, such as ``{"survival_to": "1000 h"}``.
+    unused : str or sequence of str, optional
+        Columns that look like an event and are none.
+    title : str, optional
+        Title of the study.
+    <options of the fit>
+
+    <what it returns>
+
+    Examples
+    --------
+    Two suppliers; what still ran counts as such:
+
+    >>> import wearwell as ww
+    >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 210, 260, 330, 420, 700],
+    ...          "failed": [True, True, True, True, False, False, True, True, True, True, True, False],
+    ...          "supplier": ["A"] * 6 + ["B"] * 6}
+    >>> fit = ww.life(pumps, "hours", event="failed", by="supplier", units={"hours": "h"}, method="exact", report=False)
+    >>> fit.parameters[["unit", "q50"]].round(1)
+                      unit    q50
+    name
+    characteristic[A]    h  765.4
+    characteristic[B]    h  448.8
+    slope                1    1.7
+
+    An Arrhenius test; lives at the temperature of use are those of a new device:
+
+    >>> ovens = {"T": [150] * 4 + [175] * 4 + [200] * 4, "hours": [3200, 4100, 5000, 5000, 1100, 1500, 1900, 2600, 410, 560, 700, 880],
+    ...          "status": ["failed"] * 2 + ["censored"] * 2 + ["failed"] * 8}
+    >>> fit = ww.life(ovens, "hours", event="status", family="exponential", stress={"T": "arrhenius"}, given={"T": 100},
+    ...               units={"T": "degC", "hours": "h"}, method="exact", report=False)
+    >>> fit.parameters.loc["energy", ["unit", "mean"]].tolist()
+    ['eV', 0.7900...]
+    """
+    if family not in _families:
+        raise InputError(f"family is {family!r}; it is {', '.join(_families)}. wearwell.Study has further ones, with priors that you state")
+    if shape not in ("shared", "separate"):
+        raise InputError(f"shape is {shape!r}; it is 'shared', one for all groups, or 'separate'")
+    if shape == "separate" and by is None:
+        raise InputError("shape='separate' needs by: the column of the groups that differ")
+    scale, slots, shapes = _families[family]
+    names = {"life", "life_ref", "energy", scale, *(each[0] for each in shapes)}
+    columns = Columns(data, units, names - {"life"})
+    rows, measured, values, unit = _lives(columns, life)
+    if not len(values) or values[-1] <= 0:
+        raise InputError(f"life: {life!r} has no value above 0")
+    if event is not None:
+        rows["status"] = status_of(columns, event)
+    for key, column in (("entry", entry), ("count", count)):
+        if column is not None:
+            rows[key] = columns.entry(columns.take(column, key))
+    if by is not None:
+        by = columns.take(by, "by")
+        rows[columns.name(by)] = by
+    stress = {columns.take(key, "stress"): model for key, model in (stress or {}).items()}
+    known = Priors(priors)
+    base = "life_ref" if stress else scale
+    size, why = (values[len(values) // 2], f"{factor_27} of the middle life") if stress else (values[-1], f"{factor_27} of the largest life")
+    known.add(base, lognormal(rounded_up(size), unit, 2), f"{why}, rounded up")
+    index = f"[{columns.name(by)}]" if by else ""
+    formula, constants = base + index, {}
+    for heading, model in stress.items():
+        if model not in _stresses:
+            raise InputError(f"stress: {heading} is {model!r}; it is {', '.join(_stresses)}")
+        rows[columns.name(heading)] = columns.entry(heading)
+        factor, refs, parameter, default, reason = _stress(columns, heading, model, known.laws)
+        formula, constants = formula + factor, {**constants, **refs}
+        known.add(parameter, default, reason)
+    own = index if shape == "separate" else ""
+    for name, default, reason in shapes:
+        known.add(name, default, reason)
+        slots = {slot: text.replace(name, name + own) for slot, text in slots.items()}
+    known.require_used()
+    unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
+    asked = {**({"given": conditions} if (conditions := _conditions(columns, by, stress, given)) else {}),
+             "b_lives": list(b) if hasattr(b, "__iter__") else [b], "credible_level": confidence, **(predict or {})}
+    place = scale if stress else formula
+    parts = [_toml.table("", {"title": title or f"Life: {life if isinstance(life, str) else ' to '.join(life)}", "model": "formula"}),
+             _toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}), _toml.table("data.columns", rows)]
+    if stress:
+        parts += [_toml.table("constants", constants, {key: _harsh for key in constants if key != "boltzmann"}),
+                  _toml.table("formula", {scale: formula})]
+    parts += [_toml.table(f"likelihood.{measured}", {"family": family, **{slot: text.replace("{}", place) for slot, text in slots.items()}}),
+              _toml.table("prior", known.laws, known.comments), _toml.table("predict", asked)]
+    table, only = columns.table(unused)
+    study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
+        "data.columns.status": "event", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
+        "predict.given": "given"})
+    return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)
