@@ -165,7 +165,7 @@ legend_of_figure <- function(drawing) {
 }
 
 draw_figure <- function(drawing) {
-  logs <- paste0(if (drawing$x$log) "x", if (drawing$y$log) "y")
+  logs <- paste0(if (drawing$x$log) "x" else "", if (drawing$y$log) "y" else "")
   graphics::plot.default(NA, xlim = range_of(drawing$x, drawing$layers, "x"), ylim = range_of(drawing$y, drawing$layers, "y"), log = logs,
                          xlab = drawing$x$title, ylab = drawing$y$title, axes = FALSE, main = drawing$title, cex.main = 1)
   for (layer in drawing$layers) draw_layer(layer)
@@ -287,5 +287,5 @@ gg_figure <- function(drawing, verdict) {
   }
   plot + scale(drawing$x, "x") + scale(drawing$y, "y") +
     gg$coord_cartesian(xlim = range_of(drawing$x, drawing$layers, "x"), ylim = range_of(drawing$y, drawing$layers, "y")) +
-    gg$labs(title = drawing$title, subtitle = verdict, caption = drawing$caption) + gg$theme_minimal()
+    gg$labs(title = drawing$title, subtitle = verdict, caption = paste(strwrap(drawing$caption, 90), collapse = "\n")) + gg$theme_minimal()
 }

@@ -100,7 +100,7 @@ test_that("the report's figures are drawn from their specifications", {
   expect_true(paper$x$log)
   expect_true("50" %in% sub("[^0-9.].*", "", paper$y$labels))
   belief <- wearwell:::drawing_of(wearwell:::figures_of(fit)[["belief-eta"]])
-  expect_true("prior" %in% unlist(lapply(belief$layers, `[[`, "label")))
+  expect_true("before the data (prior)" %in% unlist(lapply(belief$layers, `[[`, "label")))
   refused(plot(fit, "curve"), "this fit has no figure of the kind 'curve'; it has")
   refused(plot(fit, "lives"), "it is one of life, probability, curve, posterior, residuals, or a figure of this fit")
   refused(plot(fit, "life", which = "eta"), "goes with kind = \"posterior\"")
