@@ -6,7 +6,7 @@ test_that("degradation is a formula study with a rate of each unit", {
   units <- c(depth = "um", km = "km")
   keys <- function(study) wearwell:::core(wearwell:::C_keys, study$text)
   fit <- ww_degradation(depth ~ km | machine, wear, units = units, fit = FALSE)
-  own <- ww_study(formula = "depth = rate*km", data = wear, units = units, unit = "machine", random_effects = "rate",
+  own <- ww_study(formula = "depth = rate * km", data = wear, units = units, unit = "machine", random_effects = "rate",
                   priors = list(rate = ww_lognormal("2 um/km", log_sd = 2), sigma = ww_half_normal("50 um"), rate_scatter = ww_half_normal(1)))
   expect_identical(keys(fit)[c("prior", "random_effects")], keys(own)[c("prior", "random_effects")])
   expect_identical(keys(fit)$formula$path, keys(own)$likelihood$depth$mean)
