@@ -13,7 +13,7 @@ ww_fit <- function(study, data = NULL, units = NULL, seed = NULL, method = NULL,
   report <- one_truth(report, "report")
   study <- as_study(study, data, units)
   run <- with_progress(progress, function(report_progress) run_of(study, choice, threads, report, report_progress))
-  fit_of(study, run, choice, report)
+  with_call(fit_of(study, run, choice, report), match.call())
 }
 
 one_truth <- function(x, what) {
@@ -152,10 +152,11 @@ of_posterior <- c("parameters", "predictions", "quantities", "lives", "draws", "
   if (name == "life") name <- "lives"
   if (name %in% names(fields)) return(fields[[name]])
   if (name == "tables") return(tables_of(x))
+  if (name == "toml") return(fields$study$text)
   if (name %in% of_posterior) {
     stop_input("a study of the model ", fields$summary$model, " has no ", name, "; fit$summary and fit$tables hold what it found")
   }
-  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live")), "tables")), ")")
+  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live")), "tables", "toml")), ")")
 }
 
 # The run; of a fit that was kept beyond its session it is done again, to the bit.

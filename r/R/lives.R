@@ -76,7 +76,10 @@ asked_of_preset <- function(study, limit, unit, survived, along) {
   question
 }
 
-ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NULL, survived = NULL, along = NULL, given = NULL) {
+ww_life.ww_fit <- function(x, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NULL, survived = NULL, along = NULL, given = NULL,
+                           ...) {
+  if (...length()) stop_input("ww_life(fit, ...) has no argument '", c(names(list(...)), "")[1], "'")
+  fit <- x
   study <- keys_of(fit, c("formula", names(kept_of)))
   require_levels(b, confidence)
   b <- unique(as.double(b))

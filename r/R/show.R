@@ -16,7 +16,20 @@ cat_verdict <- function(fit) {
 print.ww_fit <- function(x, ...) {
   cat_verdict(x)
   cat("\n", x$text, sep = "")
+  cat_proposed(x)
   invisible(x)
+}
+
+# What a one-line model chose by itself.
+cat_proposed <- function(x) {
+  study <- x$study
+  own <- if (is_posterior(x$summary)) rownames(x$parameters)[rownames(x$parameters) %in% study$proposed | x$parameters$default_prior]
+  if (is.null(study$proposed)) return(invisible())
+  if (length(own)) {
+    cat("\nDefault priors, weak ones from the size of the data; priors = list(...) states what you know\n")
+    cat(paste0("  ", format(own), "  ", x$parameters[own, "prior"], "\n"), sep = "")
+  }
+  for (note in study$notes) cat(strwrap(note, exdent = 2), sep = "\n")
 }
 
 summary.ww_fit <- function(object, ...) {
@@ -42,7 +55,8 @@ print.summary.ww_fit <- function(x, digits = 4, ...) {
   invisible(x)
 }
 
-plot.ww_fit <- function(x, which = NULL, breaks = 40, ...) {
+# Histograms of draws, where there is no report.
+plot_draws <- function(x, which, breaks, ...) {
   draws <- x$draws
   known <- dimnames(draws)$variable
   if (is.null(which)) which <- head(known, 9)
@@ -59,8 +73,7 @@ plot.ww_fit <- function(x, which = NULL, breaks = 40, ...) {
     abline(v = c(row$q05, row$q95), lty = 2)
     abline(v = row$mean)
   }
-  colour <- if (!x$trusted) "#cf222e" else if (any(x$checks$verdict == "warn")) "#9a6700" else "#1a7f37"
-  mtext(verdict_of(x), outer = TRUE, line = 1.4, col = colour, font = 2)
+  mtext(verdict_of(x), outer = TRUE, line = 1.4, col = verdict_colour(x), font = 2)
   mtext(x$summary$title, outer = TRUE, line = 0.2, cex = 0.8)
   invisible(x)
 }

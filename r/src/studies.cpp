@@ -4,6 +4,7 @@
 #include "core.h"
 #include "look.h"
 #include "wearwell/base/staged_file.h"
+#include "wearwell/embed/residuals.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/json.h"
 #include "wearwell/study/result_writer.h"
@@ -189,6 +190,19 @@ SEXP asked(SEXP run, SEXP other, double level) {
   return list_of(embed::asked(held<Run>(run), held<ReadStudy>(other), level));
 }
 
+SEXP residuals_of(SEXP run) {
+  const embed::Residuals found = embed::residuals(held<Run>(run));
+  return Rcpp::List::create(
+      Rcpp::Named("score") = Rcpp::NumericVector(found.score.begin(), found.score.end()),
+      Rcpp::Named("censored") = Rcpp::IntegerVector(found.censored.begin(), found.censored.end()),
+      Rcpp::Named("noun") = found.noun);
+}
+
+// A text in JSON, as lists.
+SEXP from_json(const std::string& text) {
+  return list_of(nlohmann::ordered_json::parse(text));
+}
+
 SEXP compared(const Rcpp::CharacterVector& folders) {
   const embed::Compared found = embed::compared(pairs_of(folders));
   return named_list({{"summary", Rcpp::Shield<SEXP>(list_of(found.json))},
@@ -204,15 +218,27 @@ SEXP is_there(SEXP object) {
 }  // namespace
 
 void add_studies(Doors& doors) {
-  doors.insert(
-      doors.end(),
-      {door<&read_file>("read_file"), door<&read_text>("read_text"),
-       door<&study_text>("study_text"), door<&description>("description"), door<&keys>("keys"),
-       door<&written>("written"), door<&run>("run"), door<&summary>("summary"),
-       door<&terminal>("terminal"), door<&draws_of>("draws"), door<&sample_stats>("sample_stats"),
-       door<&files_of>("files"), door<&page_of>("page_of"), door<&write_folder>("write_folder"),
-       door<&write_page>("write_page"), door<&write_netcdf>("write_netcdf"), door<&asked>("asked"),
-       door<&compared>("compared"), door<&is_there>("is_there")});
+  doors.insert(doors.end(), {door<&read_file>("read_file"),
+                             door<&read_text>("read_text"),
+                             door<&study_text>("study_text"),
+                             door<&description>("description"),
+                             door<&keys>("keys"),
+                             door<&written>("written"),
+                             door<&run>("run"),
+                             door<&summary>("summary"),
+                             door<&terminal>("terminal"),
+                             door<&draws_of>("draws"),
+                             door<&sample_stats>("sample_stats"),
+                             door<&files_of>("files"),
+                             door<&page_of>("page_of"),
+                             door<&write_folder>("write_folder"),
+                             door<&write_page>("write_page"),
+                             door<&write_netcdf>("write_netcdf"),
+                             door<&asked>("asked"),
+                             door<&compared>("compared"),
+                             door<&is_there>("is_there"),
+                             door<&residuals_of>("residuals"),
+                             door<&from_json>("from_json")});
 }
 
 }  // namespace wearwell::r

@@ -1,0 +1,137 @@
+# Degradation in one line: repeated readings of units along an axis.
+
+degradation_families <- c("normal", "lognormal", "wiener-process", "gamma-process", "inverse-gaussian-process")
+degradation_paths <- c("line", "power")
+
+# y ~ x | unit, or y ~ x + load | unit: the axis first, then conditions of the rate.
+degradation_sides <- function(x, unit) {
+  if (length(x) != 3) stop_input("the formula has no left side: wear ~ km | machine")
+  right <- x[[3]]
+  if (has_bar(right)) {
+    if (!is.null(unit)) stop_input("unit stands in the formula already, behind the bar: leave one out")
+    if (!is.symbol(right[[3]])) stop_input("the formula: ", shown_value(right[[3]]), " is no column; wear ~ km | machine names that of the units")
+    unit <- as.character(right[[3]])
+    right <- right[[2]]
+  }
+  split <- split_terms(right)
+  if (length(split$random)) {
+    stop_input("the formula: (", shown_value(split$random[[1]]), "): the rate differs from unit to unit; write wear ~ km | machine")
+  }
+  sum <- summands(split$fixed)
+  if (!is.symbol(sum[[1]])) stop_input("the formula: the axis comes first on its right side, and ", shown_value(sum[[1]]), " is no column")
+  rest <- if (length(sum) > 1) Reduce(function(a, b) call("+", a, b), sum[-1]) else 1
+  list(axis = as.character(sum[[1]]), fixed = rest, unit = unit)
+}
+
+ww_degradation <- function(x, ...) UseMethod("ww_degradation")
+
+ww_degradation.default <- function(x, ...) {
+  stop_input("ww_degradation() takes a formula, like wear ~ km | machine, or a data frame with y, x and unit; not ", kind_of(x))
+}
+
+ww_degradation.data.frame <- function(x, y, along, unit = NULL, ...) {
+  call <- match.call()
+  call[[1]] <- quote(ww_degradation)
+  columns <- frame_columns(x, list(...)$units)
+  for (name in c(y = one_text(y, "y"), along = one_text(along, "along"))) find_column(columns, name, "data")
+  formula <- stats::as.formula(call("~", as.name(y), as.name(along)), env = parent.frame())
+  with_call(ww_degradation.formula(formula, data = x, unit = unit, ...), call)
+}
+
+ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "normal", path = "line", start = FALSE, unit = NULL, priors = NULL,
+                                   units = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+  call <- match.call()
+  call[[1]] <- quote(ww_degradation)
+  require_options("ww_degradation", ..., own = c("data", "limit", "family", "path", "start", "unit", "priors", "units", "given", "predict", "title",
+                                                 "unused", "fit"))
+  if (!is_path(family) || !family %in% degradation_families) stop_input("family is ", shown_value(family), "; it is one of ", words(degradation_families))
+  if (!is_path(path) || !path %in% degradation_paths) stop_input("path is ", shown_value(path), "; it is one of ", words(degradation_paths))
+  process <- endsWith(family, "process")
+  start <- one_truth(start, "start")
+  if (start && (process || family == "lognormal")) stop_input("start = TRUE needs family = \"normal\": paths of the family ", family, " begin at 0")
+  if (is.null(data)) data <- data_of_formula(x)
+  columns <- frame_columns(data, units)
+  sides <- degradation_sides(x, unit)
+  measured <- evaluated(x[[2]], columns, environment(x), "the formula's left side")
+  if (!is.symbol(x[[2]])) measured$name <- "wear"
+  readings <- numbers_for(measured, "the formula's left side")
+  axis <- find_column(columns, sides$axis, "the formula")
+  along <- numbers_for(list(values = plain_values(axis), heading = axis$heading), "the formula")
+  if (!length(readings)) stop_input("data has no rows")
+  effects <- effects_of(sides$fixed, columns, list(), "the formula")
+  y <- language_name(measured$name)
+  s <- language_name(sides$axis, y)
+  study <- stats::setNames(list(study_column(readings, measured$unit), study_column(along, axis$unit)), c(y, s))
+  for (condition in effects$conditions) study[[condition$name]] <- study_column(condition$values, condition$unit)
+  label <- NULL
+  if (!is.null(sides$unit)) {
+    of_unit <- find_column(columns, sides$unit, "unit")
+    label <- language_name(sides$unit, names(study))
+    values <- column_values(plain_values(of_unit), paste0("data, column '", of_unit$heading, "'"))
+    row <- which(is.na(values))
+    if (length(row)) stop_input("data, row ", row[1], ", column '", of_unit$heading, "': a value is missing")
+    study[[label]] <- study_column(if (is.double(values)) number_text(values) else values, "")
+  }
+  look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "")
+  middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
+  proposed <- degradation_priors(readings, along, measured$unit, axis$unit, path, start, family, !is.null(label), effects)
+  likelihood <- switch(family,
+    normal = list(family = family, mean = middle, sd = "sigma"),
+    lognormal = list(family = family, median = middle, log_sd = "sigma"),
+    list(family = family, mean = middle, scale = "scale"))
+  entries <- if (!is.null(label) && !process) {
+    stats::setNames(list(c(list(rate = list(distribution = "lognormal", log_sd = "rate_scatter")),
+                           if (start) list(start = list(distribution = "normal", sd = "start_scatter")))), label)
+  }
+  given <- lives_given(given, effects$conditions, NULL)
+  of <- if (process) y else "path"
+  questions <- c(list(along = s, at = list(quantity_text(2 * max(abs(along)), axis$unit))), if (length(given)) list(given = given),
+                 if (!is.null(limit)) list(limit = stats::setNames(list(quantity(limit, "limit")), of), b_lives = c(1, 10), credible_level = 0.9))
+  if (!process) likelihood[[2]] <- "path"
+  text <- study_text(title = if (is.null(title)) paste(measured$name, "along", sides$axis) else one_text(title, "title"), columns = study,
+                     constants = effects$constants[vapply(names(effects$constants), function(name) grepl(name, middle, fixed = TRUE), NA)],
+                     likelihood = stats::setNames(list(likelihood), y), priors = proposed, own_priors = priors,
+                     random = list(entries = entries, labels = label), predict = predict_of(predict, questions),
+                     formula = if (!process) list(path = middle))
+  notes <- c(reference_notes(effects$conditions, "rate", NULL, NULL),
+             if (is.null(limit)) "no limit is given: wear is fitted, and no life is predicted; limit = \"100 um\" gives lives",
+             if (process && !is.null(label)) paste0("one rate for all: the increments of each ", sides$unit, " are random, its rate is not"))
+  one_line(text$text, study, text$proposed, notes, fit, call, ...)
+}
+
+path_of_degradation <- function(path, start, axis, unit, along, effects) {
+  rate <- if (length(effects$terms)) paste0("rate * exp(", paste(effects$terms, collapse = " + "), ")") else "rate"
+  if (path == "power") {
+    if (any(along < 0)) stop_input("path = \"power\" needs an axis from 0 on, and data, row ", which(along < 0)[1], " is at ", along[along < 0][1])
+    one <- if (unit == "") number_text(rounded_up(max(along))) else paste0(number_text(rounded_up(max(along))), " [", unit, "]")
+    grown <- paste0(rate, " * ", one, " * (", axis, "/", if (unit == "") one else paste0("(", one, ")"), ")^exponent")
+  } else {
+    grown <- paste0(rate, " * ", axis)
+  }
+  if (start) paste0("start + ", grown) else grown
+}
+
+# As `wearwell new` proposes them: from the size of the data.
+degradation_priors <- function(y, x, y_unit, x_unit, path, start, family, differs, effects) {
+  if (anyNA(y) || anyNA(x)) stop_input("data, row ", which(is.na(y) | is.na(x))[1], ": a value is missing; the formula uses it")
+  wrong <- which(!is.finite(y) | !is.finite(x))
+  if (length(wrong)) stop_input("data, row ", wrong[1], ": ", c(y[wrong[1]], x[wrong[1]])[!is.finite(c(y[wrong[1]], x[wrong[1]]))], " is not a finite number")
+  slope <- if (start) stats::cov(x, y) / stats::var(x) else sum(x * y) / sum(x * x)
+  if (!isTRUE(slope > 0)) {
+    stop_input("the readings do not rise along the axis (slope ", signif(slope, 3), "): give the loss, like initial - reading, so that wear grows")
+  }
+  size <- rounded_up(max(abs(y)))
+  unit <- if (y_unit == "" && x_unit == "") "" else if (x_unit == "") y_unit else paste0(if (y_unit == "") "1" else y_unit, "/(", x_unit, ")")
+  if (grepl("^[A-Za-z%]+$", x_unit)) unit <- sub("\\((.*)\\)$", "\\1", unit)
+  all <- list(rate = ww_lognormal(quantity_text(rounded_up(slope), unit), log_sd = 2))
+  if (path == "power") all$exponent <- ww_lognormal(1, log_sd = 0.5)
+  if (start) {
+    all$start <- ww_normal(quantity_text(0, y_unit), quantity_text(size, y_unit))
+    if (differs) all$start_scatter <- ww_half_normal(quantity_text(size, y_unit))
+  }
+  if (family == "normal") all$sigma <- ww_half_normal(quantity_text(size, y_unit))
+  if (family == "lognormal") all$sigma <- ww_half_normal(1)
+  if (endsWith(family, "process")) all$scale <- ww_lognormal(quantity_text(rounded_up(max(abs(y)) / 100), y_unit), log_sd = 2)
+  if (differs && !endsWith(family, "process")) all$rate_scatter <- ww_half_normal(1)
+  c(all, effects$priors)
+}

@@ -1,0 +1,258 @@
+# Lives in one line: a formula model with the priors of `wearwell new`.
+
+# Of a family: its parameters, the location first, by the names of the study's parameters.
+life_families <- list(
+  weibull = c(scale = "eta", shape = "shape"),
+  lognormal = c(median = "median", log_sd = "sigma"),
+  loglogistic = c(scale = "median", shape = "shape"),
+  exponential = c(mean = "mean"),
+  gamma = c(scale = "scale", shape = "shape"),
+  `inverse-gaussian` = c(mean = "mean", shape = "shape"),
+  `birnbaum-saunders` = c(scale = "median", shape = "shape"),
+  `generalized-gamma` = c(scale = "scale", sigma = "sigma", lambda = "lambda"))
+
+# Weak priors from the size of the data.
+life_prior <- function(family, slot, largest, unit) {
+  if (slot == names(life_families[[family]])[1] || (family == "inverse-gaussian" && slot == "shape")) {
+    return(ww_lognormal(quantity_text(rounded_up(largest), unit), log_sd = 2))
+  }
+  switch(slot, shape = ww_lognormal(1.5, log_sd = 0.7), log_sd = , sigma = ww_half_normal(2), lambda = ww_normal(0, 1.5))
+}
+
+ww_life <- function(x, ...) UseMethod("ww_life")
+
+ww_life.default <- function(x, ...) {
+  stop_input("ww_life() takes a formula, like Surv(hours, event) ~ temperature, a data frame with the name of its life, or a fit; not ",
+             kind_of(x))
+}
+
+# The same of a frame and names of columns.
+ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, ...) {
+  columns <- frame_columns(x, list(...)$units)
+  name <- function(text, what) {
+    find_column(columns, one_text(text, what), what)
+    as.name(text)
+  }
+  life <- name(life, "life")
+  event <- if (!is.null(event)) name(event, "event")
+  side <- if (!is.null(entry)) {
+    if (is.null(event)) stop_input("entry needs event: the column that says how each life ended")
+    call("Surv", name(entry, "entry"), life, event)
+  } else if (!is.null(event)) call("Surv", life, event) else life
+  call <- match.call()
+  call[[1]] <- quote(ww_life)
+  fit <- ww_life.formula(stats::as.formula(call("~", side, 1), env = parent.frame()), data = x, ...)
+  with_call(fit, call)
+}
+
+ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
+                            given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+  call <- match.call()
+  call[[1]] <- quote(ww_life)
+  require_options("ww_life", ..., own = c("data", "family", "by", "stress", "priors", "units", "weights", "given", "predict", "title",
+                                          "unused", "fit"))
+  if (!is_path(family) || !family %in% names(life_families)) {
+    stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
+  }
+  if (length(x) != 3) stop_input("the formula has no left side: Surv(hours, event) ~ 1")
+  if (is.null(data)) data <- data_of_formula(x)
+  columns <- frame_columns(data, units)
+  if (!length(columns) || length(columns[[1]]$values) == 0) stop_input("data has no rows")
+  lives <- lives_of_side(x[[2]], columns, environment(x))
+  sides <- split_terms(without_dot(x[[3]], columns, lives$used))
+  stress <- stress_laws(stress)
+  effects <- effects_of(sides$fixed, columns, stress, "the formula")
+  parameters <- life_families[[family]]
+  location <- parameters[[1]]
+  random <- random_of(sides$random, location, effects, columns, "the formula")
+  if (!is.null(by) && length(random)) stop_input("by gives each level of ", words(by), " its own ", location, ", which then has no random effects: write ~ ",
+                                                 words(by), " + (1 | ...)")
+  study <- life_columns(lives, weights, columns)
+  for (condition in effects$conditions) study[[condition$name]] <- study_column(condition$values, condition$unit)
+  if (!is.null(by)) {
+    by <- condition_of(one_text(by, "by"), columns, names(study), "by")
+    study[[by$name]] <- study_column(if (by$label) by$values else number_text(by$values), "")
+    by$levels <- sort(unique(study[[by$name]]$values))
+  }
+  effect <- with_random(random, location, effects, columns, names(study), "the formula")
+  study <- c(study, effect$columns)
+  used <- c(lives$used, names(effects$conditions), by$source, unlist(lapply(random, `[[`, "label")), weights)
+  look_at_unused(columns, used, lives$known, unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
+  middle <- if (is.null(by)) location else paste0(location, "[", by$name, "]")
+  if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
+  likelihood <- c(list(family = family), stats::setNames(as.list(c(middle, parameters[-1])), names(parameters)))
+  largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
+  proposed <- stats::setNames(lapply(names(parameters), function(slot) life_prior(family, slot, largest, lives$unit)), parameters)
+  proposed <- c(proposed, effects$priors, effect$priors)
+  given <- lives_given(given, effects$conditions, by)
+  text <- study_text(
+    title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study, constants = effects$constants,
+    likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect,
+    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10), credible_level = 0.9))))
+  notes <- reference_notes(effects$conditions, location, parameters, by)
+  known <- simulator_of(family, parameters, lives, study, effects, effect, by)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., lives = known)
+}
+
+# What simulate() needs of the model.
+simulator_of <- function(family, parameters, lives, study, effects, random, by) {
+  rows <- length(study[[1]]$values)
+  labels <- lapply(names(random$entries), function(label) {
+    level <- as.integer(factor(random$columns[[label]]$values))
+    entries <- random$entries[[label]]
+    correlation <- entries$correlation
+    entries$correlation <- NULL
+    list(level = level, levels = max(level), correlation = correlation, entries = lapply(names(entries), function(name) {
+      list(scatter = if (is.null(entries[[name]]$log_sd)) entries[[name]]$sd else entries[[name]]$log_sd,
+           value = if (name == parameters[[1]]) 1 else effects$values[[name]])
+    }))
+  })
+  list(family = family, parameters = parameters, unit = lives$unit, rows = rows, by = if (!is.null(by)) study[[by$name]]$values,
+       effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
+       fixed = effects$fixed, random = labels, entry = study$entry$values)
+}
+
+lives_name <- function(lives, x) if (is_surv_call(x[[2]]) && lives$name == "life") words(all.vars(x[[2]])) else lives$name
+
+# ~ . is every column that the left side does not use.
+without_dot <- function(side, columns, used) {
+  if (!"." %in% all.vars(side)) return(side)
+  others <- setdiff(names(columns), used)
+  if (!length(others)) stop_input("the formula: '.' stands for the other columns, and data has none")
+  sum <- Reduce(function(a, b) call("+", a, b), lapply(others, as.name))
+  do.call(substitute, list(side, list(. = sum)))
+}
+
+life_columns <- function(lives, weights, columns) {
+  study <- lives$columns
+  for (name in c("life", "entry", "lower", "upper")) {
+    values <- study[[name]]$values
+    if (name %in% c("life", "entry") && anyNA(values)) stop_input("data, row ", which(is.na(values))[1], ": the ", name, " is missing")
+    if (any(is.infinite(values))) stop_input("data, row ", which(is.infinite(values))[1], ": the ", name, " is ", values[is.infinite(values)][1])
+    if (name == "life" && any(values <= 0)) {
+      stop_input("data, row ", which(values <= 0)[1], ": the life is ", number_text(values[values <= 0][1]), "; lives are above 0")
+    }
+  }
+  if (!is.null(weights)) {
+    each <- find_column(columns, one_text(weights, "weights"), "weights")
+    study$count <- study_column(numbers_for(each, "weights"), "")
+  }
+  study
+}
+
+# Conditions at which lives are predicted: the reference, and what the caller states.
+lives_given <- function(given, conditions, by) {
+  names <- c(vapply(conditions, `[[`, "", "source"), by$source)
+  unknown <- setdiff(names(given), names)
+  if (length(given) && is.null(names(given))) stop_input("given has no names; it is like list(temperature = \"50 degC\")")
+  if (length(unknown)) {
+    stop_input("given: ", unknown[1], " is no condition of the formula (", if (length(names)) paste0("conditions: ", words(names)) else "it has none", ")")
+  }
+  all <- list()
+  for (condition in c(unname(conditions), if (!is.null(by)) list(utils::modifyList(by, list(label = TRUE, reference = by$levels[1]))))) {
+    value <- given[[condition$source]]
+    if (is.null(value)) value <- condition$reference
+    if (condition$label && !as.character(value) %in% condition$levels) {
+      stop_input("given: ", condition$source, " has no level '", value, "' (levels: ", words(condition$levels), ")")
+    }
+    all[[condition$name]] <- if (condition$label) as.character(value) else in_unit(value, condition$unit)
+  }
+  all
+}
+
+reference_notes <- function(conditions, location, parameters, by) {
+  if (!length(conditions)) return(if (!is.null(by)) paste0(location, " of each ", by$source, "; lives of ", by$levels[1]))
+  at <- vapply(conditions, function(each) {
+    paste(each$source, "=", if (each$label) each$reference else trimws(paste(number_text(each$reference), each$unit)))
+  }, "")
+  paste0(location, " and the lives are those at ", words(at), " (given = list(...) states other conditions of the lives)")
+}
+
+# ---- What all one-line models share.
+
+# The options of ww_fit(); others are misspelt arguments.
+require_options <- function(name, ..., own) {
+  given <- names(list(...))
+  known <- setdiff(names(formals(ww_fit)), c("study", "data", "units"))
+  if (any(given == "") || (length(list(...)) && is.null(given))) stop_input(name, "(): arguments behind the second have names")
+  unknown <- setdiff(given, known)
+  if (!length(unknown)) return()
+  all <- c(own, known)
+  near <- all[order(utils::adist(unknown[1], all))[1]]
+  stop_input(name, "() has no argument '", unknown[1], "'", if (utils::adist(unknown[1], near) <= 3) paste0("; did you mean '", near, "'?"),
+             " (arguments: ", words(all), ")")
+}
+
+predict_of <- function(own, proposed) {
+  if (!is.null(own) && (!is.list(own) || is.null(names(own)))) stop_input("predict is ", kind_of(own), "; it is a list with the keys of [predict]")
+  for (key in names(own)) proposed[[key]] <- own[[key]]
+  proposed
+}
+
+checked_priors <- function(own, known) {
+  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(shape = ww_lognormal(2, log_sd = 0.5))")
+  for (name in names(own)) {
+    if (!is.list(own[[name]])) stop_input("priors: ", name, " is ", kind_of(own[[name]]), "; ww_lognormal(...) and its like make one")
+    if (!is.null(known) && !sub("[[].*", "", name) %in% known) {
+      stop_input("priors: the model has no parameter '", name, "' (parameters: ", words(known), ")")
+    }
+  }
+  own
+}
+
+# A study file of a formula model. `columns`: study_column() by name. The data frame has the same names.
+study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL) {
+  own_priors <- checked_priors(own_priors, names(priors))
+  proposed <- priors[setdiff(names(priors), names(own_priors))]
+  data <- list(file = "data")
+  if (length(random$labels) > 1) data$rows_of <- finest(random)
+  parts <- c(toml_table("", list(title = title, model = "formula")), toml_table("data", data), columns_table(columns),
+             if (length(constants)) toml_table("constants", constants), if (length(formula)) toml_table("formula", formula))
+  for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
+  parts <- c(parts, toml_table("prior", c(proposed, own_priors)))
+  for (label in names(random$entries)) parts <- c(parts, toml_table(paste0("random_effects.", toml_key(label)), random$entries[[label]]))
+  if (length(predict)) parts <- c(parts, toml_table("predict", predict))
+  list(text = paste(parts, collapse = "\n"), proposed = names(proposed))
+}
+
+finest <- function(random) names(random$columns)[which.max(vapply(random$columns, function(each) length(unique(each$values)), 0L))]
+
+columns_table <- function(columns) {
+  toml_table("data.columns", Map(function(each, name) {
+    if (each$unit == "") name else list(column = name, unit = each$unit)
+  }, columns, names(columns)))
+}
+
+# The fit of a study's text with a frame, or the study.
+one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, lives = NULL) {
+  if (is.null(tables)) {
+    tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
+  }
+  study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
+  study$proposed <- if (is.null(proposed)) character() else proposed
+  study$notes <- notes
+  study$lives <- lives
+  if (!one_truth(fit, "fit")) return(study)
+  found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
+  with_call(found, call)
+}
+
+with_call <- function(fit, call) {
+  if (!inherits(fit, "ww_fit")) return(fit)
+  fields <- unclass(fit)
+  fields$call <- call
+  structure(fields, class = "ww_fit")
+}
+
+# Messages of the study file that the caller never wrote.
+in_words_of_caller <- function(message) {
+  message <- gsub("(^|\n)study(:[0-9]+)*: ", "\\1", message)
+  message <- sub("\n +[^\n]* = [^\n]*\n *\\^ *$", "", message)
+  message <- sub("; or define your own word in the study: .*$", paste0("; or a condition in place of the column, like ", "Surv(hours, end == \"broke\")"), message)
+  message <- gsub("\\bprior\\.([A-Za-z0-9_]+)", "priors: \\1", message, perl = TRUE)
+  message <- gsub("^data[.]columns[.]", "column ", message)
+  message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
+  message <- gsub("needs predict\\.([a-z_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)
+  message <- gsub("\\bpredict\\.([a-z_]+)", "\\1", message, perl = TRUE)
+  gsub("\\bconditions\\.([a-z_]+)", "\\1", message, perl = TRUE)
+}

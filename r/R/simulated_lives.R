@@ -1,0 +1,63 @@
+# New lives of the rows of a fit of ww_life(), under one draw of the posterior: an independent reading of the same formula, in R.
+
+kelvin_of <- function(x, unit) switch(unit, degC = x + 273.15, degF = (x + 459.67) * 5 / 9, x)
+
+# The logarithm that the conditions of each row add to the location. Labels of random effects get new levels.
+shift_of <- function(draw, lives) {
+  shift <- numeric(lives$rows)
+  for (each in lives$effects) shift <- shift + draw[[each$parameter]] * each$value
+  for (each in lives$fixed) shift <- shift + each
+  for (label in lives$random) {
+    z <- matrix(stats::rnorm(label$levels * length(label$entries)), ncol = length(label$entries))
+    if (!is.null(label$correlation)) {
+      rho <- draw[[label$correlation]]
+      z[, 2] <- rho * z[, 1] + sqrt(1 - rho^2) * z[, 2]
+    }
+    for (i in seq_along(label$entries)) {
+      entry <- label$entries[[i]]
+      shift <- shift + draw[[entry$scatter]] * z[label$level, i] * entry$value
+    }
+  }
+  shift
+}
+
+new_lives_at <- function(draw, lives) {
+  parameters <- lives$parameters
+  location <- if (is.null(lives$by)) draw[[parameters[[1]]]] else unname(draw[paste0(parameters[[1]], "[", lives$by, "]")])
+  location <- location * exp(shift_of(draw, lives))
+  drawn <- function(u) random_life(lives$family, u, location, if (length(parameters) > 1) draw[parameters[-1]])
+  if (is.null(lives$entry)) return(drawn(stats::runif(lives$rows)))
+  # Given survival to its entry: redrawn until it is.
+  values <- drawn(stats::runif(lives$rows))
+  for (i in seq_len(1000)) {
+    early <- values <= lives$entry
+    if (!any(early)) return(values)
+    values[early] <- drawn(stats::runif(lives$rows))[early]
+  }
+  stop_input("simulate(): hardly any new life outlasts the entries of the data")
+}
+
+# The quantile of u at a location, and the family's other parameters.
+random_life <- function(family, u, location, other) {
+  switch(family,
+    weibull = location * (-log1p(-u))^(1 / other[[1]]),
+    lognormal = location * exp(other[[1]] * stats::qnorm(u)),
+    loglogistic = location * (u / (1 - u))^(1 / other[[1]]),
+    exponential = -location * log1p(-u),
+    gamma = stats::qgamma(u, other[[1]]) * location,
+    `birnbaum-saunders` = {
+      w <- other[[1]] * stats::qnorm(u) / 2
+      location * (w + sqrt(w^2 + 1))^2
+    },
+    `inverse-gaussian` = {  # Michael, Schucany and Haas 1976
+      y <- stats::qnorm(u)^2
+      x <- location + location^2 * y / (2 * other[[1]]) - location / (2 * other[[1]]) * sqrt(4 * location * other[[1]] * y + location^2 * y^2)
+      ifelse(stats::runif(length(u)) <= location / (location + x), x, location^2 / x)
+    },
+    `generalized-gamma` = {
+      sigma <- other[[1]]
+      lambda <- other[[2]]
+      if (abs(lambda) < 1e-6) location * exp(sigma * stats::qnorm(u)) else
+        location * exp(sigma / lambda * log(lambda^2 * stats::qgamma(if (lambda > 0) u else 1 - u, lambda^-2)))
+    })
+}

@@ -1,0 +1,144 @@
+# ww_life: what it reads of a formula, and that its numbers are those of maximum likelihood and of the study it stands for.
+
+pumps <- data.frame(hours = c(150, 340, 560, 800, 1150, 2470, 100, 900, 300, 700), event = c(1, 1, 1, 1, 0, 1, 1, 1, 1, 0),
+                    site = rep(c("A", "B"), 5), load = c(10, 12, 14, 16, 18, 20, 11, 13, 15, 17))
+flat <- list(eta = ww_flat("1"), shape = ww_flat("1"))
+
+study_of <- function(...) ww_life(..., fit = FALSE)
+data_of <- function(study) as.data.frame(study$given$data$data)
+mode_of <- function(fit) vapply(fit$summary$mode$parameters, `[[`, 0, "value")
+quick <- function(...) quiet(ww_life(..., seed = 1, method = "exact", draws = 100, report = FALSE))
+
+# Minus the Weibull log-likelihood of any censoring and entry.
+loss <- function(p, from, to, entry = 0) {
+  survival <- function(t) stats::pweibull(t, exp(p[2]), exp(p[1]), lower.tail = FALSE)
+  term <- ifelse(from == to, stats::dweibull(from, exp(p[2]), exp(p[1])), survival(from) - survival(to))
+  -sum(log(term / survival(entry)))
+}
+maximum <- function(...) exp(stats::optim(c(log(800), 0), loss, ..., method = "BFGS", control = list(reltol = 1e-14))$par)
+
+test_that("every type of Surv has its likelihood", {
+  t <- pumps$hours
+  ended <- pumps$event == 1
+  entry <- t / 4
+  right <- quick(Surv(hours, event) ~ 1, pumps, priors = flat, unused = c("site"))
+  expect_equal(unname(mode_of(right)), maximum(from = t, to = ifelse(ended, t, Inf)), tolerance = 1e-4)
+  left <- quick(Surv(hours, event, type = "left") ~ 1, pumps, priors = flat)
+  expect_equal(unname(mode_of(left)), maximum(from = ifelse(ended, t, 0), to = t), tolerance = 1e-4)
+  late <- quick(Surv(start, hours, event) ~ 1, transform(pumps, start = entry), priors = flat)
+  expect_equal(unname(mode_of(late)), maximum(from = t, to = ifelse(ended, t, Inf), entry = entry), tolerance = 1e-4)
+  looks <- data.frame(from = ifelse(seq_along(t) == 1, NA, floor(t / 300) * 300), to = ifelse(ended, ceiling(t / 300) * 300, Inf))
+  looks$from[which(looks$from == 0)] <- NA
+  between <- quick(Surv(from, to, type = "interval2") ~ 1, looks, priors = flat)
+  best <- maximum(from = ifelse(is.na(looks$from), 0, looks$from), to = looks$to)
+  expect_equal(unname(mode_of(between)), best, tolerance = 1e-4)
+  codes <- transform(looks, code = ifelse(is.na(from), 2, ifelse(is.infinite(to), 0, 3)), a = ifelse(is.na(from), to, from))
+  expect_equal(data_of(study_of(Surv(a, to, code, type = "interval") ~ 1, codes)), data_of(study_of(Surv(from, to, type = "interval2") ~ 1, looks)))
+})
+
+test_that("objects of survival are read as the call", {
+  skip_if_not_installed("survival")
+  made <- list(quote(Surv(hours, event)), quote(Surv(hours, event, type = "left")), quote(Surv(hours / 4, hours, event)),
+               quote(Surv(hours / 2, hours, c(0, 1, 2, 3, 3, 3, 3, 1, 0, 2), type = "interval")))
+  for (call in made) {
+    with_package <- pumps
+    with_package$y <- eval(call, pumps, asNamespace("survival"))
+    own <- study_of(stats::as.formula(base::call("~", call, 1)), pumps, unused = "event")
+    expect_equal(data_of(study_of(y ~ 1, with_package, unused = "event")), data_of(own), info = deparse(call))
+  }
+})
+
+test_that("conditions are those of survreg", {
+  skip_if_not_installed("survival")
+  fit <- quick(Surv(hours, event) ~ load, pumps, priors = c(flat, list(b_load = ww_flat("1"))))
+  peer <- survival::survreg(survival::Surv(hours, event) ~ load, pumps)
+  found <- mode_of(fit)
+  expect_equal(unname(found["b_load"]), unname(coef(peer)[2]), tolerance = 1e-3)
+  expect_equal(unname(found["shape"]), 1 / peer$scale, tolerance = 1e-3)
+  expect_equal(unname(log(found["eta"])), unname(coef(peer)[1] + 14.6 * coef(peer)[2]), tolerance = 1e-3)  # at the mean load
+  expect_equal(as.numeric(logLik(fit)), as.numeric(logLik(peer)), tolerance = 1e-6)
+  by_level <- quick(Surv(hours, event) ~ site, pumps, priors = c(flat, list(b_site_B = ww_flat("1"))), family = "weibull")
+  expect_equal(unname(mode_of(by_level)["b_site_B"]), unname(coef(survival::survreg(survival::Surv(hours, event) ~ site, pumps))[2]), tolerance = 1e-3)
+})
+
+test_that("the study is the formula model that one would write", {
+  fit <- quick(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), unused = c("site", "load"))
+  own <- ww_study(formula = "hours = eta", data = data.frame(hours = pumps$hours, status = ifelse(pumps$event == 1, "failure", "runout")),
+                  units = c(hours = "h"), family = "weibull",
+                  priors = list(eta = ww_lognormal("5000 h", log_sd = 2), shape = ww_lognormal(1.5, log_sd = 0.7)))
+  same <- quiet(ww_fit(own, seed = 1, method = "exact", draws = 100, report = FALSE))
+  expect_identical(as.matrix(fit$parameters[c("mean", "sd", "q05", "q95")]), as.matrix(same$parameters[c("mean", "sd", "q05", "q95")]))
+  expect_identical(fit$toml, fit$study$text)
+  expect_output(print(fit), "Default priors.*eta +lognormal, median 5000, sd of the logarithm 2")
+  expect_identical(quiet(ww_life(pumps, "hours", event = "event", units = c(hours = "h"), seed = 1, method = "exact", draws = 100,
+                                 report = FALSE))$parameters, fit$parameters)
+})
+
+test_that("random effects are those of lme4 and brms", {
+  table <- transform(pumps, batch = rep(c("x", "y"), each = 5), lot = as.character(seq_len(10) %% 5))
+  text <- function(formula) study_of(formula, table)$text
+  expect_match(text(Surv(hours, event) ~ (1 | batch)), "[random_effects.batch]\neta = { distribution = \"lognormal\", log_sd = \"eta_scatter\" }", fixed = TRUE)
+  # The rest is not read as a study, which evaluates its likelihood.
+  entries <- function(right) {
+    columns <- wearwell:::frame_columns(table, NULL)
+    sides <- wearwell:::split_terms(right)
+    effects <- wearwell:::effects_of(sides$fixed, columns, list(), "the formula")
+    wearwell:::with_random(wearwell:::random_of(sides$random, "eta", effects, columns, "the formula"), "eta", effects, columns, character(), "the formula")
+  }
+  slopes <- entries(quote(load + (load | batch)))
+  expect_identical(slopes$entries$batch$b_load, list(distribution = "normal", sd = "b_load_scatter"))
+  expect_identical(slopes$entries$batch$correlation, "rho")
+  expect_identical(names(slopes$priors), c("eta_scatter", "b_load_scatter", "rho"))
+  expect_identical(names(entries(quote(load + (load || batch)))$entries$batch), c("eta", "b_load"))
+  expect_identical(names(entries(quote(load + (0 + load | batch)))$entries$batch), "b_load")
+  nested <- entries(quote((1 | batch / lot)))
+  expect_identical(wearwell:::finest(nested), "batch_lot")
+  expect_identical(nested$columns$batch_lot$values[1:2], c("x:1", "x:2"))
+  expect_identical(nested$entries$batch_lot$eta$log_sd, "eta_batch_lot_scatter")
+  refused(text(Surv(hours, event) ~ (load | batch)), "load is no effect of the formula; it stands beside it")
+  refused(text(Surv(hours, event) ~ (1 | id | batch)), "random effects are written (1 | label)")
+})
+
+test_that("stress laws are written out, by is a level's own scale", {
+  hot <- transform(pumps, T = rep(c(40, 60), 5))
+  arrhenius <- study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius"), units = c(T = "degC"))$text
+  expect_match(arrhenius, "scale = \"eta * exp(energy/boltzmann * (1/T - 1/T_reference))\"", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ 1, hot, stress = c(load = "inverse-power"))$text, "-n * log(load/load_reference)", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ 1, hot, by = "site")$text, "scale = \"eta[site]\"", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ load * site, hot)$text, "b_load_by_site_B * (load - load_reference) * (site == \\\"B\\\")", fixed = TRUE)
+  refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius")), "T has no unit: units = c(T = \"degC\") states it")
+  refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arhenius")), "it is one of arrhenius")
+  refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(site = "inverse-power")), "holds texts")
+})
+
+test_that("what can be read in two ways is refused with both readings", {
+  refused(study_of(Surv(hours, event + 1) ~ 1, pumps), "2 is a failure and 1 was stopped (as survival reads it), or 1 is a failure and 2 was stopped")
+  refused(study_of(Surv(hours, censored) ~ 1, transform(pumps, censored = 1 - event)), "write Surv(..., censored == 0) for the first, Surv(..., censored == 1)")
+  refused(study_of(hours ~ 1, pumps), "column 'event' looks like how each life ended")
+  refused(study_of(Surv(hours) ~ 1, pumps), "column 'event' looks like how each life ended")
+  expect_identical(data_of(study_of(hours ~ 1, pumps, unused = "event"))$life, pumps$hours)
+  expect_identical(data_of(study_of(Surv(hours, event + 1 == 2) ~ 1, pumps)), data_of(study_of(Surv(hours, event) ~ 1, pumps)))
+  expect_warning(study_of(Surv(hours, event) ~ 1, transform(pumps, failed = event == 1)), "column 'failed' looks like how a life ended",
+                 class = "wearwell_column_warning")
+  expect_warning(study_of(Surv(hours, event) ~ 1, transform(pumps, weight = 1)), "a number of equal rows (weights = ...)", fixed = TRUE)
+})
+
+test_that("errors name arguments and columns", {
+  refused(study_of(Surv(hours, evnt) ~ 1, pumps), "data has no column 'evnt' (columns: hours, event, site, load); did you mean 'event'?")
+  refused(ww_life(Surv(hours, event) ~ 1, pumps, familly = "weibull"), "ww_life() has no argument 'familly'; did you mean 'family'?")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, family = "weibul"), "family is \"weibul\"; it is one of weibull")
+  refused(study_of(Surv(hours, event) ~ 1, transform(pumps, hours = hours - 100)), "data, row 7: the life is 0; lives are above 0")
+  refused(study_of(Surv(hours, event) ~ 1, transform(pumps, hours = c(NA, hours[-1]))), "data, row 1: the life is missing")
+  refused(study_of(Surv(hours, event) ~ 1, transform(pumps, event = c(NA, event[-1]))), "data, row 1, column 'event': a value is missing")
+  refused(study_of(Surv(hours, event) ~ load, transform(pumps, load = c(1, NA, load[-(1:2)]))), "data, row 2, column 'load': a value is missing")
+  refused(study_of(Surv(hours, event) ~ load, transform(pumps, load = 1)), "column 'load' is 1 in all rows")
+  refused(study_of(Surv(hours, event) ~ log(load), pumps), "log(load) is no column; make one of it first")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(beta = ww_lognormal(1, log_sd = 1))), "priors: the model has no parameter 'beta' (parameters: eta, shape)")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, units = c(hrs = "h")), "units: data has no column 'hrs'")
+  refused(study_of(Surv(hours, event) ~ load, pumps, given = list(lod = 3)), "given: lod is no condition of the formula (conditions: load)")
+  refused(study_of(Surv(hours, event, type = "mstate") ~ 1, pumps), "a study of each mode")
+  refused(study_of(Surv(hours, end) ~ 1, transform(pumps[-2], end = c("kaputt", rep("runout", 9)))), "'kaputt' is not a status")
+  refused(ww_life("lives.toml"), "ww_life() takes a formula")
+  refused(study_of(Surv(hours, event) ~ 1, pumps[0, ]), "data has no rows")
+  refused(study_of(Surv(day, event) ~ 1, transform(pumps, day = as.Date("2024-01-01") + hours)), "holds dates or times")
+})

@@ -1,0 +1,75 @@
+# The other models in one line: their studies are those that one would write, and their errors name arguments.
+
+test_that("degradation is a formula study with a rate of each unit", {
+  wear <- expand.grid(km = c(10, 20, 30), machine = c("A", "B", "C", "D"), stringsAsFactors = FALSE)
+  wear$depth <- rep(c(0.9, 1.1, 1.4, 0.7), each = 3) * wear$km + c(0.3, -0.4, 0.2, 0.1, -0.2, 0.4)
+  units <- c(depth = "um", km = "km")
+  keys <- function(study) wearwell:::core(wearwell:::C_keys, study$text)
+  fit <- ww_degradation(depth ~ km | machine, wear, units = units, fit = FALSE)
+  own <- ww_study(formula = "depth = rate * km", data = wear, units = units, unit = "machine", random_effects = "rate",
+                  priors = list(rate = ww_lognormal("2 um/km", log_sd = 2), sigma = ww_half_normal("50 um"), rate_scatter = ww_half_normal(1)))
+  expect_identical(keys(fit)[c("prior", "random_effects")], keys(own)[c("prior", "random_effects")])
+  expect_identical(keys(fit)$formula$path, keys(own)$likelihood$depth$mean)
+  expect_match(fit$notes, "no limit is given: wear is fitted, and no life is predicted")
+  text <- function(...) ww_degradation(..., data = wear, fit = FALSE)$text
+  expect_match(text(depth ~ km | machine, limit = "100 um", units = units), "limit = { path = \"100 um\" }", fixed = TRUE)
+  expect_match(text(depth ~ km, unit = "machine"), "[random_effects.machine]", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, path = "power"), "path = \"rate * 50 * (km/50)^exponent\"", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, start = TRUE), "start = { distribution = \"normal\", sd = \"start_scatter\" }", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, family = "gamma-process"), "family = \"gamma-process\"\nmean = \"rate * km\"\nscale = \"scale\"", fixed = TRUE)
+  expect_identical(ww_degradation(wear, "depth", "km", unit = "machine", fit = FALSE)$text, text(depth ~ km | machine))
+  refused(text(depth ~ km | mashine), "unit: data has no column 'mashine'")
+  refused(text(-depth ~ km | machine), "the readings do not rise along the axis")
+  refused(text(depth ~ km | machine, family = "gamma-process", start = TRUE), "start = TRUE needs family = \"normal\"")
+  refused(text(depth ~ km | machine, limt = "100 um"), "did you mean 'limit'?")
+})
+
+test_that("an S-N study of arguments is that of the file", {
+  tests <- read.csv(example("fatigue", "tests.csv"))
+  priors <- list(log10_a = ww_normal("3.3 log10(MPa)", 0.3), b = ww_normal(-0.1, 0.04), log10_Sut = ww_normal("3.08 log10(MPa)", 0.05), sigma = ww_half_normal(0.3))
+  units <- c(stress_amplitude_MPa = "MPa", cycles = "cycles")
+  sn <- function(..., data = tests) ww_sn(data, life = "cycles", stress = "stress_amplitude_MPa", units = units, ...)
+  study <- sn(event = "status", stress_ratio = "stress_ratio", correction = "goodman", priors = priors, fit = FALSE, at = list(shaft = list(alternating_stress = "400 MPa", stress_ratio = -1)))
+  keys <- wearwell:::core(wearwell:::C_keys, study$text)
+  file <- wearwell:::core(wearwell:::C_keys, paste(readLines(example("fatigue", "study.toml")), collapse = "\n"))
+  expect_identical(keys$law, file$law)
+  expect_identical(keys$predict$stress$shaft, file$predict$stress$shaft)
+  expect_identical(keys$prior$b, file$prior$b)
+  reversed <- tests[tests$stress_ratio == -1, ]
+  fit <- quiet(sn(event = "status", stress_ratio = -1, data = reversed, at = "400 MPa", seed = 1, method = "exact", draws = 100, report = FALSE))
+  coded <- quiet(sn(event = "failed", stress_ratio = -1, data = transform(reversed[names(reversed) != "status"], failed = as.integer(reversed$status == "failure")),
+                    at = "400 MPa", seed = 1, method = "exact", draws = 100, report = FALSE))
+  expect_identical(coded$parameters, fit$parameters)
+  expect_output(print(fit), "Default priors.*log10_a +normal")
+  refused(sn(event = "status"), "stress_ratio or mean_stress is missing")
+  refused(sn(stress_ratio = -1), "looks like how each life ended")
+  refused(sn(event = "status", stress_ratio = "ratio"), "stress_ratio: data has no column 'ratio'")
+  expect_error(sn(event = "status", stress_ratio = -1, curve = "knees", fit = FALSE), "curve", class = "wearwell_input_error")
+})
+
+test_that("staircase, joint and bearing are the studies of their files", {
+  stairs <- read.csv(example("staircase", "tests.csv"), check.names = FALSE)
+  fit <- quiet(ww_staircase(stairs, "amplitude", "status", seed = 1, method = "exact", draws = 100, report = FALSE,
+                            priors = list(log10_limit = ww_normal("2.5 log10(MPa)", 0.2), sigma_limit = ww_half_normal(0.05))))
+  same <- quiet(ww_fit(example("staircase", "study.toml"), seed = 1, method = "exact", draws = 100, report = FALSE))
+  expect_identical(fit$parameters$mean, same$parameters$mean)
+  joint <- data.frame(cycles = c(1, 100, 1000, 5000, 10000), volume = c(4.4, 8.8, 8.1, 25.9, 45.3))
+  one <- ww_joint(joint, "volume", "cycles", work_per_cycle = "5.966 N m", limit = "100 mm^3", units = c(volume = "mm^3"), fit = FALSE)
+  expect_output(print(one), "V = k W, W = cycles x 5.966 N m")
+  refused(ww_joint(joint, "volume", "cycles"), "work_per_cycle is missing")
+  refused(ww_joint(joint, "volum", "cycles", work_per_cycle = "1 N m"), "volume: data has no column 'volum'")
+  worn <- read.csv(example("bearing", "inspections.csv"))
+  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", bearing = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
+                                      depth_error = "2 um", units = c(depth_um = "um", clearance_um = "um", force_N = "N"), ..., fit = FALSE)
+  two <- bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um", given = list(clearance = "30 um", pressure = "1.5 MPa"))
+  expect_match(two$text, "[conditions]\ncontact = \"stationary\"\nradius = \"10 mm\"\nlength = \"20 mm\"", fixed = TRUE)
+  expect_match(two$notes, "differs from bearing to bearing")
+  refused(bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um"), "needs given = list(clearance = ...)")
+  refused(bearing(radius = "radius", clearance = "clearance_um"), "radius: data has no column 'radius'")
+})
+
+test_that("a clutch takes three tables", {
+  refused(ww_clutch(design = data.frame(point = 1), cycles = 3, weighings = 4, density = "1 g/cm^3", depth = "1 mm", area = "1 cm^2"), "cycles is double")
+  expect_error(ww_clutch(design = data.frame(point = 1), cycles = data.frame(plate = 1), weighings = data.frame(plate = 1), density = "2.2 g/cm^3",
+                         depth = "1 mm", area = "100 cm^2", fit = FALSE), "design", class = "wearwell_input_error")
+})
