@@ -8,6 +8,7 @@
 #include "wearwell/cli/monitored.h"
 #include "wearwell/input/table.h"
 #include "wearwell/prognosis/study_lives.h"
+#include "wearwell/study/inference_data.h"
 
 namespace wearwell {
 namespace {

@@ -22,6 +22,7 @@
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
 #include "wearwell/prognosis/study_lives.h"
+#include "wearwell/study/inference_data.h"
 #include "wearwell/study/model.h"
 
 namespace wearwell::embed {
