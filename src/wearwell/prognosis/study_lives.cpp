@@ -84,6 +84,15 @@ bool in_study(const Table& table, const Column* column, std::size_t row) {
   return *truth;
 }
 
+// Of a unit that has survived to this age; closer to the distribution than its points beyond.
+WeightedLives remaining_at(const WeightedLives& fresh, double age) {
+  const double before = fresh.cdf(age);
+  if (!(before < 1)) return {};
+  return represented([&](double p) {
+    return std::max(0.0, fresh.quantile(std::min(before + p * (1 - before), 1 - 1e-12)) - age);
+  });
+}
+
 // The remaining lives of a unit in each population, and their mixture.
 KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, bool counted) {
   KnownUnit unit{std::move(name), age, 0, {}};
@@ -94,7 +103,7 @@ KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, boo
     const double survival = 1 - fresh.cdf(age);
     in.log_likelihood.push_back(counted ? 0 : std::log(survival));
     in.passed.push_back(0);
-    in.remaining.push_back(survival > 0 ? fresh.beyond(age) : WeightedLives());
+    in.remaining.push_back(remaining_at(fresh, age));
     const double share = lives.populations[k] * (counted ? 1 : survival);
     if (!(survival > 0)) continue;
     for (std::size_t i = 0; i < in.remaining.back().points().size(); ++i) {
