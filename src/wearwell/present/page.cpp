@@ -12,13 +12,14 @@ namespace {
 
 using html::escape;
 
-std::string script(std::string_view code) {
-  return fmt::format("<script>{}</script>\n", code);
+// Appended: the scripts are nearly all of a page.
+void add_script(std::string& out, std::string_view code) {
+  out.append("<script>").append(code).append("</script>\n");
 }
 
 // The licenses require that their text accompanies the code.
-std::string licence(const char* name, std::string_view text) {
-  return fmt::format("<!-- {} in this page:\n{}\n-->\n", name, text);
+void add_licence(std::string& out, std::string_view name, std::string_view text) {
+  out.append("<!-- ").append(name).append(" in this page:\n").append(text).append("\n-->\n");
 }
 
 int digit(char hexadecimal) {
@@ -91,14 +92,18 @@ std::string html_page(const Page& page) {
   }
   out += fmt::format("</main>\n<footer><p>Written by wearwell {}.</p></footer>\n",
                      escape(page.version));
-  out += licence("vega", resource::vega_license());
-  out += script(resource::vega());
-  out += licence("vega-lite", resource::vega_lite_license());
-  out += script(resource::vega_lite());
-  out += licence("vega-embed", resource::vega_embed_license());
-  out += script(resource::vega_embed());
-  out += script(resource::page_js());
-  return out + "</body>\n</html>\n";
+  constexpr std::size_t rest = 20'000;  // licenses and page.js
+  out.reserve(out.size() + resource::vega().size() + resource::vega_lite().size() +
+              resource::vega_embed().size() + rest);
+  add_licence(out, "vega", resource::vega_license());
+  add_script(out, resource::vega());
+  add_licence(out, "vega-lite", resource::vega_lite_license());
+  add_script(out, resource::vega_lite());
+  add_licence(out, "vega-embed", resource::vega_embed_license());
+  add_script(out, resource::vega_embed());
+  add_script(out, resource::page_js());
+  out += "</body>\n</html>\n";
+  return out;
 }
 
 }  // namespace wearwell

@@ -104,7 +104,7 @@ TEST_F(ClutchModelFile, ReadsOrRefusesWhateverIsChanged) {
     };
     expect_read_or_refused(what, read, refused);
   });
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(refused, 300);
 }
 
 TEST_F(ClutchModelFile, ReadsOrRefusesAnyState) {
