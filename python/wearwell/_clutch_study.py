@@ -3,6 +3,7 @@
 from . import _toml
 from ._data import table_of
 from ._errors import InputError
+from ._preset_study import percentages
 from ._study import Study
 
 
@@ -87,7 +88,7 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
     if replicates is not None:
         parts.append(_toml.table("uncertainty", {"replicates": replicates}))
     if levels is not None:
-        parts.append(_toml.table("life", {"levels": list(levels) if hasattr(levels, "__iter__") else [levels]}))
+        parts.append(_toml.table("life", {"levels": percentages(levels)}))
     for name, duty in (points or {}).items():
         quoted = name if name.isidentifier() and name.isascii() else _toml.value(str(name), "points")
         parts.append(_toml.table(f"life.points.{quoted}", {key: _toml.quantity(each, f"points.{name}.{key}") for key, each in duty.items()}))

@@ -152,6 +152,8 @@ TEST_F(Decide, OfMeasuredLives) {
   EXPECT_THAT(refusal(lives + costs + " --at bearing"), HasSubstr("--at: names a life of a study"));
   EXPECT_THAT(refusal(lives + costs + " --in-service x.csv"),
               HasSubstr("--in-service: a table of lives"));
+  EXPECT_THAT(refusal((folder() / "fleet.toml").string() + costs + " --in-service x.csv"),
+              HasSubstr("--in-service: the running units of a monitor"));
   EXPECT_THAT(refusal(result + costs + " --at lorry"),
               HasSubstr("--at: the study has no life of 'lorry'; it has those of "));
   EXPECT_THAT(refusal(result + costs + " --claims '200 %'"),

@@ -5,20 +5,14 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/carried.h"
+#include "wearwell/prognosis/result_lives.h"
 
 namespace wearwell {
-
-std::unique_ptr<const prognosis::Tracker> tracker_where_possible(
-    const prognosis::CarriedState& state, Models models) {
-  for (const Model& model : models)
-    if (model.key == state.model && model.track) return model.track(state);
-  return nullptr;
-}
 
 std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedState& state,
                                                      const std::filesystem::path& result,
                                                      Models models) {
-  if (auto tracker = tracker_where_possible(state, models)) return tracker;
+  if (auto tracker = prognosis::tracker_where_possible(state, models)) return tracker;
   throw InputError(fmt::format("{}: single units of this study of model \"{}\" cannot be followed",
                                result.string(), printable(state.model)));
 }

@@ -15,10 +15,6 @@ struct FollowedResult {
   bool trusted = true;
 };
 
-/// Null if single units of its model, or of this study, cannot be followed.
-std::unique_ptr<const prognosis::Tracker> tracker_where_possible(
-    const prognosis::CarriedState& state, Models models);
-
 /// The tracker for units of a state read from `result`. Throws InputError that names it if single
 /// units of its model cannot be followed.
 std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedState& state,

@@ -4,11 +4,10 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/cli/carried.h"
-#include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/monitored.h"
 #include "wearwell/input/table.h"
+#include "wearwell/prognosis/result_lives.h"
 #include "wearwell/prognosis/study_lives.h"
-#include "wearwell/study/inference_data.h"
 
 namespace wearwell {
 namespace {
@@ -78,6 +77,8 @@ LivesInput read_lives(const LivesOptions& options, Models models) {
   if (!options.point.empty() && !is_result)
     throw InputError("--at: names a life of a study; only a folder of wearwell fit has one");
   if (path.extension() == ".toml") {
+    if (!options.in_service.empty())
+      throw InputError("--in-service: the running units of a monitor are those of its store");
     read_fleet(path, models, input);
     return input;
   }
@@ -87,21 +88,16 @@ LivesInput read_lives(const LivesOptions& options, Models models) {
     input.lives = prognosis::lives_of_table(read_table(path));
     return input;
   }
-  const prognosis::CarriedState state = read_carried(path);
-  if (options.point.empty()) input.tracker = tracker_where_possible(state, models);
-  if (input.tracker) {
-    if (!options.in_service.empty())
-      throw InputError(
-          "--in-service: the units of this study are followed by their readings; it "
-          "is for studies that measure lives");
-    input.lives = prognosis::lives_of_tracker(*input.tracker, path.string(), state.trusted);
-  } else {
-    const std::unique_ptr<const Study> study = read_study(state.source, models);
-    input.lives = prognosis::lives_of_study(require_posterior_study(*study), state.posterior,
-                                            path.string(), state.trusted, options.point);
-    if (!options.in_service.empty())
-      prognosis::add_units_in_service(input.lives, read_table(options.in_service));
-  }
+  prognosis::ResultLives result =
+      prognosis::lives_of_result(read_carried(path), models, path.string(), options.point);
+  if (result.tracker && !options.in_service.empty())
+    throw InputError(
+        "--in-service: the units of this study are followed by their readings; it "
+        "is for studies that measure lives");
+  input.tracker = std::move(result.tracker);
+  input.lives = std::move(result.lives);
+  if (!options.in_service.empty())
+    prognosis::add_units_in_service(input.lives, read_table(options.in_service));
   return input;
 }
 

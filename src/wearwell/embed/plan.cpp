@@ -21,8 +21,7 @@
 #include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
-#include "wearwell/prognosis/study_lives.h"
-#include "wearwell/study/inference_data.h"
+#include "wearwell/prognosis/result_lives.h"
 #include "wearwell/study/model.h"
 
 namespace wearwell::embed {
@@ -112,7 +111,11 @@ struct Lives {
 
 Lives lives_of(const PlanSubject& subject, const std::string& point) {
   Lives result;
-  if (const Table* table = table_of(subject, "lives")) {
+  const Table* table = table_of(subject, "lives");
+  const bool is_result = !table && (subject.run || std::filesystem::is_directory(subject.path));
+  if (!point.empty() && !is_result)
+    throw InputError("at names a life of a study; only a fit or its folder has one");
+  if (table) {
     result.lives = prognosis::lives_of_table(*table);
     return result;
   }
@@ -120,23 +123,16 @@ Lives lives_of(const PlanSubject& subject, const std::string& point) {
     throw InputError(fmt::format(
         "{}: the units of a monitor are planned on the command line: wearwell plan inspect {}",
         printable(subject.path), printable(subject.path)));
-  if (!subject.run && !std::filesystem::is_directory(subject.path)) {
+  if (!is_result) {
     result.lives = prognosis::lives_of_table(read_table(subject.path));
     return result;
   }
-  const prognosis::CarriedState state = carried_posterior(subject);
   const std::string title = subject.run ? subject.run->result->header.title : subject.path;
-  for (const Model& model : all_models())
-    if (model.key == state.model && model.track) result.tracker = model.track(state);
-  if (!result.tracker) {
-    const std::unique_ptr<const Study> study = read_any(state.source);
-    result.lives = prognosis::lives_of_study(require_posterior_study(*study), state.posterior,
-                                             title, state.trusted, point);
-    return result;
-  }
-  const prognosis::Tracker& tracker = *result.tracker;
-  result.lives = prognosis::lives_of_tracker(tracker, title, state.trusted);
-  result.followed = prognosis::units_of_study(tracker);
+  prognosis::ResultLives found =
+      prognosis::lives_of_result(carried_posterior(subject), all_models(), title, point);
+  result.tracker = std::move(found.tracker);
+  result.lives = std::move(found.lives);
+  if (result.tracker) result.followed = prognosis::units_of_study(*result.tracker);
   return result;
 }
 

@@ -17,6 +17,7 @@
 
 namespace wearwell::plan {
 
+using prognosis::distribution_at;
 using prognosis::life_named;
 using prognosis::named_lives;
 using prognosis::NamedLife;
@@ -70,9 +71,8 @@ Goal b_life(const PosteriorStudy& study, const NamedLife& life, double percent) 
       fmt::format("B{:.6g} of {}", percent, without_new(life.request->of)), life.request->unit, {}};
   if (!life.request->at.empty() && !life.request->at.starts_with("at "))
     goal.name += " " + life.request->at;
-  goal.value = [group = life.group, index = life.index, share = percent / 100,
-                count = study.parameters.size()](const double* x) {
-    return group->lives(one_point(x, count))[index].distribution.quantile(share);
+  goal.value = [life, share = percent / 100, count = study.parameters.size()](const double* x) {
+    return distribution_at(life, {x, count}).quantile(share);
   };
   goal.reported = reported_b_life(life, percent);
   return goal;

@@ -36,17 +36,6 @@ double share_of(const char* option, const std::string& text) {
   return share;
 }
 
-// A new unit: averaged over the populations that it may belong to.
-LifeAhead fresh_life(const KnownLives& lives) {
-  std::vector<double> life, weight;
-  for (std::size_t k = 0; k < lives.fresh.lives.size(); ++k) {
-    const WeightedLives& each = lives.fresh.lives[k];
-    life.insert(life.end(), each.points().begin(), each.points().end());
-    for (const double w : each.weights()) weight.push_back(w * lives.fresh.weight[k]);
-  }
-  return {0, WeightedLives(life, weight)};
-}
-
 UnitInspections unit_plan(const KnownUnit& unit) {
   const bool none = unit.remaining.points().empty();
   return {unit.name,
@@ -65,7 +54,7 @@ std::vector<UnitInspections> units_asked(const InspectQuestion& question, const 
       throw InputError(fmt::format("--unit: {} has no running units", printable(lives.title)));
     if (lives.fresh.lives.empty())
       throw InputError(fmt::format("{}: there is no life of a new {}", lives.title, lives.noun));
-    units.push_back({"", 0, fresh_life(lives), {}});
+    units.push_back({"", 0, LifeAhead(0, lives.fresh.mixture()), {}});
     return units;
   }
   std::vector<std::string> names;

@@ -10,32 +10,10 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
-#include "wearwell/input/heading.h"
+#include "wearwell/prognosis/unit_table.h"
 
 namespace wearwell::prognosis {
 namespace {
-
-const Column* optional_column(const Table& table, std::string_view name) {
-  for (const Column& each : table.columns)
-    if (each.name == name) return &each;
-  return nullptr;
-}
-
-std::string word(const Column* column, std::size_t row) {
-  if (!column) return "";
-  if (!column->is_number) return column->text[row];
-  return std::isnan(column->numbers[row]) ? "" : fmt::format("{}", column->numbers[row]);
-}
-
-void refuse_other_columns(const Table& table, const Column& life) {
-  for (const Column& each : table.columns) {
-    if (&each == &life || each.name == "weight" || each.name == "unit" || each.name == "population")
-      continue;
-    throw InputError(
-        fmt::format("{}: column '{}' is unknown; columns are life, weight, unit, population",
-                    table.source, printable(each.name)));
-  }
-}
 
 double number_at(const Table& table, const Column& column, std::size_t row, double least) {
   double value = 0;
@@ -50,7 +28,7 @@ double number_at(const Table& table, const Column& column, std::size_t row, doub
   return value;
 }
 
-struct Points {
+struct TabledPoints {
   std::vector<double> life, weight;
   WeightedLives lives() const { return {life, weight}; }
 };
@@ -58,7 +36,7 @@ struct Points {
 const History nothing_read = [](const std::function<void(const Reading&)>&) {};
 
 // A point mass would leave no randomness.
-void refuse_one_place(const Table& table, const Points& points) {
+void refuse_one_place(const Table& table, const TabledPoints& points) {
   const auto [least, most] = std::minmax_element(points.life.begin(), points.life.end());
   if (*least < *most || !std::isfinite(*least)) return;
   throw InputError(fmt::format(
@@ -72,14 +50,14 @@ double sum(const std::vector<double>& all) {
   return total;
 }
 
-using Populations = std::map<std::string, Points>;
+using Populations = std::map<std::string, TabledPoints>;
 
 struct TabledUnit {
   std::string name;
   Populations rows;  // by population
   bool apart() const { return rows.size() > 1 || !rows.begin()->first.empty(); }
-  Points together() const {
-    Points all;
+  TabledPoints together() const {
+    TabledPoints all;
     for (const auto& [_, points] : rows) {
       all.life.insert(all.life.end(), points.life.begin(), points.life.end());
       all.weight.insert(all.weight.end(), points.weight.begin(), points.weight.end());
@@ -143,7 +121,7 @@ void add_populations(const Table& table, const std::vector<TabledUnit>& units,
 }
 
 KnownUnit unit_of_rows(const Table& table, const TabledUnit& unit) {
-  const Points points = unit.together();
+  const TabledPoints points = unit.together();
   if (sum(points.weight) <= 0)
     throw InputError(
         fmt::format("{}: the unit '{}' has zero total weight", table.source, printable(unit.name)));
@@ -154,10 +132,9 @@ KnownUnit unit_of_rows(const Table& table, const TabledUnit& unit) {
 
 KnownLives lives_of_table(const Table& table) {
   const Column& life = table.column("life");
-  const Heading heading = read_heading(life.name, "");
   KnownLives known;
   known.title = table.source;
-  const std::string unit = heading.unit.empty() ? bare_unit(life.unit) : heading.unit;
+  const std::string unit = heading_unit(life);
   if (unit.empty())
     throw InputError(fmt::format(
         "{}: the column '{}' needs its unit in the heading: 'life [h]', 'life [cycles]'",
@@ -167,18 +144,18 @@ KnownLives lives_of_table(const Table& table) {
     throw InputError(fmt::format("{}: '{}' of the column '{}' is not a unit of a life",
                                  table.source, printable(unit), printable(life.name)));
   known.unit = {unit, parsed->scale, 0};
-  refuse_other_columns(table, life);
   const Column* weight = optional_column(table, "weight");
   const Column* name = optional_column(table, "unit");
   const Column* population = optional_column(table, "population");
+  refuse_other_columns(table, {&life, weight, name, population}, "life, weight, unit, population");
   Populations fresh;
   std::vector<TabledUnit> units;
   std::map<std::string, std::size_t> place_of;
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const std::string who = word(name, row);
+    const std::string who = cell_text(name, row);
     if (!who.empty() && place_of.emplace(who, units.size()).second) units.push_back({who, {}});
     Populations& rows = who.empty() ? fresh : units[place_of.at(who)].rows;
-    Points& points = rows[word(population, row)];
+    TabledPoints& points = rows[cell_text(population, row)];
     points.life.push_back(known.unit.scale * number_at(table, life, row, 0));
     points.weight.push_back(weight ? number_at(table, *weight, row, 0) : 1);
   }

@@ -42,6 +42,13 @@ std::vector<NamedLife> named_lives(const PosteriorStudy& study) {
   return lives;
 }
 
+LifeDistribution distribution_at(const NamedLife& life, std::span<const double> x) {
+  WeightedDraws one;
+  one.values = Eigen::Map<const Points>(x.data(), 1, static_cast<Eigen::Index>(x.size()));
+  one.weights = Eigen::VectorXd::Ones(1);
+  return life.group->lives(one)[life.index].distribution;
+}
+
 std::string without_new(const std::string& of) {
   return of.starts_with("new ") ? of.substr(4) : of;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct NamedLife {
 
 /// Lives whose distribution the study knows, in the order of its requests.
 std::vector<NamedLife> named_lives(const PosteriorStudy& study);
+
+/// Its distribution at one point of the parameters (natural, SI).
+LifeDistribution distribution_at(const NamedLife& life, std::span<const double> x);
 
 /// "softer spring" of "new softer spring".
 std::string without_new(const std::string& of);

@@ -41,6 +41,15 @@ double rate_of(const WeightedLives& lives, const Costs& costs, double age) {
 
 }  // namespace
 
+WeightedLives PopulationLives::mixture() const {
+  std::vector<double> life, share;
+  for (std::size_t k = 0; k < lives.size(); ++k) {
+    life.insert(life.end(), lives[k].points().begin(), lives[k].points().end());
+    for (const double each : lives[k].weights()) share.push_back(weight[k] * each);
+  }
+  return WeightedLives(life, share);
+}
+
 double PopulationLives::survival(double x) const {
   double sum = 0, mass = 0;
   for (std::size_t k = 0; k < lives.size(); ++k) {

@@ -28,6 +28,7 @@ struct PopulationLives {
       : lives(std::move(each)), weight(std::move(weights)) {}
 
   double survival(double x) const;  ///< of a new unit
+  WeightedLives mixture() const;    ///< of a new unit: averaged over the populations
 };
 
 /// Long-run cost per unit of the axis if each unit is replaced at failure or at this age, whichever

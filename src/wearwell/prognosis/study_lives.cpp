@@ -11,10 +11,10 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/unit.h"
-#include "wearwell/input/heading.h"
 #include "wearwell/input/status_words.h"
 #include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/named_life.h"
+#include "wearwell/prognosis/unit_table.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -45,23 +45,8 @@ WeightedLives represented(const Quantile& quantile) {
   return WeightedLives(life, weight);
 }
 
-WeightedDraws one_point(const ThinnedPosterior& few, std::size_t k) {
-  WeightedDraws one;
-  one.values = few.values.row(static_cast<Eigen::Index>(k));
-  one.weights = Eigen::VectorXd::Ones(1);
-  return one;
-}
-
-const Column& required_column(const Table& table, const std::string& name) {
-  for (const Column& each : table.columns)
-    if (read_heading(each.name, "").name == name) return each;
-  throw InputError(fmt::format("{}: the column '{}' is missing; columns are unit, age, in_study",
-                               table.source, name));
-}
-
 Unit unit_of(const Table& table, const Column& age, const Unit& like) {
-  const Heading heading = read_heading(age.name, "");
-  const std::string text = heading.unit.empty() ? bare_unit(age.unit) : heading.unit;
+  const std::string text = heading_unit(age);
   if (text.empty())
     throw InputError(fmt::format("{}: the column '{}' needs its unit in the heading: 'age [{}]'",
                                  table.source, printable(age.name), like.text));
@@ -75,8 +60,7 @@ Unit unit_of(const Table& table, const Column& age, const Unit& like) {
 
 bool in_study(const Table& table, const Column* column, std::size_t row) {
   if (!column) return false;
-  const std::string word =
-      column->is_number ? fmt::format("{}", column->numbers[row]) : column->text[row];
+  const std::string word = cell_text(column, row);
   const std::optional<bool> truth = truth_in(word);
   if (!truth)
     throw InputError(fmt::format("{}: '{}' is not allowed; use yes or no",
@@ -97,22 +81,17 @@ WeightedLives remaining_at(const WeightedLives& fresh, double age) {
 KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, bool counted) {
   KnownUnit unit{std::move(name), age, 0, {}};
   InPopulations in;
-  std::vector<double> life, weight;
+  std::vector<double> share;
   for (std::size_t k = 0; k < lives.populations.size(); ++k) {
     const WeightedLives& fresh = lives.fresh.lives[k];
     const double survival = 1 - fresh.cdf(age);
     in.log_likelihood.push_back(counted ? 0 : std::log(survival));
     in.passed.push_back(0);
     in.remaining.push_back(remaining_at(fresh, age));
-    const double share = lives.populations[k] * (counted ? 1 : survival);
-    if (!(survival > 0)) continue;
-    for (std::size_t i = 0; i < in.remaining.back().points().size(); ++i) {
-      life.push_back(in.remaining.back().points()[i]);
-      weight.push_back(share * in.remaining.back().weights()[i]);
-    }
+    share.push_back(lives.populations[k] * (counted ? 1 : survival));
   }
-  if (life.empty()) return unit;
-  const WeightedLives mixture(life, weight);
+  const WeightedLives mixture = PopulationLives(in.remaining, share).mixture();
+  if (mixture.points().empty()) return unit;
   unit.remaining = represented([&](double p) { return mixture.quantile(p); });
   unit.in_populations = [in = std::move(in)] { return std::optional(in); };
   return unit;
@@ -135,29 +114,23 @@ KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& post
   known.fresh = PopulationLives(std::vector<WeightedLives>(few.weights.size()), few.weights);
   known.populations = few.weights;
   tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
-    const WeightedDraws one = one_point(few, k);
-    const PredictiveLife of_one = life.group->lives(one)[life.index];
-    known.fresh.lives[k] = represented(of_one.distribution.quantile);
+    const auto x = few.values.row(static_cast<Eigen::Index>(k));
+    known.fresh.lives[k] =
+        represented(distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}).quantile);
   });
   return known;
 }
 
 void add_units_in_service(KnownLives& lives, const Table& table) {
-  const Column& name = required_column(table, "unit");
-  const Column& age = required_column(table, "age");
-  const Column* counted = nullptr;
-  for (const Column& each : table.columns) {
-    if (&each == &name || &each == &age) continue;
-    if (each.name != "in_study")
-      throw InputError(fmt::format("{}: column '{}' is unknown; columns are unit, age, in_study",
-                                   table.source, printable(each.name)));
-    counted = &each;
-  }
+  const Column& name = table.column("unit");
+  const Column& age = table.column("age");
+  const Column* counted = optional_column(table, "in_study");
+  refuse_other_columns(table, {&name, &age, counted}, "unit, age, in_study");
   const Unit unit = unit_of(table, age, lives.unit);
   std::set<std::string> known;
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const std::string who = name.is_number ? fmt::format("{}", name.numbers[row]) : name.text[row];
-    if (who.empty() || who == "nan" || !known.insert(who).second)
+    const std::string who = cell_text(&name, row);
+    if (who.empty() || !known.insert(who).second)
       throw InputError(fmt::format(
           "{}: {}", place(table, name.name, row),
           known.count(who) ? "the unit '" + printable(who) + "' has a row already" : "is empty"));

@@ -1,0 +1,28 @@
+#include "wearwell/prognosis/result_lives.h"
+
+#include "wearwell/prognosis/study_lives.h"
+#include "wearwell/study/inference_data.h"
+
+namespace wearwell::prognosis {
+
+std::unique_ptr<const Tracker> tracker_where_possible(const CarriedState& state, Models models) {
+  for (const Model& model : models)
+    if (model.key == state.model && model.track) return model.track(state);
+  return nullptr;
+}
+
+ResultLives lives_of_result(const CarriedState& state, Models models, const std::string& title,
+                            const std::string& point) {
+  ResultLives result;
+  if (point.empty()) result.tracker = tracker_where_possible(state, models);
+  if (result.tracker) {
+    result.lives = lives_of_tracker(*result.tracker, title, state.trusted);
+    return result;
+  }
+  const std::unique_ptr<const Study> study = read_study(state.source, models);
+  result.lives =
+      lives_of_study(require_posterior_study(*study), state.posterior, title, state.trusted, point);
+  return result;
+}
+
+}  // namespace wearwell::prognosis
