@@ -168,7 +168,7 @@ TEST(ExactError, SpringsBySmithWatsonTopper) {
 // Few tests at two to five stresses; the bounds of b lie from half a standard deviation to six of them
 // about where it would be without, not in the middle.
 TEST(ExactError, SnPosteriorsThatBoundsCut) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     Rng rng(20261201, seed);
     SnCase test;
     const int levels = 2 + static_cast<int>(4 * rng.uniform()),

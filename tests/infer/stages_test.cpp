@@ -256,7 +256,7 @@ TEST(Stages, LivesThatAgreeToNineDigits) {
 TEST(Stages, ModeWithinNarrowBounds) {
   const std::vector<double> y = ordinates(0.1);
   for (const double center : {-1.0, -0.25}) {
-    for (int exponent = 0; exponent <= 14; exponent += 2) {
+    for (int exponent = 0; exponent <= 14; ++exponent) {
       const double width = std::pow(10, -exponent);
       const Posterior wide = line(abscissae, y, 0.5);
       std::vector<Parameter> parameters = wide.parameters();

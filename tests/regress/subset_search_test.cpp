@@ -316,7 +316,7 @@ TEST(SubsetSearch, TheSameWhateverTheThreads) {
     settings.threads = 1;
     const auto one = search(problem, settings);
     ASSERT_TRUE(one.certified);
-    for (const int threads : {3}) {
+    for (const int threads : {2, 0}) {
       settings.threads = threads;
       const auto many = search(problem, settings);
       ASSERT_EQ(many.models.size(), one.models.size());
