@@ -2,6 +2,8 @@
 
 import inspect
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -61,3 +63,8 @@ def test_attributes_are_described():
 def test_docstrings_stand_alone(name):
     """They say what is so, and point to no file of the project's documents."""
     assert not re.search(r"docs/|\.md\b", texts[name])
+
+
+def test_without_docstrings_the_module_is_there():
+    done = subprocess.run([sys.executable, "-OO", "-c", "import wearwell; print(wearwell.life.__doc__)"], capture_output=True, text=True)
+    assert done.stdout.strip() == "None", done.stderr

@@ -59,11 +59,7 @@ def bearing(data, depth, *, contact, radius, clearance, unit=None, revolutions=N
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a bearing study, such as ``{"pressure": "1.5 MPa", "speed": "60 rpm"}``.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------

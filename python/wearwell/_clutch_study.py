@@ -3,10 +3,12 @@
 from . import _toml
 from ._data import table_of
 from ._errors import InputError
+from ._fit_options import fits
 from ._preset_study import percentages
 from ._study import Study
 
 
+@fits
 def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, traces=None, points=None, levels=None, missing_cycles="refuse",
            search=None, replicates=None, units=None, title=None, threads=0, report=True, progress=None):
     """Fit the wear model of a dry clutch to a campaign: points of the design, closings, and weighings of the plates.
@@ -42,12 +44,7 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
         Unit of columns by table: ``{"cycles": {"torque": "N m"}}``. Headings may have them.
     title : str, optional
         Title of the study.
-    threads : int
-        Threads, 0 for all. No number depends on it.
-    report : bool
-        Whether to compute what ``Fit.plot`` and ``Fit.report`` show too.
-    progress : bool or callable, optional
-        True for a bar, or a function of (what, done, total, seconds).
+    <options of the run>
 
     Returns
     -------

@@ -74,11 +74,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a formula study. By default ``at`` is twice the largest x.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------

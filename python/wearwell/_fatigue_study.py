@@ -60,11 +60,7 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
         Further keys of ``[predict]`` of an S-N study.
     unused : str or sequence of str, optional
         Columns that look like an event and are none.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------
@@ -131,11 +127,7 @@ def staircase(data, stress, event, *, count=None, limit_family="normal", units=N
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a staircase.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------

@@ -1,6 +1,7 @@
 """Distributions of life that a fit answers later, under any conditions."""
 
 from ._errors import InputError
+from ._fit_options import filled
 
 _doc_given = """        given : dict or data frame, optional
             Conditions, by column: values of one, or a row each of several; plain numbers in the unit of the column. What is
@@ -8,8 +9,7 @@ _doc_given = """        given : dict or data frame, optional
 
 
 def _described(function):
-    function.__doc__ = function.__doc__.replace("        <given>", _doc_given)
-    return function
+    return filled(function, {"        <given>": _doc_given})
 
 
 class FitLives:

@@ -1,17 +1,21 @@
 """What all functions that fit a table share: the options of the fit, and what they return and raise."""
 
-_options = """    seed : int, optional
-        Seed of the random numbers; default 1. One seed gives the same numbers to the bit.
-    method : {"nuts", "exact", "metropolis"}, optional
-        How draws are made: the No-U-Turn sampler (default), independently by quadrature (up to 4 parameters), or Metropolis.
-    chains, warmup, draws : int, optional
-        Chains, iterations of each that are discarded, and draws kept of each; default 4, 1000 and 1000.
-    threads : int
+_run = """    threads : int
         Threads, 0 for all. No number depends on it.
     report : bool
         Whether to compute what ``Fit.plot`` and ``Fit.report`` show too.
     progress : bool or callable, optional
         True for a bar, or a function of (what, done, total, seconds)."""
+
+_options = """    title : str, optional
+        Title of the study.
+    seed : int, optional
+        Seed of the random numbers; default 1. One seed gives the same numbers to the bit.
+    method : {"nuts", "exact", "metropolis"}, optional
+        How draws are made: the No-U-Turn sampler (default), independently by quadrature (up to 4 parameters), or Metropolis.
+    chains, warmup, draws : int, optional
+        Chains, iterations of each that are discarded, and draws kept of each; default 4, 1000 and 1000.
+""" + _run
 
 _ends = """    Returns
     -------
@@ -30,7 +34,14 @@ _ends = """    Returns
         For each check that warns or fails."""
 
 
+def filled(function, places):
+    """Puts texts into the docstring, by their places; python -OO has left out docstrings."""
+    if function.__doc__:
+        for place, text in places.items():
+            function.__doc__ = function.__doc__.replace(place, text)
+    return function
+
+
 def fits(function):
     """Puts the common parts into the docstring."""
-    function.__doc__ = function.__doc__.replace("    <options of the fit>", _options).replace("    <what it returns>", _ends)
-    return function
+    return filled(function, {"    <what all fits share>": f"{_options}\n\n{_ends}", "    <options of the run>": _run})

@@ -47,11 +47,7 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a joint.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------

@@ -143,11 +143,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Further keys of ``[predict]`` of a formula study, such as ``{"survival_to": "1000 h"}``.
     unused : str or sequence of str, optional
         Columns that look like an event and are none.
-    title : str, optional
-        Title of the study.
-    <options of the fit>
-
-    <what it returns>
+    <what all fits share>
 
     Examples
     --------

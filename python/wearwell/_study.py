@@ -9,6 +9,7 @@ from ._messages import in_python
 from ._data import table_of
 from ._errors import InputError, missing_files
 from ._fit import Fit
+from ._fit_options import fits
 from ._progress import reporter
 
 
@@ -312,6 +313,7 @@ def _without_table(text, name):
     return "\n".join(kept)
 
 
+@fits
 def fit(study, seed=None, *, method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit a study file, or a Study: compute the posterior, check it, and predict.
 
@@ -325,12 +327,7 @@ def fit(study, seed=None, *, method=None, chains=None, warmup=None, draws=None, 
         How draws are made, as of ``Study.fit``.
     chains, warmup, draws : int, optional
         Chains, iterations of each that are discarded, and draws kept of each; default 4, 1000 and 1000.
-    threads : int
-        Threads, 0 for all. No number depends on it.
-    report : bool
-        Whether to compute what ``Fit.plot`` and ``Fit.report`` show too.
-    progress : bool or callable, optional
-        True for a bar, or a function of (what, done, total, seconds).
+    <options of the run>
 
     Returns
     -------
