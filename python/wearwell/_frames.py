@@ -71,7 +71,7 @@ def lives(summary):
         require(summary, "life", "lives of this form")
     rows = [row for row in _lives_and_quantities(summary) if row["is_life"]]
     if "life" in summary:
-        life = summary["life"]
+        life = {"q50": summary["life"]["b50"], **summary["life"]}  # the median has one name of the two there
         rows.insert(0, {"name": "life", "of": life.get("of", ""), "at": f"to {life['limit']:g} {life['limit_unit']}",
                         "unit": life["unit"], **{q: _life(life[q]) if q in life else _nan for q in _quantiles}, "predictive": _nan,
                         "bound": _nan, "credible_level": _nan})

@@ -133,6 +133,7 @@ lives_of <- function(summary) {
   frame <- frame[frame$is_life, setdiff(names(frame), "is_life")]
   if (!is.null(summary$life)) {
     entry <- summary$life
+    if (is.null(entry$q50)) entry$q50 <- entry$b50
     at <- paste("to", format(entry$limit, digits = 6), entry$limit_unit)
     first <- data.frame(name = "life", of = if (is.null(entry$of)) "" else entry$of, at = at, unit = entry$unit)
     first[quantiles] <- lapply(quantiles, function(key) if (is.null(entry[[key]])) NA_real_ else life(entry[[key]]))

@@ -13,14 +13,15 @@ namespace {
 std::string equation_of(const SelectionResult& result) {
   if (result.selection.search.models.empty())
     return result.response + " is explained by no model found";
-  std::string equation = result.response + " =";
+  std::string equation;
   for (const CoefficientRow& each : coefficient_rows(result)) {
     const bool constant = !each.selected || each.term == "1";
-    equation +=
-        fmt::format(" {} {:.6g}{}{}", each.original < 0 ? "-" : "+", std::abs(each.original),
-                    constant ? "" : " ", constant ? "" : each.term);
+    const bool negative = each.original < 0;
+    equation += equation.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
+    equation += fmt::format("{:.6g}{}{}", std::abs(each.original), constant ? "" : " ",
+                            constant ? "" : each.term);
   }
-  return equation;
+  return result.response + " = " + equation;
 }
 
 Check search_check(const SearchResult& search) {

@@ -145,12 +145,15 @@ std::string selection_text(const SelectionResult& result) {
   const SearchResult& search = selection.search;
   if (search.models.empty()) return gap_sentence(result) + "\n";
   const LinearFit& fit = selection.fit;
+  constexpr double most_exact = 1e9;
+  const std::string submodels = search.submodels < most_exact ? plain_given(search.submodels)
+                                                              : plain_number(search.submodels);
   std::string text =
       fmt::format("{} = {}\n", result.response,
                   fmt::format("{}", fmt::join(result.names(search.models.front().terms), " + ")));
   text += fmt::format("  {} of {} terms, the best of {} submodels by {}{}\n",
-                      search.models.front().terms.size(), result.design.terms.size(),
-                      plain_number(search.submodels), best_by(result.settings.search.criterion),
+                      search.models.front().terms.size(), result.design.terms.size(), submodels,
+                      best_by(result.settings.search.criterion),
                       search.certified ? ": proven" : " found: NOT PROVEN");
   text += fmt::format(
       "  {} rows of {}{}{}\n", result.observed.size(), result.data_file,

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "wearwell/base/nearest.h"
+#include "wearwell/models/formula_model/scaffold_parts.h"
+#include "wearwell/study/scaffold.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -112,12 +114,12 @@ Conditions common_conditions(const FormulaModel& model, const Conditions& given)
 void fail_without_condition(const FormulaModel& model, const TomlReader& table,
                             const std::string& key, const std::string& column) {
   const NumberColumn& numbers = *model.data.number(column);
+  const std::string& unit = numbers.unit.unit.text;
+  const std::string value = quantity_text(from_si(numbers.unit.unit, numbers.values.front()), unit);
   table.fail(
       key,
-      fmt::format(
-          "needs predict.given.{}: it varies between rows (write given = {{ {} = \"{:.4g} {}\" }})",
-          column, column, from_si(numbers.unit.unit, numbers.values.front()),
-          numbers.unit.unit.text));
+      fmt::format("needs predict.given.{}: it varies between rows (write given = {{ {} = {} }})",
+                  column, column, unit == "1" ? value : toml_text(value)));
 }
 
 void fail_without_label(const TomlReader& table, const std::string& key,
