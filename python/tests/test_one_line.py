@@ -6,6 +6,7 @@ import os
 import pickle
 import tomllib
 import warnings
+from decimal import Decimal
 
 import numpy as np
 import pandas as pd
@@ -228,10 +229,13 @@ def test_headings_with_units_spaces_and_words_of_the_language(tmp_path):
     assert tomllib.loads(made(ww.life, tmp_path / "pumps.csv", "running hours", event="has failed").toml) == tomllib.loads(toml)
 
 
-def test_whole_numbers_among_objects_are_numbers():
-    assert made(ww.life, pumps.astype({"hours": object}), "hours", event="failed").description() == (
-        made(ww.life, pumps, "hours", event="failed").description())
-    assert "float in a column of objects" in refusal(ww.life, pumps.assign(hours=pumps["hours"].astype(float).astype(object)), "hours", event="failed")
+def test_numbers_among_objects_are_numbers():
+    as_numbers = made(ww.life, pumps, "hours", event="failed").description()
+    for kind in (int, float, lambda hours: Decimal(int(hours))):
+        as_objects = pumps.assign(hours=pd.Series([kind(each) for each in pumps["hours"]], dtype=object))
+        assert made(ww.life, as_objects, "hours", event="failed").description() == as_numbers
+    assert "bool, and above there is float" in refusal(ww.life, {"x": pd.Series([1.5, True], dtype=object)}, "x")
+    assert "list in a column of objects, which may hold numbers or texts" in refusal(ww.life, {"x": pd.Series([[1], [2]])}, "x")
     assert "beyond 2^53" in refusal(ww.life, {"x": pd.Series([1, 2**60], dtype=object)}, "x")
 
 

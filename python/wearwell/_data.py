@@ -5,6 +5,7 @@ reads it once, into its own memory. Other numbers are converted on the way (one 
 by object.
 """
 
+import decimal
 import difflib
 import os
 
@@ -50,7 +51,7 @@ def _texts(values, where):
         return "" if missing else "str" if isinstance(each, str) else type(each).__name__
 
     kinds = [kind(each) for each in values]
-    if numbers := _whole_numbers(values, kinds, where):
+    if numbers := _numbers_among_objects(values, kinds, where):
         return numbers[0]
     first = next((k for k in kinds if k), "str")
     other = next((row for row, k in enumerate(kinds) if k and k != first), None)
@@ -62,19 +63,21 @@ def _texts(values, where):
         if first in _dates:
             raise InputError(f"{_at(where, row)}: {first}; dates and times are no measurements: give a number with a unit, like hours "
                              "since the start")
-        raise InputError(f"{_at(where, row)}: {first} in a column of objects, which may hold texts alone; numbers need a dtype of "
-                         "numbers (astype(float))")
+        raise InputError(f"{_at(where, row)}: {first} in a column of objects, which may hold numbers or texts")
     return [None if not k else each for k, each in zip(kinds, values)]
 
 
-def _whole_numbers(values, kinds, where):
-    """A column of objects that are whole numbers, all of them, as numbers: such frames come from databases and from JSON."""
-    if not any(kinds) or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, (int, np.integer)) for k, each in zip(kinds, values) if k):
+def _numbers_among_objects(values, kinds, where):
+    """A column of objects that are numbers, all of them, as numbers: such frames come from databases and from JSON."""
+    numbers = (int, float, decimal.Decimal, np.integer, np.floating)
+    if not any(kinds) or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, numbers) for k, each in zip(kinds, values) if k):
         return None
     return [_numbers(np.array([np.nan if not k else _exactly(each, where) for k, each in zip(kinds, values)], dtype=float), where)]
 
 
 def _exactly(value, where):
+    if not isinstance(value, (int, np.integer)):
+        return float(value)
     if abs(int(value)) > _exact:
         raise InputError(f"{where}: the whole number {value} lies beyond 2^53 and cannot be kept to its last digit")
     return int(value)

@@ -36,7 +36,9 @@ def _stress(columns, heading, model, laws):
     name = columns.name(heading)
     values = columns.numbers(heading)
     unit = columns.unit(heading)
-    if len(values) == 0 or values.min() == values.max():
+    if len(values) < len(columns.words(heading)):
+        raise InputError(f"stress: column '{heading}' has {len(values)} numbers in {len(columns.words(heading))} rows; it needs one in each row")
+    if values.min() == values.max():
         raise InputError(f"stress: column '{heading}' has one value in all rows; what does not differ says nothing of a stress: leave it out")
     if model == "inverse power":
         if values.min() <= 0:

@@ -1,0 +1,71 @@
+"""Columns of every kind, in every argument that names one: an answer, or a refusal that names the argument or the column."""
+
+import datetime
+import decimal
+import fractions
+import itertools
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import wearwell as ww
+
+hours = [120.0, 340.0, 560.0, 230.0, 450.0, 610.0, 80.0, 150.0]
+event = [1, 1, 1, 1, 0, 1, 1, 0]
+group = ["a", "b"] * 4
+stress = [300.0, 320.0] * 4
+
+# name: a column made from the values of a good one
+kinds = {
+    "as it is": list,
+    "float32": lambda v: np.asarray(v, dtype="float32") if not isinstance(v[0], str) else v,
+    "objects": lambda v: pd.Series(v, dtype=object),
+    "categories": pd.Categorical,
+    "texts": lambda v: [str(each) for each in v],
+    "decimals": lambda v: [decimal.Decimal(str(each)) for each in v] if not isinstance(v[0], str) else v,
+    "fractions": lambda v: [fractions.Fraction(each) for each in v] if not isinstance(v[0], str) else v,
+    "nullable": lambda v: pd.array(v[:-1] + [None]),
+    "a None": lambda v: v[:2] + [None] + v[3:],
+    "a NaN": lambda v: v[:2] + [np.nan] + v[3:],
+    "infinite": lambda v: v[:2] + [np.inf] + v[3:],
+    "minus infinity": lambda v: v[:2] + [-np.inf] + v[3:],
+    "negative": lambda v: v[:2] + [-7.0] + v[3:],
+    "zero": lambda v: [0] * len(v),
+    "alike": lambda v: [v[0]] * len(v),
+    "booleans": lambda v: [True, False] * (len(v) // 2),
+    "complex": lambda v: np.ones(len(v), dtype=complex),
+    "bytes": lambda v: [b"x"] * len(v),
+    "dates": lambda v: pd.date_range("2020-01-01", periods=len(v)),
+    "dates as objects": lambda v: [datetime.date(2020, 1, 1)] * len(v),
+    "durations": lambda v: pd.to_timedelta(range(len(v)), unit="h"),
+    "periods": lambda v: pd.period_range("2020-01", periods=len(v), freq="M"),
+    "intervals": lambda v: pd.interval_range(0, len(v)),
+    "lists": lambda v: [[1, 2]] * len(v),
+    "dicts": lambda v: [{}] * len(v),
+    "arrays": lambda v: [np.ones(2)] * len(v),
+    "mixed": lambda v: v[:3] + ["seven"] + v[4:],
+    "blanks": lambda v: [" "] * len(v),
+    "beyond 2^53": lambda v: np.full(len(v), 2**60 + 1, dtype="uint64"),
+    "huge": lambda v: [1e300] * len(v) if not isinstance(v[0], str) else v,
+    "tiny": lambda v: [1e-300] * len(v) if not isinstance(v[0], str) else v,
+    "signs and lines": lambda v: ['"];\n#'] * len(v),
+}
+
+
+@pytest.fixture
+def life(monkeypatch):
+    """ww.life up to the fit: a study, read and checked."""
+    monkeypatch.setattr(ww.Study, "fit", lambda study, *_, **__: study)
+    return lambda frame: ww.life(frame, "hours", event="event", by="group", stress={"T": "arrhenius"}, units={"T": "K", "hours": "h"})
+
+
+@pytest.mark.parametrize("column, kind", itertools.product(["hours", "event", "group", "T"], kinds))
+def test_a_column_of_each_kind_is_read_or_refused_by_name(life, column, kind):
+    columns = {"hours": hours, "event": event, "group": group, "T": stress}
+    columns[column] = kinds[kind](columns[column])
+    try:
+        assert life(pd.DataFrame(columns)).description()
+    except ww.InputError as error:
+        assert re.search(rf"\b({column}|stress|by|event)\b", str(error)), error
