@@ -26,21 +26,21 @@ def files_below(folder):
 def same(wearwell, tmp_path):
     """Compares a plan with what the program answers to these arguments: JSON, text, tables and page."""
 
-    def compare(plan, *arguments, titles=None):
+    def compare(plan, *arguments, titles=None, command="plan", file="plan.json"):
         here, there = tmp_path / "here", tmp_path / "there"
-        code, out, error = wearwell("plan", *arguments, "-o", there)
+        code, out, error = wearwell(*command.split(), *arguments, "-o", there)
         assert code <= 1, error
         assert plan.trusted == (code == 0)
         plan.write(here)
         here, there = files_below(here), files_below(there)
         assert here.keys() == there.keys()
-        given, wanted = (json.loads(files["plan.json"]) for files in (here, there))
+        given, wanted = (json.loads(files[file]) for files in (here, there))
         assert given == plan.summary
         for key in titles or ():
             assert given.pop(key, None) != wanted.pop(key, None), key
         assert given == wanted
         if not titles:
-            assert here["plan.json"] == there["plan.json"]
+            assert here[file] == there[file]
         assert not [name for name in here if name.startswith("tables/") and here[name] != there[name]]
         assert "--" not in str(plan).replace("---", "")
         return out
@@ -144,6 +144,51 @@ def test_inspections_of_a_fit_are_the_programs(same, liners, tmp_path):
     same(ww.plan.inspect(liners, unit=unit, given=given), "inspect", folder, "--unit", unit, "--given", "force = 20 N", titles=["title"])
 
 
+def decided(same, lives, options, *about, **others):
+    """ww.decide and wearwell decide say the same."""
+    named = [each for key, value in options.items() for each in ("--" + key.replace("_", "-"), value)]
+    same(ww.decide(lives, **{**options, **others}), *about, *named, command="decide", file="decisions.json",
+         titles=["title"] if isinstance(lives, ww.Fit) else None)
+
+
+def test_decisions_are_the_programs(same, liners, examples, tmp_path):
+    table = os.path.join(examples, "decide", "lives.csv")
+    costs = {"failure_cost": "12000 EUR", "replacement_cost": "900 EUR"}
+    decided(same, table, {**costs, "month": "300 h", "months": 3, "claims": "2 %"}, table)
+    folder = tmp_path / "results"
+    liners.write(folder)
+    read = {**costs, "inspection_cost": "60 EUR", "unit": "1", "inspect_after": "5 km"}
+    named = [each for key, value in read.items() for each in ("--" + key.replace("_", "-"), value)]
+    same(ww.decide(liners, **read, given={"force": "20 N"}, service_level="99 %"), folder, *named, "--given", "force = 20 N", "--service-level", 99,
+         command="decide", file="decisions.json", titles=["title"])
+
+
+def test_units_in_service_are_a_frame_or_a_file(same, tmp_path):
+    fit = ww.life({"life [h]": [1200.0, 1500, 1900, 2300, 2600, 3100, 3600]}, "life", seed=1, method="exact", draws=100)
+    fit.write(tmp_path / "results")
+    ages = pd.DataFrame({"unit": ["P1", "P2"], "age [h]": [500.0, 2000.0]})
+    ages.to_csv(tmp_path / "ages.csv", index=False)
+    costs = {"failure_cost": 10, "replacement_cost": 1}
+    for frame in (ages, tmp_path / "ages.csv"):
+        decided(same, fit, costs, tmp_path / "results", "--in-service", tmp_path / "ages.csv", in_service=frame)
+        same(ww.plan.inspect(fit, in_service=frame), "inspect", tmp_path / "results", "--in-service", tmp_path / "ages.csv", titles=["title"])
+    with pytest.raises(ww.InputError, match="^in_service: a table of lives has its running units"):
+        ww.decide({"life [h]": [1.0, 2.0]}, **costs, in_service=ages)
+
+
+def test_errors_of_decisions_name_the_argument(liners):
+    lives = {"life [h]": [1200.0, 1500, 1900]}
+    for options, message in (({"replacement_cost": "0 EUR"}, "^replacement_cost: must be above 0"), ({"months": 0}, "^months is 0"),
+                             ({"service_level": 95}, "^service_level is 95; it is a share below 1"), ({"unit": "1"}, "^unit and inspect_after go together"),
+                             ({"downtime_cost": "1 EUR/h"}, "^downtime_cost: .* it needs inspection_cost"), ({"month": "1 h"}, "^month: there is no running unit")):
+        with pytest.raises(ww.InputError, match=message):
+            ww.decide(lives, **{"failure_cost": "10 EUR", "replacement_cost": "1 EUR", **options})
+    with pytest.raises(ww.InputError, match="^in_service: the units of this study are followed by their readings"):
+        ww.decide(liners, failure_cost=10, replacement_cost=1, in_service={"unit": ["a"], "age [km]": [1.0]})
+    with pytest.raises(ww.InputError, match="^lives is Study"):
+        ww.decide(liners.study, failure_cost=10, replacement_cost=1)
+
+
 def test_errors_of_inspections_name_the_argument(liners, examples):
     table = os.path.join(examples, "decide", "lives.csv")
     with pytest.raises(ww.InputError, match="^total_risk: needs warning"):
@@ -160,7 +205,7 @@ def test_errors_of_inspections_name_the_argument(liners, examples):
         ww.plan.inspect(table, unit="P22")
     with pytest.raises(ww.InputError, match="no/such"):
         ww.plan.inspect("no/such")
-    with pytest.raises(ww.InputError, match="fleet.toml: the units of a monitor are planned on the command line"):
+    with pytest.raises(ww.InputError, match="fleet.toml: questions about the units of a monitor are for the command line"):
         ww.plan.inspect("fleet.toml")
 
 

@@ -12,7 +12,8 @@ One line for a table, with default priors that ``fit.study.toml`` states:
 
 All lead to a ``Fit``: ``trusted`` and ``checks``, ``summary``, ``lives``, ``plot("life")``, ``predict``, ``percentile``,
 ``survival_function``, ``report``. ``Study`` makes a study of your own formula, data and priors, and ``fit`` fits it or a
-study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` counts cycles, ``plan`` plans tests;
+study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` counts cycles, ``plan`` plans tests, ``decide``
+replacements;
 ``bearing`` and ``clutch`` have the formulas of these parts too. Numbers are those of the program ``wearwell``, to the bit.
 
 Examples
@@ -36,6 +37,7 @@ from ._callable_module import make_callable as _make_callable
 from ._check import Check
 from ._clutch_study import clutch as _fit_clutch
 from ._data import table
+from ._decide import decide
 from ._degradation_study import degradation
 from ._fatigue_study import sn, staircase
 from ._fit import Fit
@@ -55,7 +57,7 @@ _make_callable(clutch.__name__, _fit_clutch)
 
 __all__ = [
     "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
-    "select", "Selection", "rainflow", "plan", "Plan", "table", "arrow", "ArrowTable",
+    "select", "Selection", "rainflow", "decide", "plan", "Plan", "table", "arrow", "ArrowTable",
     "flat", "uniform", "normal", "lognormal", "half_normal", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
     "jeffreys", "prior", "default",
     "InputError", "MissingFileError", "MachineError", "NotTrusted", "CheckWarning",

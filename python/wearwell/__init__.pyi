@@ -427,12 +427,33 @@ class Comparison:
 
 def compare(*fits: Fit | _Path | Mapping[str, Fit | _Path], names: Sequence[str] | None = ...) -> Comparison: ...
 
+def decide(
+    lives: Any,
+    *,
+    failure_cost: float | str,
+    replacement_cost: float | str,
+    at: str | None = ...,
+    in_service: Any = ...,
+    inspection_cost: float | str | None = ...,
+    downtime_cost: str | None = ...,
+    month: _Quantity | None = ...,
+    months: int = ...,
+    service_level: float | str = ...,
+    claims: float | str | None = ...,
+    unit: str | None = ...,
+    inspect_after: _Quantity | None = ...,
+    given: Mapping[str, Any] | Sequence[str] | None = ...,
+    progress: _Progress = ...,
+) -> Plan: ...
+
 class Plan:
     title: str
     summary: dict[str, Any]
     json: str
     trusted: bool
-    def __init__(self, title: str, text: str, json: str, tables: Sequence[tuple[str, str]], page: str, trusted: bool) -> None: ...
+    def __init__(
+        self, title: str, text: str, json: str, tables: Sequence[tuple[str, str]], page: str, trusted: bool, name: str = ...
+    ) -> None: ...
     @property
     def tables(self) -> dict[str, pandas.DataFrame]: ...
     def report(self, path: _Path) -> None: ...

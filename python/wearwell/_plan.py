@@ -1,4 +1,4 @@
-"""Plans of tests and inspections to come, as the functions of wearwell.plan make them."""
+"""Plans of tests and inspections to come and decisions, as the functions of wearwell.plan and wearwell.decide make them."""
 
 import csv
 import functools
@@ -32,6 +32,8 @@ class Plan:
         The report, HTML.
     trusted : bool
         Whether the fit beneath is trusted.
+    name : str
+        Name of its JSON file.
 
     Attributes
     ----------
@@ -54,9 +56,9 @@ class Plan:
     22
     """
 
-    def __init__(self, title, text, json, tables, page, trusted):
+    def __init__(self, title, text, json, tables, page, trusted, name="plan"):
         self.title, self.json, self.summary, self.trusted = title, json, loads(json), trusted
-        self._text, self._csv, self._page = text, dict(tables), page
+        self._text, self._csv, self._page, self._name = text, dict(tables), page, name
 
     @functools.cached_property
     def tables(self):
@@ -109,7 +111,7 @@ class Plan:
         _core.write_file(os.fspath(path), self._page)
 
     def write(self, folder):
-        """Write the folder of the plan, as ``wearwell plan -o`` does: plan.json, tables and report, whole or not at all.
+        """Write the folder of the plan, as ``wearwell plan -o`` does: plan.json (decisions.json), tables and report, whole or not at all.
 
         Parameters
         ----------
@@ -132,7 +134,7 @@ class Plan:
         >>> sorted(os.listdir(folder))
         ['plan.json', 'report.html', 'results.sha1', 'tables']
         """
-        files = [("plan.json", self.json), *((f"tables/{name}.csv", text) for name, text in self._csv.items()),
+        files = [(f"{self._name}.json", self.json), *((f"tables/{name}.csv", text) for name, text in self._csv.items()),
                  ("report.html", self._page)]
         _core.write_folder(os.fspath(folder), files)
 
@@ -208,7 +210,7 @@ def answer(kind, arguments, about=None, name="", tables=None, threads=0, progres
     for key, data in (tables or {}).items():
         found += _tables(data, key)
     with reporter(progress) as report:
-        plan = Plan(*_core.plan(kind, text, run, study, path, found, threads, report))
+        plan = Plan(*_core.plan(kind, text, run, study, path, found, threads, report), "decisions" if kind == "decide" else "plan")
     if not plan.trusted:
         warn("the fit that this plan rests on is not trusted: see its checks")
     return plan

@@ -184,7 +184,7 @@ def size(study, goal, *, width, tests, assurance=0.8, level=0.9, measure=None, m
 
 def inspect(lives, *, at=None, risk=None, total_risk=None, warning=None, until=None, step=None, unit=None, new=False,
             inspection_cost=None, failure_cost=None, replacement_cost=None, downtime_cost=None, visit_cost=None, given=None,
-            threads=0, progress=None):
+            in_service=None, threads=0, progress=None):
     """Plan the inspections ahead that keep the risk below a bound with the fewest inspections, or the cheapest ones.
 
     For one unit, or for all running units of a fleet with common visits. The interpreter's lock is released.
@@ -220,6 +220,9 @@ def inspect(lives, *, at=None, risk=None, total_risk=None, warning=None, until=N
         Cost of a visit, whatever the number of units inspected.
     given : dict or sequence of str, optional
         Conditions of the next reading of ``unit``, ``{"force": "20 N"}``.
+    in_service : table, str or path, optional
+        Running units, for a fit of lives: columns unit, "age [h]", and in_study (yes where the study has the unit as a
+        run-out of this age).
     threads : int
         Threads, 0 for all. No number depends on it.
     progress : bool or callable, optional
@@ -262,4 +265,4 @@ def inspect(lives, *, at=None, risk=None, total_risk=None, warning=None, until=N
         "at": at, "risk": risk, "total_risk": total_risk, "warning": warning, "until": until, "step": step, "unit": unit, "new": new,
         "inspection_cost": inspection_cost, "failure_cost": failure_cost, "replacement_cost": replacement_cost,
         "downtime_cost": downtime_cost, "visit_cost": visit_cost, "given": given,
-    }, lives, "lives", None, threads, progress)
+    }, lives, "lives", {"in_service": in_service}, threads, progress)

@@ -76,6 +76,7 @@ def inspect(
     downtime_cost: str | None = ...,
     visit_cost: float | str | None = ...,
     given: Mapping[str, Any] | Sequence[str] | None = ...,
+    in_service: Any = ...,
     threads: int = ...,
     progress: _Progress = ...,
 ) -> Plan: ...

@@ -202,7 +202,7 @@ ww_require_trusted <- function(fit) {
 
 ww_write <- function(fit, folder) {
   if (inherits(fit, "ww_plan")) {
-    files <- c(plan.json = fit$json, stats::setNames(fit$csv, sprintf("tables/%s.csv", names(fit$csv))), report.html = fit$page)
+    files <- c(stats::setNames(fit$json, paste0(fit$name, ".json")), stats::setNames(fit$csv, sprintf("tables/%s.csv", names(fit$csv))), report.html = fit$page)
   } else {
     files <- files_of(fit)
     if (!is.na(files["report.json"])) files <- c(files, report.html = page_of(files))

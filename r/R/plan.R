@@ -41,6 +41,7 @@ plan_of <- function(kind, arguments, run = NULL, study = NULL, path = "", tables
   text <- paste0("{", paste(inside, collapse = ", "), "}")
   threads <- whole(threads, "threads", 0, 1024)
   found <- with_progress(progress, function(report) core(C_plan, kind, text, run, study, path, tables, threads, report))
+  found$name <- if (kind == "decide") "decisions" else "plan"
   found$csv <- found$tables
   found$tables <- lapply(found$csv, exact_csv)
   if (!found$trusted) warn("the fit that this plan rests on is not trusted: see its checks")
@@ -70,15 +71,30 @@ ww_plan_demonstrate <- function(goal, confidence = 0.9, failures = 0, specimens 
 
 ww_plan_inspect <- function(lives, risk = NULL, total_risk = NULL, warning = NULL, until = NULL, step = NULL, unit = NULL, new = FALSE,
                             inspection_cost = NULL, failure_cost = NULL, replacement_cost = NULL, downtime_cost = NULL,
-                            visit_cost = NULL, given = NULL, at = NULL, threads = 0, progress = FALSE) {
+                            visit_cost = NULL, given = NULL, at = NULL, in_service = NULL, threads = 0, progress = FALSE) {
   arguments <- list(at = at, risk = risk, total_risk = total_risk, warning = warning, until = until, step = step, unit = unit, new = new,
                     inspection_cost = inspection_cost, failure_cost = failure_cost, replacement_cost = replacement_cost,
                     downtime_cost = downtime_cost, visit_cost = visit_cost, given = given)
+  plan_of_lives("inspect", arguments, lives, in_service, threads, progress)
+}
+
+ww_decide <- function(lives, failure_cost, replacement_cost, at = NULL, in_service = NULL, inspection_cost = NULL, downtime_cost = NULL,
+                      month = NULL, months = 12, service_level = 0.95, claims = NULL, unit = NULL, inspect_after = NULL, given = NULL,
+                      progress = FALSE) {
+  arguments <- list(at = at, failure_cost = failure_cost, replacement_cost = replacement_cost, inspection_cost = inspection_cost,
+                    downtime_cost = downtime_cost, month = month, months = months, service_level = service_level, claims = claims,
+                    unit = unit, inspect_after = inspect_after, given = given)
+  plan_of_lives("decide", arguments, lives, in_service, 0, progress)
+}
+
+# `lives`: a fit, a folder, or a table of lives.
+plan_of_lives <- function(kind, arguments, lives, in_service, threads, progress) {
+  running <- plan_tables(in_service, "in_service")
   if (inherits(lives, "ww_fit") || is_path(lives)) {
     about <- fit_or_folder(lives)
-    return(plan_of("inspect", arguments, run = about$run, path = about$path, threads = threads, progress = progress))
+    return(plan_of(kind, arguments, run = about$run, path = about$path, tables = running, threads = threads, progress = progress))
   }
-  plan_of("inspect", arguments, tables = plan_tables(lives, "lives"), threads = threads, progress = progress)
+  plan_of(kind, arguments, tables = c(plan_tables(lives, "lives"), running), threads = threads, progress = progress)
 }
 
 ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = NULL, cost = NULL, specimen_cost = NULL, use_cost = NULL,

@@ -6,10 +6,10 @@ texts_below <- function(folder) {
 }
 
 # The plan's folder is what the program writes for these arguments, but for the page, which names arguments.
-same <- function(plan, ..., but_title = FALSE) {
+same <- function(plan, ..., but_title = FALSE, command = "plan", file = "plan.json") {
   here <- tempfile("here")
   there <- tempfile("there")
-  done <- program("plan", ..., "-o", there)
+  done <- program(command, ..., "-o", there)
   expect_lte(done$code, 1)
   expect_s3_class(plan, "ww_plan")
   ww_write(plan, here)
@@ -19,8 +19,8 @@ same <- function(plan, ..., but_title = FALSE) {
   names_equal <- setdiff(names(one), c("report.html", "results.sha1"))
   if (but_title) {
     line <- '"title": "[^\n]*"'
-    one["plan.json"] <- sub(line, "", one["plan.json"])
-    other["plan.json"] <- sub(line, "", other["plan.json"])
+    one[file] <- sub(line, "", one[file])
+    other[file] <- sub(line, "", other[file])
   }
   expect_identical(one[names_equal], other[names_equal])
   unlink(c(here, there), recursive = TRUE)
@@ -75,6 +75,23 @@ test_that("inspections are the program's, of tables, folders and fits", {
   same(ww_plan_inspect(folder, risk = 0.05), "inspect", folder, "--risk", 0.05)
   same(ww_plan_inspect(fit, unit = "1", given = list(force = "20 N")), "inspect", folder, "--unit", 1, "--given", "force = 20 N",
        but_title = TRUE)
+})
+
+test_that("decisions are the program's, and units in service a frame or a file", {
+  lives <- example("decide", "lives.csv")
+  same(ww_decide(lives, "12000 EUR", "900 EUR", month = "300 h", months = 3, claims = "2 %"), lives, "--failure-cost", "12000 EUR",
+       "--replacement-cost", "900 EUR", "--month", "300 h", "--months", 3, "--claims", "2 %", command = "decide", file = "decisions.json")
+  fit <- quiet(ww_life(life ~ 1, data.frame(life = c(1200, 1500, 1900, 2300, 2600, 3100, 3600)), units = list(life = "h"), seed = 1,
+                       method = "exact", draws = 100))
+  folder <- tempfile("results")
+  ww_write(fit, folder)
+  ages <- data.frame(unit = c("P1", "P2"), "age [h]" = c(500, 2000), check.names = FALSE)
+  file <- tempfile("ages", fileext = ".csv")
+  write.csv(ages, file, row.names = FALSE, quote = FALSE)
+  same(ww_decide(fit, 10, 1, in_service = ages), folder, "--failure-cost", 10, "--replacement-cost", 1, "--in-service", file,
+       command = "decide", file = "decisions.json", but_title = TRUE)
+  refused(ww_decide(fit, 10, 0), "replacement_cost: must be above 0")
+  refused(ww_decide(lives, 10, 1, in_service = ages), "in_service: a table of lives has its running units")
 })
 
 test_that("errors of inspections name the argument", {

@@ -9,17 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/lives_input.h"
 #include "wearwell/cli/option_rules.h"
-#include "wearwell/input/option_value.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
-#include "wearwell/prognosis/decisions_report.h"
-#include "wearwell/prognosis/money.h"
-#include "wearwell/prognosis/next_reading.h"
-#include "wearwell/prognosis/quantity_like.h"
+#include "wearwell/prognosis/decision_request.h"
 
 namespace wearwell {
 namespace prognosis {
@@ -27,91 +22,17 @@ namespace {
 
 struct DecideOptions {
   LivesOptions lives;
+  DecisionRequest request;
   std::filesystem::path output;
-  std::string failure, replacement, inspection, downtime, month, unit, after, claims;
-  std::vector<std::string> given;
-  int months = 12;
   double service = 95;
   bool json = false;
 };
 
-Question question_of(const DecideOptions& options, const Unit& axis) {
-  Question question;
-  Currency currency;
-  question.costs.failure = amount("--failure-cost", options.failure, currency);
-  question.costs.replacement = amount("--replacement-cost", options.replacement, currency);
-  if (question.costs.replacement <= 0)
-    throw InputError("--replacement-cost: must be above 0; otherwise waiting saves nothing");
-  if (!options.inspection.empty()) {
-    question.costs.inspection = amount("--inspection-cost", options.inspection, currency);
-    question.inspected = true;
-    if (question.costs.inspection <= 0)
-      throw InputError(
-          "--inspection-cost: must be above 0; otherwise the optimal interval is zero");
-  }
-  if (!options.downtime.empty()) {
-    if (!question.inspected)
-      throw InputError(
-          "--downtime-cost: applies to failures that only an inspection shows; it needs "
-          "--inspection-cost");
-    question.hidden = amount_per("--downtime-cost", options.downtime, axis, currency);
-  }
-  if (!options.month.empty())
-    question.per_month = quantity_like("--month", options.month, axis, Allowed::positive);
-  question.currency = currency.text;
-  question.months = options.months;
-  question.service = options.service / 100;
-  if (!options.claims.empty()) {
-    question.claims = option_value("--claims", options.claims, "1", Allowed::positive);
-    if (!(*question.claims < 1))
-      throw InputError(fmt::format("--claims: {} must lie between 0 and 100 %", options.claims));
-  }
-  return question;
-}
-
-// The value of another reading of one unit.
-WorthReport worth_of(const DecideOptions& options, const FollowedUnits& units,
-                     const Question& question, double rate) {
-  if (!units.tracker)
-    throw InputError(
-        "--inspect-after: a table of lives does not predict what a reading would show");
-  if (!question.inspected) throw InputError("--inspect-after: needs --inspection-cost");
-  const Tracker& tracker = *units.tracker;
-  require_known(units, options.unit);
-  const auto unit = units.unit(options.unit);
-  const Forecast now = unit->forecast();
-  WorthReport report;
-  report.unit = options.unit;
-  report.after =
-      quantity_like("--inspect-after", options.after, tracker.axis().unit, Allowed::not_negative);
-  const Reading reading = next_reading(tracker, now.now + report.after, options.given);
-  const std::optional<std::size_t> measured = measured_column(tracker);
-  if (!measured)
-    throw InputError(
-        fmt::format("--inspect-after: a reading of a {} shows only whether it has "
-                    "failed",
-                    tracker.noun()));
-  report.column = tracker.columns()[*measured].name;
-  report.reading_unit = tracker.columns()[*measured].unit;
-  report.outcomes =
-      possible_outcomes(tracker, *unit, reading, *measured, units.history(options.unit));
-  report.worth = inspection_worth(now.remaining, now.passed, report.outcomes, report.after,
-                                  question.costs, rate);
-  return report;
-}
-
 int run_decide(const DecideOptions& options, Models models) {
-  DecisionsReport report;
-  if (options.unit.empty() != options.after.empty())
-    throw InputError("--unit and --inspect-after go together; give both");
   LivesInput read = read_lives(options.lives, models);
-  report.lives = std::move(read.lives);
-  report.question = question_of(options, report.lives.unit);
-  if (report.question.per_month && report.lives.units.empty())
-    throw InputError("--month: there is no running unit to count");
-  report.decisions = decide(report.lives, report.question);
-  if (!options.unit.empty())
-    report.worth = worth_of(options, read.followed(), report.question, report.decisions.reference);
+  DecisionRequest request = options.request;
+  request.service = options.service / 100;
+  const DecisionsReport report = decide(request, std::move(read.lives), read.followed());
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   if (folder) {
@@ -148,30 +69,30 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
       ->required();
   add_lives_options(*command, options->lives);
   command
-      ->add_option("--failure-cost", options->failure,
+      ->add_option("--failure-cost", options->request.failure_cost,
                    "Cost of a failure in service, including the replacement: '12000 EUR'")
       ->required();
   command
-      ->add_option("--replacement-cost", options->replacement,
+      ->add_option("--replacement-cost", options->request.replacement_cost,
                    "Cost of a preventive replacement: '900 EUR'")
       ->required();
-  command->add_option("--inspection-cost", options->inspection,
+  command->add_option("--inspection-cost", options->request.inspection_cost,
                       "Cost of one inspection; adds the optimal inspection interval");
-  command->add_option("--downtime-cost", options->downtime,
+  command->add_option("--downtime-cost", options->request.downtime_cost,
                       "Cost of an undetected failure per use until the next inspection: '5 EUR/h'");
-  command->add_option("--unit", options->unit,
+  command->add_option("--unit", options->request.unit,
                       "One unit of a result: adds the value of another reading of it");
-  command->add_option("--inspect-after", options->after,
+  command->add_option("--inspect-after", options->request.inspect_after,
                       "Use from now until that reading is taken: '5 km'; '0 km' for now");
   command->add_option(
-      "--given", options->given,
+      "--given", options->request.given,
       "Conditions of that reading: 'force = 20 N', for each column that a reading needs");
   command->add_option(
-      "--month", options->month,
+      "--month", options->request.month,
       "Use of a unit per month, '600 h': adds the failures and spare parts per month");
-  command->add_option("--claims", options->claims,
+  command->add_option("--claims", options->request.claims,
                       "Share of units that may fail under warranty, '2 %': adds its length");
-  command->add_option("--months", options->months, "Number of months ahead")
+  command->add_option("--months", options->request.months, "Number of months ahead")
       ->check(number_between(1, 600))
       ->capture_default_str();
   command

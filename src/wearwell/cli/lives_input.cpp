@@ -7,7 +7,6 @@
 #include "wearwell/cli/monitored.h"
 #include "wearwell/input/table.h"
 #include "wearwell/prognosis/result_lives.h"
-#include "wearwell/prognosis/study_lives.h"
 
 namespace wearwell {
 namespace {
@@ -90,14 +89,10 @@ LivesInput read_lives(const LivesOptions& options, Models models) {
   }
   prognosis::ResultLives result =
       prognosis::lives_of_result(read_carried(path), models, path.string(), options.point);
-  if (result.tracker && !options.in_service.empty())
-    throw InputError(
-        "--in-service: the units of this study are followed by their readings; it "
-        "is for studies that measure lives");
+  if (!options.in_service.empty())
+    prognosis::add_units_in_service(result, read_table(options.in_service));
   input.tracker = std::move(result.tracker);
   input.lives = std::move(result.lives);
-  if (!options.in_service.empty())
-    prognosis::add_units_in_service(input.lives, read_table(options.in_service));
   return input;
 }
 

@@ -10,6 +10,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/plan_arguments.h"
+#include "wearwell/input/option_value.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/plan/accelerate.h"
 #include "wearwell/plan/demonstrate.h"
@@ -18,6 +19,7 @@
 #include "wearwell/plan/size.h"
 #include "wearwell/present/page.h"
 #include "wearwell/prognosis/carried_state.h"
+#include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
@@ -102,7 +104,7 @@ Work demonstrate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
   return [question] { return plan::demonstrate(question); };
 }
 
-// The lives that inspections are planned for, and the units that they are of.
+// The lives that inspections and replacements are planned for, and the units that they are of.
 struct Lives {
   std::unique_ptr<const prognosis::Tracker> tracker;
   prognosis::KnownLives lives;
@@ -115,14 +117,19 @@ Lives lives_of(const PlanSubject& subject, const std::string& point) {
   const bool is_result = !table && (subject.run || std::filesystem::is_directory(subject.path));
   if (!point.empty() && !is_result)
     throw InputError("at names a life of a study; only a fit or its folder has one");
+  const Table* const in_service = table_of(subject, "in_service");
+  if (in_service && !is_result)
+    throw InputError("in_service: a table of lives has its running units in rows with `unit`");
   if (table) {
     result.lives = prognosis::lives_of_table(*table);
     return result;
   }
   if (!subject.run && std::filesystem::path(subject.path).extension() == ".toml")
-    throw InputError(fmt::format(
-        "{}: the units of a monitor are planned on the command line: wearwell plan inspect {}",
-        printable(subject.path), printable(subject.path)));
+    throw InputError(
+        fmt::format("{}: questions about the units of a monitor are for the command line (wearwell "
+                    "plan inspect, "
+                    "wearwell decide)",
+                    printable(subject.path)));
   if (!is_result) {
     result.lives = prognosis::lives_of_table(read_table(subject.path));
     return result;
@@ -130,6 +137,7 @@ Lives lives_of(const PlanSubject& subject, const std::string& point) {
   const std::string title = subject.run ? subject.run->result->header.title : subject.path;
   prognosis::ResultLives found =
       prognosis::lives_of_result(carried_posterior(subject), all_models(), title, point);
+  if (in_service) prognosis::add_units_in_service(found, *in_service);
   result.tracker = std::move(found.tracker);
   result.lives = std::move(found.lives);
   if (result.tracker) result.followed = prognosis::units_of_study(*result.tracker);
@@ -153,9 +161,42 @@ Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor
   arguments.text("downtime_cost", question.downtime_cost);
   arguments.text("visit_cost", question.visit_cost);
   arguments.texts("given", question.given);
+  arguments.table("in_service");
   return [question, point, &subject, monitor] {
     const Lives lives = lives_of(subject, point);
     return plan::inspect(question, lives.lives, lives.followed, monitor);
+  };
+}
+
+Work decide(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) {
+  prognosis::DecisionRequest request;
+  std::string point, service;
+  std::size_t months = 12;
+  arguments.text("at", point);
+  arguments.text("failure_cost", request.failure_cost);
+  arguments.text("replacement_cost", request.replacement_cost);
+  arguments.text("inspection_cost", request.inspection_cost);
+  arguments.text("downtime_cost", request.downtime_cost);
+  arguments.text("month", request.month);
+  arguments.whole("months", months, 1, 600);
+  arguments.text("service_level", service);
+  arguments.text("claims", request.claims);
+  arguments.text("unit", request.unit);
+  arguments.text("inspect_after", request.inspect_after);
+  arguments.texts("given", request.given);
+  arguments.table("in_service");
+  request.months = static_cast<int>(months);
+  if (!service.empty()) {
+    request.service = option_value("service_level", service, "1", Allowed::positive);
+    if (!(request.service < 1))
+      throw InputError("service_level is " + service + "; it is a share below 1");
+  }
+  return [request, point, &subject] {
+    Lives lives = lives_of(subject, point);
+    const prognosis::DecisionsReport report =
+        prognosis::decide(request, std::move(lives.lives), lives.followed);
+    return plan::Answer{report.lives.title, decisions_text(report), decisions_sections(report),
+                        decisions_json(report), report.lives.trusted};
   };
 }
 
@@ -222,9 +263,10 @@ Reader reader_of(const std::string& kind) {
   if (kind == "demonstrate") return &demonstrate;
   if (kind == "accelerate") return &accelerate;
   if (kind == "inspect") return &inspect;
+  if (kind == "decide") return &decide;
   throw InputError(
-      fmt::format("there is no plan of kind '{}'; it is next, size, demonstrate, inspect or "
-                  "accelerate",
+      fmt::format("there is no plan of kind '{}'; it is next, size, demonstrate, inspect, "
+                  "accelerate or decide",
                   printable(kind)));
 }
 
@@ -247,13 +289,13 @@ void rename(std::vector<present::Block>& blocks, const PlanArguments& arguments)
   }
 }
 
-PlanAnswer shown(plan::Answer answer, const PlanArguments& arguments) {
+PlanAnswer shown(plan::Answer answer, const char* heading, const PlanArguments& arguments) {
   for (present::Section& section : answer.sections) rename(section.blocks, arguments);
   PlanAnswer result{answer.title,
                     arguments.in_arguments(answer.text),
                     printable_json(answer.json.dump(2)) + "\n",
                     {},
-                    html_page({WEARWELL_VERSION, "Plan", answer.title, answer.sections}),
+                    html_page({WEARWELL_VERSION, heading, answer.title, answer.sections}),
                     answer.trusted};
   for (const present::Table* table : present::tables(answer.sections))
     result.tables.emplace_back(table->id, present::csv(*table));
@@ -272,7 +314,7 @@ PlanAnswer plan(const std::string& kind, const std::string& arguments, const Pla
   const Work work = reader_of(kind)(reading, subject, monitor);
   reading.finish();
   try {
-    return shown(work(), reading);
+    return shown(work(), kind == "decide" ? "Decisions" : "Plan", reading);
   } catch (const InputError& error) {
     throw InputError(reading.in_arguments(error.what()));
   }

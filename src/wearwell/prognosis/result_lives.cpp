@@ -1,5 +1,6 @@
 #include "wearwell/prognosis/result_lives.h"
 
+#include "wearwell/base/error.h"
 #include "wearwell/prognosis/study_lives.h"
 #include "wearwell/study/inference_data.h"
 
@@ -23,6 +24,14 @@ ResultLives lives_of_result(const CarriedState& state, Models models, const std:
   result.lives =
       lives_of_study(require_posterior_study(*study), state.posterior, title, state.trusted, point);
   return result;
+}
+
+void add_units_in_service(ResultLives& result, const Table& table) {
+  if (result.tracker)
+    throw InputError(
+        "--in-service: the units of this study are followed by their readings; it is for studies "
+        "that measure lives");
+  add_units_in_service(result.lives, table);
 }
 
 }  // namespace wearwell::prognosis

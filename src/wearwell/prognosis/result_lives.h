@@ -24,4 +24,8 @@ struct ResultLives {
 ResultLives lives_of_result(const CarriedState& state, Models models, const std::string& title,
                             const std::string& point);
 
+/// Adds units in service (study_lives.h) to lives of a study that measures lives. Throws InputError,
+/// also if its units are followed by their readings.
+void add_units_in_service(ResultLives& result, const Table& table);
+
 }  // namespace wearwell::prognosis
