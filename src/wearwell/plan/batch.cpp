@@ -66,12 +66,10 @@ class BatchChoice {
 
   Gain gain_of(std::vector<std::size_t> chosen) const {
     std::sort(chosen.begin(), chosen.end());  // the same numbers for the same set
-    Batch batch;
-    for (const std::size_t each : chosen) {
-      batch.outcomes.push_back(plan_.judged[each].outcomes);
-      batch.specimens.push_back(plan_.judged[each].candidate.specimens);
-    }
-    return gain_of_batch(plan_.points, batch, {question_.samples, question_.seed});
+    std::vector<Tested> tests;
+    for (const std::size_t each : chosen)
+      tests.push_back({each, plan_.judged[each].candidate.specimens});
+    return plan_.gain_together(plan_, tests);
   }
 
   // What is to be small.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,18 @@ namespace wearwell::plan {
 /// A candidate with its gain, on the scale of the goal.
 struct Judged {
   Candidate candidate;
-  const Outcomes* outcomes = nullptr;  ///< of one specimen
+  const Outcomes* outcomes = nullptr;  ///< of one specimen; null where gains have a closed form
   Gain gain;
   double narrowing = 0, narrowing_error = 0;  ///< 1 - root of `variance_share`
   double variance_share = 0;                  ///< expected variance over the present one
   std::optional<double> cost = {};            ///< of all specimens
   double score = 0;                           ///< what the ranking maximizes: gain, or gain / cost
+};
+
+/// Specimens of one candidate, among tests done together.
+struct Tested {
+  std::size_t candidate = 0;  ///< of NextPlan::judged
+  int specimens = 1;
 };
 
 /// Candidates chosen together.
@@ -55,7 +63,10 @@ struct NextPlan {
   Table condition_values;
   std::vector<Outcomes> outcomes;  ///< of one specimen of each different test
   std::vector<Judged> judged;      ///< best first
-  bool worth_it = true;            ///< whether the best is worth its cost, or gains anything
+  /// The gain of tests done together, on the scale of `nodes`.
+  std::function<Gain(const NextPlan& plan, std::span<const Tested> tests)> gain_together = {};
+  std::string how = {};  ///< how gains are computed, in sentences; empty: over the nodes
+  bool worth_it = true;  ///< whether the best is worth its cost, or gains anything
   std::string why_not = {};
   std::optional<ChosenBatch> batch = {};
   std::optional<Target> target = {};
@@ -68,6 +79,15 @@ struct NextPlan {
 
   double in_unit(double goal_value) const;
 };
+
+/// Throws InputError that names the option.
+void check_question(const NextQuestion& question);
+
+/// Shares, costs and order of the candidates, whose gains are known.
+void rank_candidates(const NextQuestion& question, NextPlan& plan);
+
+/// The answer of ranked candidates: checks, whether the best is worth its cost, batch and target.
+Answer answer_of_ranked(NextPlan plan, const NextQuestion& question);
 
 /// The best set of candidates by greedy choice and exchange, within `budget` and `most` of them.
 ChosenBatch choose_batch(const NextPlan& plan, const NextQuestion& question);

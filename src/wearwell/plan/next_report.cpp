@@ -203,6 +203,7 @@ std::string next_text(const NextPlan& plan) {
 }
 
 std::string how_computed(const NextPlan& plan, const NextQuestion& question) {
+  if (!plan.how.empty()) return plan.how;
   const bool several = std::any_of(plan.judged.begin(), plan.judged.end(),
                                    [](const Judged& each) { return each.candidate.specimens > 1; });
   std::string text = fmt::format(
@@ -267,7 +268,7 @@ Json candidate_json(const NextPlan& plan, const Judged& each) {
   json["runouts"] = each.gain.runout;
   json["cost"] = each.cost ? Json(*each.cost) : Json();
   json["score"] = each.score;
-  json["effective"] = each.gain.effective;
+  json["effective"] = finite(each.gain.effective);
   json["outside"] = each.candidate.outside;
   return json;
 }
@@ -289,7 +290,7 @@ Json next_json(const NextPlan& plan, const NextQuestion& question) {
                {"why_not", plan.why_not.empty() ? Json() : Json(plan.why_not)},
                {"test_unit", plan.use_unit.empty() ? Json() : Json(plan.use_unit)},
                {"currency", plan.currency.empty() ? Json() : Json(plan.currency)},
-               {"nodes", plan.points.goal.size()},
+               {"nodes", plan.how.empty() ? Json(plan.points.goal.size()) : Json()},
                {"samples", question.samples},
                {"seed", question.seed},
                {"tests_done", plan.tests_done}};
