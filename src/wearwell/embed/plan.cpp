@@ -217,6 +217,7 @@ Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
   arguments.text("use", question.use);
   arguments.text("highest", question.highest);
   arguments.text("until", question.until);
+  arguments.list("stop", question.stop);
   arguments.whole("specimens", question.specimens);
   arguments.text("family", question.family);
   arguments.text("relation", question.relation);
