@@ -186,6 +186,9 @@ Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) 
   arguments.number("use_cost", question.use_cost);
   arguments.text("measure", question.measure);
   arguments.text("by", question.by);
+  arguments.text("failure_cost", question.failure_cost);
+  arguments.text("replacement_cost", question.replacement_cost);
+  arguments.text("fleet_use", question.fleet_use);
   arguments.number("value", question.value);
   arguments.number("budget", question.budget);
   arguments.whole("batch", question.batch);

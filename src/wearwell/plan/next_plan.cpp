@@ -135,6 +135,17 @@ void find_gains(const NextQuestion& question, NextPlan& plan) {
   });
 }
 
+void find_loss(const NextQuestion& question, const Points& nodes, NextPlan& plan) {
+  plan.loss = decision_loss(question, plan.goal, nodes, plan.points);
+  if (!plan.currency.empty() && !plan.loss->currency.empty() &&
+      plan.currency != plan.loss->currency)
+    throw InputError(
+        fmt::format("--failure-cost is in {}, and the costs of candidates in {}; give "
+                    "both in one currency",
+                    printable(plan.loss->currency), printable(plan.currency)));
+  if (plan.currency.empty()) plan.currency = plan.loss->currency;
+}
+
 Candidates candidates_of(const NextQuestion& question, const TestStudy& study) {
   const std::vector<int> specimens =
       question.specimens.empty() ? std::vector<int>{1} : specimen_counts(question.specimens);
@@ -178,6 +189,7 @@ NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const
   if (!(plan.nodes.sd > 0))
     throw InputError(fmt::format("--goal: {} is known already: it is the same under all parameters",
                                  plan.goal.name));
+  if (question.by == "loss") find_loss(question, nodes.values, plan);
   std::vector<PlannedTest> tests;
   const std::vector<std::size_t> test_of = different_tests(candidates.all, tests);
   plan.outcomes =

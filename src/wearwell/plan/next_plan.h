@@ -8,6 +8,7 @@
 
 #include "wearwell/infer/check.h"
 #include "wearwell/plan/candidates.h"
+#include "wearwell/plan/decision_loss.h"
 #include "wearwell/plan/gain.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/present/html.h"
@@ -57,6 +58,7 @@ struct NextPlan {
   GoalSpread now;    ///< over the whole posterior if the study reports the goal, else of the nodes
   GoalSpread nodes;  ///< of the nodes
   GoalNodes points;
+  std::optional<DecisionLoss> loss = {};
   std::string use_unit;  ///< of Gain::use; empty unless tests are lives
   std::string currency;
   std::vector<ConditionColumn> conditions;
@@ -78,6 +80,8 @@ struct NextPlan {
   bool trusted = true;
 
   double in_unit(double goal_value) const;
+  /// The width after this narrowing, from the present one of the whole posterior.
+  double expected_width(double narrowing) const { return now.width() * (1 - narrowing); }
 };
 
 /// Throws InputError that names the option.
@@ -92,6 +96,7 @@ Answer answer_of_ranked(NextPlan plan, const NextQuestion& question);
 /// The best set of candidates by greedy choice and exchange, within `budget` and `most` of them.
 ChosenBatch choose_batch(const NextPlan& plan, const NextQuestion& question);
 
+nlohmann::ordered_json next_json(const NextPlan& plan, const NextQuestion& question);
 /// Text, sections and JSON.
 Answer answer_of(const NextPlan& plan, const NextQuestion& question);
 std::vector<html::Figure> next_figures(const NextPlan& plan);

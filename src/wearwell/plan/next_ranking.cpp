@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -21,11 +22,37 @@ std::optional<double> cost_of(const Candidate& candidate, const Gain& gain,
 
 double gain_by(const std::string& by, const NextPlan& plan, const Gain& gain) {
   if (by == "information") return gain.information;
+  if (by == "loss") return gain.saved / plan.loss->now;
   return 1 - std::sqrt(gain.variance) / plan.nodes.sd;
+}
+
+// Whether what a test saves in the whole use of the fleet is worth its cost.
+void find_worth_of_saving(NextPlan& plan) {
+  const DecisionLoss& loss = *plan.loss;
+  const Judged* best = nullptr;
+  double most = -infinity;
+  constexpr double least = 1e-6;  // of the present cost
+  bool any = false;
+  for (const Judged& each : plan.judged) {
+    any = any || each.gain.saved - 2 * each.gain.saved_error > least * loss.now;
+    const double net = loss.saved(each.gain.saved) - each.cost.value_or(0);
+    if (net > most) most = net, best = &each;
+  }
+  if (!any) {
+    plan.worth_it = false;
+    plan.why_not = "No candidate is expected to change the age of replacement.";
+  } else if (loss.fleet_use > 0 && best->cost && !(most > 0)) {
+    plan.worth_it = false;
+    plan.why_not = fmt::format(
+        "No candidate is worth its cost: the nearest, {}, is expected to save {:.4g} and costs "
+        "{:.4g}.",
+        best->candidate.name, loss.saved(best->gain.saved), *best->cost);
+  }
 }
 
 // Whether the best is worth doing.
 void find_worth(const NextQuestion& question, NextPlan& plan) {
+  if (plan.loss) return find_worth_of_saving(plan);
   constexpr double least = 1e-3;
   const auto best = std::max_element(
       plan.judged.begin(), plan.judged.end(), [](const Judged& a, const Judged& b) {
@@ -113,9 +140,16 @@ void check_question(const NextQuestion& question) {
     throw InputError("give either --candidates, a table, or --grid");
   if (question.goal.empty())
     throw InputError("--goal is missing: what are the tests to determine?");
-  if (question.by != "variance" && question.by != "information")
+  if (question.by != "variance" && question.by != "information" && question.by != "loss")
     throw InputError(
-        fmt::format("--by: '{}' must be variance or information", printable(question.by)));
+        fmt::format("--by: '{}' must be variance, information or loss", printable(question.by)));
+  if (question.by != "loss")
+    for (const auto& [option, text] : {std::pair{"--failure-cost", &question.failure_cost},
+                                       {"--replacement-cost", &question.replacement_cost},
+                                       {"--fleet-use", &question.fleet_use}})
+      if (!text->empty()) throw InputError(fmt::format("{}: belongs to --by loss", option));
+  if (question.by == "loss" && question.value)
+    throw InputError("--value: is of narrowing; --by loss compares costs, by --fleet-use");
   const auto positive = [](const char* option, const std::optional<double>& value) {
     if (value && !(*value > 0 && std::isfinite(*value)))
       throw InputError(fmt::format("{}: {:.6g} must be positive", option, *value));

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "wearwell/cli/carried.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/cli/plan/command_parts.h"
 #include "wearwell/models/clutch/next_point.h"
 #include "wearwell/plan/next_question.h"
@@ -64,8 +65,19 @@ void add_next_command(CLI::App& plan, Models models, int& exit_code) {
   command->add_option("--batch", question.batch, "Choose up to so many candidates together")
       ->capture_default_str();
   command->add_option("--budget", question.budget, "Most that they may cost together");
-  command->add_option("--by", question.by, "Rank by the variance of the goal or by information")
+  command
+      ->add_option("--by", question.by,
+                   "Rank by the variance of the goal, by information, or by the loss of age "
+                   "replacement")
+      ->check(one_of({"variance", "information", "loss"}))
       ->capture_default_str();
+  command->add_option("--failure-cost", question.failure_cost,
+                      "Of --by loss: cost of a failure in service, '12000 EUR'");
+  command->add_option("--replacement-cost", question.replacement_cost,
+                      "And of a replacement before it, '3000 EUR'");
+  command->add_option("--fleet-use", question.fleet_use,
+                      "And use of all units that the decision is for, '1e9 cycles': savings in "
+                      "money, and whether a test is worth its cost");
   command->add_option("--tests", options->tests,
                       "Tables of tests done since the fit, in the columns of its data");
   command->add_option("--until", question.until,

@@ -220,6 +220,10 @@ void refuse_options_of_posteriors(const plan::NextQuestion& question) {
     throw InputError(
         "--tests: a clutch map has no posterior to carry on; add the rows to the campaign and fit "
         "it again (wearwell update)");
+  if (question.by == "loss")
+    throw InputError(
+        "--by: 'loss' is of the lives of a study with a posterior; a clutch map ranks by variance "
+        "or information");
   if (!question.measure.empty())
     throw InputError("--measure: a point of a clutch campaign measures its wear rate only");
 }
