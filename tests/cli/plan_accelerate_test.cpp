@@ -146,7 +146,7 @@ TEST_F(PlanAccelerate, HasStopTimesByLevel) {
   EXPECT_TRUE(found["optimum_gain"].is_null());
   const std::string text =
       run_wearwell("plan accelerate " + test + shares + "--sigma 0.6 " + stops).out;
-  EXPECT_THAT(text, HasSubstr("366, 183, 92 (lower, middle, highest level) d"));
+  EXPECT_THAT(text, HasSubstr("366, 183, 92 d (lower, middle, highest level)"));
   EXPECT_THAT(text, HasSubstr("times the stop times"));
 }
 

@@ -84,7 +84,7 @@ TEST(NextByLoss, AgreesWithSimulatedDecisions) {
   const Eigen::RowVectorXd today = draws.weights.transpose() * rates;
   const double now = today.minCoeff(&best);
   const double known = draws.weights.dot(rates.rowwise().minCoeff());
-  constexpr int simulations = 1500;
+  constexpr int simulations = 800;
   double sum = 0, squares = 0;
   for (int s = 0; s < simulations; ++s) {
     Rng rng(5, static_cast<std::uint64_t>(s));
@@ -128,7 +128,7 @@ TEST(NextByLoss, AgreesWithSimulatedDecisions) {
 TEST(NextByLoss, RanksAndSaysWhetherATestIsWorthIt) {
   const prognosis::CarriedState state = state_of(lives_source(), lives_posterior());
   NextQuestion question = loss_question("stop = 0.001, 60, 1000 h");
-  question.nodes = 400;
+  question.nodes = 200;
   question.specimen_cost = 10;
   question.fleet_use = "1e6 h";
   const ordered_json json = next_test(state, "lives", reading(), question).json;

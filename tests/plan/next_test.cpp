@@ -109,6 +109,7 @@ TEST(NextTest, HasTheGaugeAsACondition) {
   Source source = line_source();
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{"sd = \"noise\"", "sd = \"gauge\""},
+        {"given = { x = \"3\" }", "given = { x = \"3\", gauge = \"0.5 mm\" }"},
         {"[constants]\nnoise = \"0.5 mm\"\n", ""},
         {"unit = \"1\" }\n",
          "unit = \"1\" }\ngauge = { column = \"gauge_mm\", unit = \"mm\" }\n"}}) {

@@ -40,12 +40,13 @@ std::string settings_sentence(const AccelerationResult& result) {
   std::vector<std::string> stops;
   for (const double stop : test.stops) stops.push_back(plain_given(stop / test.time_unit.scale));
   const std::string until =
-      stops.empty() ? plain_given(test.until / test.time_unit.scale)
-                    : fmt::format("{} (lower, middle, highest level)", fmt::join(stops, ", "));
+      stops.empty() ? plain_given(test.until / test.time_unit.scale) + " " + test.time_unit.text
+                    : fmt::format("{} {} (lower, middle, highest level)", fmt::join(stops, ", "),
+                                  test.time_unit.text);
   std::string text = fmt::format(
-      "{} specimens until {} {}; {} lives of the same scatter at all stresses; {}; highest stress "
+      "{} specimens until {}; {} lives of the same scatter at all stresses; {}; highest stress "
       "{}",
-      test.question.specimens, until, test.time_unit.text,
+      test.question.specimens, until,
       test.question.family == "weibull" ? "Weibull" : test.question.family,
       relations[static_cast<int>(test.relation)], stress_text(test, 1));
   if (test.lowest_xi > 0) text += fmt::format(", lowest {}", stress_text(test, test.lowest_xi));

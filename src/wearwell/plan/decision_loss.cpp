@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/plan/candidates.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/prognosis/money.h"
 #include "wearwell/prognosis/quantity_like.h"
@@ -84,14 +85,16 @@ DecisionLoss decision_loss(const NextQuestion& question, const Goal& goal, const
 }
 
 std::string loss_text(const DecisionLoss& loss) {
-  const std::string rate =
-      fmt::format("{}{} per {}", loss.currency.empty() ? "" : " ", loss.currency, loss.per);
+  // Per 1e5 cycles a rate has a size that people read; the words keep the power.
+  const auto [factor, unit] = plain_unit(loss.per);
+  const std::string per = factor == 1 ? unit : fmt::format("{} {}", plain_number(factor), unit);
   return fmt::format(
-      "Replacement {} costs {}{} today; with lives known exactly it would cost {}, so that no "
-      "test saves more than {:.3g} %.",
-      std::isfinite(loss.age) ? fmt::format("at {} {}", plain_number(loss.age), loss.per)
-                              : "at failure only",
-      plain_number(loss.now), rate, plain_number(loss.known), 100 * (1 - loss.known / loss.now));
+      "Replacement {} costs {}{}{} per {} today; with lives known exactly it would cost {}, so "
+      "that "
+      "no test saves more than {:.3g} %.",
+      std::isfinite(loss.age) ? "at " + with_plain_unit(loss.age, loss.per) : "at failure only",
+      plain_number(loss.now), loss.currency.empty() ? "" : " ", loss.currency, per,
+      plain_number(loss.known), 100 * (1 - loss.known / loss.now));
 }
 
 }  // namespace wearwell::plan

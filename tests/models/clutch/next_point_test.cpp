@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -152,9 +153,9 @@ TEST(NextPoint, ChoosesBatchesAndStops) {
 TEST(NextPoint, WarnsWhereTermsMatterMore) {
   WearModel model = sample_model();
   const auto warned = [&] {
-    for (const auto& check : next_point(model, true, question(grid)).json["checks"])
-      if (check["name"] == "terms") return true;
-    return false;
+    const ordered_json json = next_point(model, true, question(grid)).json;
+    return std::any_of(json["checks"].begin(), json["checks"].end(),
+                       [](const auto& check) { return check["name"] == "terms"; });
   };
   EXPECT_FALSE(warned());
   for (int i = 0; i < 20; ++i)
