@@ -228,6 +228,14 @@ def test_accelerated_tests_are_the_programs(same):
          *options, "--shape", "1.4 to 2", "--activation-energy", "0.65 to 0.8 eV", "--middle-share", 0.25)
 
 
+def test_accelerated_tests_have_stop_times_by_level(same):
+    plan = ww.plan.accelerate(**accelerated, relation="eyring", sigma=0.6, activation_energy="0.7 eV", stop=["366 d", "183 d", "92 d"])
+    same(plan, *options, "--relation", "eyring", "--sigma", 0.6, "--activation-energy", "0.7 eV", "--stop", "366 d, 183 d, 92 d")
+    assert [level["until"] for level in plan.summary["plans"][0]["levels"]] == pytest.approx([366, 92])
+    with pytest.raises(ww.InputError, match="^stop: '366 d' has 1 time; it has three"):
+        ww.plan.accelerate(**accelerated, sigma=0.6, failing_at_highest=0.9, stop="366 d")
+
+
 def test_errors_of_accelerated_tests_name_the_argument():
     with pytest.raises(ww.InputError, match="^shape, sigma: give one of them"):
         ww.plan.accelerate(**accelerated)
@@ -275,6 +283,17 @@ def test_next_tests_are_the_programs(same, springs, candidates, results, tmp_pat
     assert of_frame.summary["candidates"] == plan.summary["candidates"]
     assert of_frame.tables["candidates"].equals(plan.tables["candidates"])
     assert len(plan.tables["candidates"]) == 3
+
+
+def test_next_tests_by_loss(same, springs, candidates, results, tmp_path):
+    table = tmp_path / "tests.csv"
+    candidates.to_csv(table, index=False)
+    plan = ww.plan.next(results, goal, candidates=table, cost="cost", by="loss", failure_cost="20 EUR", replacement_cost="1 EUR",
+                        fleet_use="1e10 cycles", nodes=200)
+    same(plan, "next", results, "--goal", goal, "--candidates", table, "--cost", "cost", "--by", "loss", "--failure-cost", "20 EUR",
+         "--replacement-cost", "1 EUR", "--fleet-use", "1e10 cycles", "--nodes", 200)
+    with pytest.raises(ww.InputError, match="^replacement_cost is missing: by loss needs failure_cost"):
+        ww.plan.next(springs, goal, candidates=candidates, by="loss", failure_cost=3)
 
 
 def test_grids_batches_and_several_specimens(same, springs, results):

@@ -64,7 +64,7 @@ def demonstrate(goal, *, confidence=0.9, failures=0, specimens=None, time=None, 
     })
 
 
-def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrhenius", family="weibull", shape=None, sigma=None,
+def accelerate(*, use, highest, until, specimens, stop=None, goal="B10", relation="arrhenius", family="weibull", shape=None, sigma=None,
                failing_at_use=None, failing_at_highest=None, life_at_highest=None, activation_energy=None, exponent=None, slope=None,
                lowest=None, low=None, middle_share=0.2, least_failures=4):
     """Plan an accelerated life test: levels of stress, specimens at each, and how well they predict a life in use.
@@ -83,9 +83,12 @@ def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrheniu
         Stop time of every test, "183 d".
     specimens : int
         Number of specimens in all.
+    stop : sequence of str or pint quantity, or str, optional
+        Stop times of the lower, the middle and the highest level instead, ["365 d", "250 d", "183 d"]. Shares that fail stay those
+        by ``until``.
     goal : str
         Life to predict at the stress in use, "B10".
-    relation : {"arrhenius", "inverse-power", "linear"}
+    relation : {"arrhenius", "eyring", "inverse-power", "linear"}
         Relation of log life to stress.
     family : {"weibull", "lognormal", "loglogistic"}
         Distribution of lives.
@@ -100,7 +103,7 @@ def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrheniu
     life_at_highest : str, optional
         Instead: median life there, "60 d", or another one, "B10 = 20 d".
     activation_energy : str or pint quantity, optional
-        How steeply life falls by the relation of Arrhenius, "0.7 eV".
+        How steeply life falls by the relation of Arrhenius or Eyring, "0.7 eV".
     exponent : float or str, optional
         The same of an inverse power.
     slope : float or str, optional
@@ -137,7 +140,8 @@ def accelerate(*, use, highest, until, specimens, goal="B10", relation="arrheniu
     [300, 300, 300, 300]
     """
     return answer("accelerate", {
-        "use": use, "highest": highest, "until": until, "specimens": specimens, "goal": goal, "relation": relation, "family": family,
+        "use": use, "highest": highest, "until": until, "specimens": specimens, "stop": stop, "goal": goal, "relation": relation,
+        "family": family,
         "shape": shape, "sigma": sigma, "failing_at_use": failing_at_use, "failing_at_highest": failing_at_highest,
         "life_at_highest": life_at_highest, "activation_energy": activation_energy, "exponent": exponent, "slope": slope,
         "lowest": lowest, "low": low, "middle_share": middle_share, "least_failures": least_failures,

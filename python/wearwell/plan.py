@@ -23,8 +23,8 @@ def _require(about, name, kinds, what):
 
 
 def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, specimen_cost=None, use_cost=None, measure=None,
-         by="variance", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, threads=0,
-         progress=None):
+         by="variance", value=None, budget=None, batch=1, until=None, tests=None, samples=256, nodes=800, seed=1, failure_cost=None,
+         replacement_cost=None, fleet_use=None, threads=0, progress=None):
     """Rank the tests that could be done next by how much they are expected to narrow a goal.
 
     Expectations are over the posterior of the fit and the outcomes that it predicts. One specimen is computed by
@@ -36,7 +36,8 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
         A fit, or the folder of its result.
     goal : str
         What the tests are to determine: "B10 at NAME", a quantity, a prediction or a parameter of the study. An unknown
-        goal is refused with the list of the known ones.
+        goal is refused with the list of the known ones. Of a clutch: "wear rate at slip_speed = 1700 rpm, torque = 50 N m,
+        temperature = 170 degC, closing_time = 2.15 s", or "life at ...".
     candidates : table, str or path, optional
         A row for each test: a column for each condition of the study, and optionally ``specimens``, ``stop`` (time at
         which a specimen that has not failed is taken off), ``name`` and a column of costs.
@@ -53,9 +54,9 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
         And of each unit of its expected time on test.
     measure : str, optional
         Column that the test measures, where the study has several.
-    by : {"variance", "information"}
-        What ranks: the expected variance of the goal (of its logarithm, where it is positive), or the information about all
-        parameters.
+    by : {"variance", "information", "loss"}
+        What ranks: the expected variance of the goal (of its logarithm, where it is positive), the information about all
+        parameters, or the expected saving of age replacement, whose life the goal names.
     value : float, optional
         Worth of one per cent of narrowing, in units of cost: says whether a test is worth its cost.
     budget : float, optional
@@ -72,6 +73,10 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
         Nodes of the posterior at most, 50 to 20000.
     seed : int
         Seed of the nested Monte Carlo.
+    failure_cost, replacement_cost : str or float, optional
+        Of ``by="loss"``: costs of a failure in service and of a replacement before it, "12000 EUR".
+    fleet_use : str or pint quantity, optional
+        And the use of all units that the decision is for, "1e9 cycles": savings in money, and whether a test is worth its cost.
     threads : int
         Threads, 0 for all. No number depends on it.
     progress : bool or callable, optional
@@ -116,7 +121,8 @@ def next(fit, goal, *, candidates=None, grid=None, specimens=None, cost=None, sp
     return answer("next", {
         "goal": goal, "grid": grid, "specimens": specimens, "cost": cost, "specimen_cost": specimen_cost, "use_cost": use_cost,
         "measure": measure, "by": by, "value": value, "budget": budget, "batch": batch, "until": until, "samples": samples,
-        "nodes": nodes, "seed": seed, "tests": files or None,
+        "nodes": nodes, "seed": seed, "failure_cost": failure_cost, "replacement_cost": replacement_cost, "fleet_use": fleet_use,
+        "tests": files or None,
     }, fit, "fit", {"candidates": candidates, "tests": tests}, threads, progress)
 
 

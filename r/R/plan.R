@@ -99,13 +99,15 @@ plan_of_lives <- function(kind, arguments, lives, in_service, threads, progress)
 
 ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = NULL, cost = NULL, specimen_cost = NULL, use_cost = NULL,
                          measure = NULL, by = "variance", value = NULL, budget = NULL, batch = 1, until = NULL, tests = NULL,
-                         samples = 256, nodes = 800, seed = 1, threads = 0, progress = FALSE) {
+                         samples = 256, nodes = 800, seed = 1, failure_cost = NULL, replacement_cost = NULL, fleet_use = NULL,
+                         threads = 0, progress = FALSE) {
   about <- fit_or_folder(fit)
   several <- if (is.list(tests) && !is.data.frame(tests) && is.null(names(tests))) tests else if (!is.null(tests)) list(tests)
   files <- vapply(several, is_path, NA)
   plan_of("next", list(goal = goal, grid = grid, specimens = specimens, cost = cost, specimen_cost = specimen_cost, use_cost = use_cost,
                        measure = measure, by = by, value = value, budget = budget, batch = batch, until = until, samples = samples,
-                       nodes = nodes, seed = seed_text(seed),
+                       nodes = nodes, seed = seed_text(seed), failure_cost = failure_cost, replacement_cost = replacement_cost,
+                       fleet_use = fleet_use,
                        tests = if (any(files)) I(vapply(several[files], path_of, "", "tests"))),
           run = about$run, path = about$path, tables = c(plan_tables(candidates, "candidates"), plan_tables(several[!files], "tests")),
           threads = threads, progress = progress)
@@ -114,8 +116,8 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
 ww_plan_accelerate <- function(use, highest, until, specimens, goal = "B10", relation = "arrhenius", family = "weibull", shape = NULL,
                                sigma = NULL, failing_at_use = NULL, failing_at_highest = NULL, life_at_highest = NULL,
                                activation_energy = NULL, exponent = NULL, slope = NULL, lowest = NULL, low = NULL, middle_share = 0.2,
-                               least_failures = 4) {
-  plan_of("accelerate", list(use = use, highest = highest, until = until, specimens = specimens, goal = goal, relation = relation,
+                               least_failures = 4, stop = NULL) {
+  plan_of("accelerate", list(use = use, highest = highest, until = until, specimens = specimens, stop = stop, goal = goal, relation = relation,
                              family = family, shape = shape, sigma = sigma, failing_at_use = failing_at_use,
                              failing_at_highest = failing_at_highest, life_at_highest = life_at_highest,
                              activation_energy = activation_energy, exponent = exponent, slope = slope, lowest = lowest, low = low,

@@ -123,7 +123,62 @@ TEST_F(PlanAccelerate, PlansOtherRelationsAndWritesAFolder) {
     EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
 }
 
+// A time at the lower level that is longer than at the others: the same plan as by hand, in all tables.
+TEST_F(PlanAccelerate, HasStopTimesByLevel) {
+  const std::string stops = "--stop '366 d, 183 d, 92 d' --low '78 degC' ";
+  const json one = plan(test + shares + "--sigma 0.6 --low '78 degC'"),
+             found = plan(test + shares + "--sigma 0.6 " + stops),
+             same =
+                 plan(test + shares + "--sigma 0.6 --low '78 degC' --stop '183 d, 183 d, 4392 h'");
+  for (int kind = 0; kind < 4; ++kind) {
+    EXPECT_NEAR(same["plans"][kind]["standard_error"].get<double>(),
+                one["plans"][kind]["standard_error"].get<double>(), 1e-12);
+    EXPECT_LT(found["plans"][kind]["standard_error"], one["plans"][kind]["standard_error"]);
+    const json &levels = found["plans"][kind]["levels"], &before = one["plans"][kind]["levels"];
+    EXPECT_DOUBLE_EQ(levels.front()["until"], 366);
+    EXPECT_DOUBLE_EQ(levels.back()["until"], 92);
+    EXPECT_LT(levels.back()["failing"], before.back()["failing"]);
+  }
+  // Twice the time at shape 1/0.6.
+  const double failing = one["plans"][1]["levels"][0]["failing"];
+  EXPECT_NEAR(found["plans"][1]["levels"][0]["failing"].get<double>(),
+              1 - std::pow(1 - failing, std::pow(2, 1 / 0.6)), 1e-9);
+  EXPECT_TRUE(found["optimum_gain"].is_null());
+  const std::string text =
+      run_wearwell("plan accelerate " + test + shares + "--sigma 0.6 " + stops).out;
+  EXPECT_THAT(text, HasSubstr("366, 183, 92 d (lower, middle, highest level)"));
+  EXPECT_THAT(text, HasSubstr("times the stop times"));
+}
+
+// The Eyring relation is Arrhenius' with an activation energy that is higher by k_B T, up to its change
+// over the range; the shares that fail are as given.
+TEST_F(PlanAccelerate, HasTheEyringRelation) {
+  const std::string life = "--sigma 0.6 --failing-at-use '0.1 %' --activation-energy ";
+  const json arrhenius = plan(test + life + "'0.73 eV'");
+  const json eyring = plan(test + "--relation eyring " + life + "'0.6994 eV'");
+  for (int kind = 0; kind < 4; ++kind)
+    EXPECT_NEAR(eyring["plans"][kind]["standard_error"].get<double>(),
+                arrhenius["plans"][kind]["standard_error"].get<double>(), 2e-3);
+  const json given = plan(test + "--relation eyring --sigma 0.6 " + shares);
+  EXPECT_NEAR(given["plans"][0]["levels"].back()["failing"].get<double>(), 0.9, 1e-9);
+  EXPECT_NEAR(given["plans"][0]["standard_error"].get<double>(), 0.3794, 2e-3);
+  EXPECT_THAT(
+      run_wearwell("plan accelerate " + test + "--relation eyring --sigma 0.6 " + shares).out,
+      HasSubstr("Eyring relation"));
+}
+
 TEST_F(PlanAccelerate, RefusesWhatItCannotPlan) {
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --stop '366 d, 183 d'"),
+              HasSubstr("--stop: '366 d, 183 d' has 2 times; it has three"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --stop '366 d, 183 d, -1 d'"),
+              HasSubstr("--stop: '-1 d' must be positive"));
+  EXPECT_THAT(refusal(test + shares + "--sigma 0.6 --stop '366 d, 183 d, 4 km'"),
+              HasSubstr("--stop"));
+  EXPECT_THAT(refusal("--relation eyring --use '50 MPa' --highest '120 MPa' --until '183 d' "
+                      "--specimens 300 --sigma 0.6 " +
+                      shares),
+              HasSubstr("--highest"));
+
   EXPECT_THAT(refusal("--use '130 degC' --highest '120 degC' --until '183 d' --specimens 300 " +
                       shares + "--sigma 0.6"),
               HasSubstr("--use: '130 degC' must be below --highest"));

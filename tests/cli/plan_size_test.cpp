@@ -46,6 +46,24 @@ TEST_F(PlanSize, TellsTheSameAsJsonAndInAFolder) {
     EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
 }
 
+// predict.types of the study are of its data, which are not there; an S-N study refuses campaigns
+// without a failure, which are too wide.
+TEST_F(PlanSize, LeavesOutTypesAndCountsCampaignsOfRunouts) {
+  const auto short_tests =
+      write("short.csv", "alternating_stress_MPa,mean_stress_MPa,stop [cycles]\n240,1000,1000\n");
+  const std::string springs = PROJECT_SOURCE_DIR "/examples/spring/sensible.toml --tests " +
+                              short_tests.string() + " --width 'factor 3'";
+  const CommandResult run = run_wearwell(
+      "plan size " + springs + " --goal 'B10 at softer spring' --most 4 --simulations 20 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json reported = json::parse(run.out);
+  EXPECT_EQ(reported["reached"], false);
+  EXPECT_EQ(reported["sizes"][0]["assurance"], 0);
+  EXPECT_GE(reported["sizes"][0]["without_failure"], 10);
+  EXPECT_EQ(reported["sizes"][0]["unresolved"], 0);
+  EXPECT_THAT(refusal(springs + " --goal 'B10 at F'"), HasSubstr("softer spring"));
+}
+
 TEST_F(PlanSize, RefusesWhatItCannotPlan) {
   EXPECT_THAT(refusal(planned + " --width 'factor 1'"), HasSubstr("must be above 1"));
   EXPECT_THAT(refusal(planned + " --width '3 kg'"), HasSubstr("--width"));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "wearwell/base/rng.h"
@@ -117,6 +118,64 @@ TEST(BestAllocation, IsTheCompromiseOfMeekerAndEscobar) {
   EXPECT_NEAR(std::sqrt(goal_variance(goal, information, plan) / 300), 0.4375, 5e-4);
 }
 
+// Meeker and Escobar (1998), example 20.8, insulation under voltage and temperature, as quoted by
+// ReliaSoft ("Optimal Test Plan for Two Stresses"): Weibull, shape 1.485, log scale = 58.173 - 12.28
+// log(V/mm) + 0.3878 x 11605/T; use 80 V/mm and 120 degC, highest 200 V/mm and 260 degC; 170 units for
+// 1000 h. The plan, 62 units at 124 V/mm and 260 degC, 42 at 159 V/mm and 120 degC, 66 at the highest,
+// splits the lower level of the optimum plan along the line between use and highest into two points of
+// the same life, which keeps the variance: 104 units there. Its standard error, 0.3670, and its levels
+// are those of the 0.1 % quantile.
+TEST(BestPlan, IsTheOptimumForInsulationOfMeekerAndEscobar) {
+  const CensoredInformation information(smallest_extreme_value);
+  const auto log_scale = [](double volts, double kelvin) {
+    return 58.173 - 12.28 * std::log(volts) + 0.3878 * 11605 / kelvin;
+  };
+  const double use = log_scale(80, 393.15), highest = log_scale(200, 533.15), shape = 1.485;
+  const AccelerationGoal goal{
+      smallest_extreme_value,
+      0.001,
+      {{shape * (std::log(1000) - use), shape * (use - highest), 1 / shape, 1}}};
+  const auto plan = best_plan(PlanKind::optimum, goal, information, 0, 0.2);
+  ASSERT_EQ(plan.size(), 2U);
+  for (const double lower : {log_scale(124, 533.15), log_scale(159, 393.15)})
+    EXPECT_NEAR(plan[0].xi, (use - lower) / (use - highest), 0.003);
+  EXPECT_EQ(whole_allocation(plan, 170), (std::vector<std::size_t>{62 + 42, 66}));
+  EXPECT_NEAR(std::sqrt(goal_variance(goal, information, plan) / 170), 0.3670, 1e-4);
+}
+
+// Stop times by level enter through the information of each level only: by hand, and complete tests
+// as the limit of long ones. The same time at all levels is one stop time.
+TEST(BestAllocation, UsesTheStopTimeOfEachLevel) {
+  const CensoredInformation information(smallest_extreme_value);
+  AccelerationGoal goal = adhesive_bond();
+  const PlanningPoint point = goal.points.front();
+  const std::vector<TestLevel> levels = {{0.5, 0.6, std::log(2)}, {1, 0.4, std::log(0.5)}};
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const TestLevel& level : levels) {
+    const auto f = information(point.at_use + point.rise * level.xi + level.log_stop / point.scale);
+    Eigen::Matrix3d one;
+    one << f.location, f.location * level.xi, f.both, f.location * level.xi,
+        f.location * level.xi * level.xi, f.both * level.xi, f.both, f.both * level.xi, f.scale;
+    sum += level.share * one;
+  }
+  const Eigen::Vector3d c(1, 0, quantile(smallest_extreme_value, 0.1));
+  EXPECT_NEAR(goal_variance(goal, information, levels), 0.36 * c.dot(sum.inverse() * c), 1e-6);
+
+  AccelerationGoal longer = goal, shifted = goal, complete = goal;
+  longer.log_stops = {std::log(4), std::log(2), 0};
+  const auto error = [&](const AccelerationGoal& of, PlanKind kind) {
+    return goal_variance(of, information, best_plan(kind, of, information, 0, 0.2));
+  };
+  for (const PlanKind kind : {PlanKind::optimum, PlanKind::compromise, PlanKind::equal})
+    EXPECT_LT(error(longer, kind), 0.5 * error(goal, kind));
+  for (double& each : longer.log_stops) each = std::log(3);
+  shifted.points.front().at_use += std::log(3) / 0.6;
+  EXPECT_NEAR(error(longer, PlanKind::compromise), error(shifted, PlanKind::compromise), 1e-9);
+  for (double& each : complete.log_stops) each = 60;
+  const auto plan = best_allocation(PlanKind::equal, complete, information, 0.2, 0.2);
+  EXPECT_NEAR(failing_at(complete, plan.front()), 1, 1e-12);
+}
+
 // Chernoff (1962), exponential lives and few failures: the two levels differ by 2 u in the log failure rate, u the root of e^u
 // (u - 1) = 1, and the weights are as e^u to the lower level's place.
 TEST(BestPlan, HasTheTwoPointsOfChernoff) {
@@ -215,10 +274,13 @@ TEST(WholeAllocation, KeepsTheSum) {
 
 TEST(EnoughFailures, IsTheBinomialTail) {
   const AccelerationGoal goal = adhesive_bond();
-  const double p = failing_at(goal, 0.5);
-  EXPECT_NEAR(enough_failures(goal, 0.5, 10, 1), 1 - std::pow(1 - p, 10), 1e-12);
-  EXPECT_NEAR(failing_at(goal, 0), 0.001, 1e-12);
-  EXPECT_NEAR(failing_at(goal, 1), 0.9, 1e-12);
+  const double p = failing_at(goal, {0.5});
+  EXPECT_NEAR(enough_failures(goal, {0.5}, 10, 1), 1 - std::pow(1 - p, 10), 1e-12);
+  EXPECT_NEAR(failing_at(goal, {0}), 0.001, 1e-12);
+  EXPECT_NEAR(failing_at(goal, {1}), 0.9, 1e-12);
+  // Twice the stop time at shape 1/0.6: the cumulative hazard grows by 2^(1/0.6).
+  EXPECT_NEAR(failing_at(goal, {0, 1, std::log(2)}),
+              -std::expm1(std::log1p(-0.001) * std::pow(2, 1 / 0.6)), 1e-12);
 }
 
 TEST(PlanningValue, HasItsIntervalAndNodes) {

@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/plan/goal_target.h"
+#include "wearwell/plan/linear_gain.h"
 
 namespace wearwell::plan {
 namespace {
@@ -113,6 +114,59 @@ TEST(Gain, RanksDesignsAsTheOptimalOnes) {
   }
   EXPECT_DOUBLE_EQ(best_information, exact_information);
   EXPECT_DOUBLE_EQ(best_variance, exact_variance);
+}
+
+// Two decisions, one of which costs the goal less k: the value of a reading is the unit normal loss
+// integral (Raiffa and Schlaifer 1961, section 5.4) of the means that the reading may lead to.
+TEST(Gain, SavesTheNormalLossIntegral) {
+  const Line line;
+  LineNodes nodes(line);
+  constexpr double k = 0.5;
+  nodes.goal.loss.resize(static_cast<Eigen::Index>(nodes.goal.goal.size()), 2);
+  for (std::size_t j = 0; j < nodes.goal.goal.size(); ++j)
+    nodes.goal.loss.row(static_cast<Eigen::Index>(j)) << 0, nodes.goal.goal[j] - k;
+  nodes.goal.best = 1;
+  const auto exact = [&](double x, int n) {
+    const double s = std::sqrt(line.variance() - line.variance_after(x, n)), u = k / s;
+    return s * (std::exp(-0.5 * u * u) / std::sqrt(2 * std::acos(-1.0)) -
+                0.5 * u * std::erfc(u / std::sqrt(2.0)));
+  };
+  for (const double x : {-2.0, -0.5, 0.0, 1.0, 3.0})
+    EXPECT_NEAR(gain_of_one(nodes.goal, nodes.reading(line, x)).saved, exact(x, 1),
+                0.01 * exact(x, 1) + 1e-4)
+        << x;
+  const Outcomes reading = nodes.reading(line, 1);
+  const Gain three = gain_of_batch(nodes.goal, {{&reading}, {3}}, {400, 1});
+  EXPECT_NEAR(three.saved, exact(1, 3), 3 * three.saved_error);
+  EXPECT_LT(three.saved_error, 0.1 * three.saved);
+  nodes.goal.loss.resize(0, 0);
+  EXPECT_EQ(gain_of_one(nodes.goal, reading).saved, 0);
+}
+
+// The same line by the conjugate update, against its closed form.
+TEST(LinearGain, IsTheClosedFormOfLinearRegression) {
+  const Line line;
+  const double both = line.correlation * line.sd0 * line.sd1;
+  const Eigen::MatrixXd covariance =
+      Eigen::Matrix2d{{line.sd0 * line.sd0, both}, {both, line.sd1 * line.sd1}};
+  const Eigen::VectorXd goal = Eigen::Vector2d(line.c0, line.c1);
+  const auto reading = [&](double x, int n) {
+    return LinearTest{Eigen::Vector2d(1, x), line.error * line.error, n};
+  };
+  for (const double x : {-2.0, 0.0, 3.0})
+    for (const int n : {1, 7}) {
+      const LinearTest tests[] = {reading(x, n)};
+      const LinearGain gain = linear_gain(covariance, goal, tests);
+      EXPECT_NEAR(gain.variance, line.variance_after(x, n), 1e-12);
+      EXPECT_NEAR(gain.information, line.information(x, n), 1e-12);
+    }
+  // In any order, and one by one.
+  const LinearTest one[] = {reading(-1, 2), reading(3, 1)},
+                   other[] = {reading(3, 1), reading(-1, 1), reading(-1, 1)};
+  EXPECT_NEAR(linear_gain(covariance, goal, one).variance,
+              linear_gain(covariance, goal, other).variance, 1e-12);
+  EXPECT_NEAR(linear_gain(covariance, goal, one).information,
+              linear_gain(covariance, goal, other).information, 1e-12);
 }
 
 TEST(Gain, OfSeveralReadingsAgreesWithinItsError) {

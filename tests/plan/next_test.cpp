@@ -104,6 +104,33 @@ TEST(NextTest, IsTheClosedFormForANormalLine) {
   }
 }
 
+// A gauge is a condition where the data have a column for the standard deviation of a reading.
+TEST(NextTest, HasTheGaugeAsACondition) {
+  Source source = line_source();
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"sd = \"noise\"", "sd = \"gauge\""},
+        {"given = { x = \"3\" }", "given = { x = \"3\", gauge = \"0.5 mm\" }"},
+        {"[constants]\nnoise = \"0.5 mm\"\n", ""},
+        {"unit = \"1\" }\n",
+         "unit = \"1\" }\ngauge = { column = \"gauge_mm\", unit = \"mm\" }\n"}}) {
+    const std::size_t at = source.study.text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    source.study.text.replace(at, from.size(), to);
+  }
+  source.tables["line.csv"].columns.push_back(numbers_column("gauge_mm", {0.5, 0.5, 0.5}));
+  const ordered_json json = next_test(state_of(source, line_state().posterior), "line", reading(),
+                                      line_question("x = 3; gauge = 0.1, 0.5, 2 mm"))
+                                .json;
+  const Eigen::Vector2d c(1, 3);
+  for (const auto& each : json["candidates"]) {
+    const double gauge = each["conditions"]["gauge"];
+    const Eigen::Matrix2d after = line_precision({}) + c * c.transpose() / (gauge * gauge);
+    EXPECT_NEAR(each["variance_left"].get<double>() * goal_variance({}), c.dot(after.inverse() * c),
+                0.02 * c.dot(after.inverse() * c))
+        << gauge;
+  }
+}
+
 TEST(NextTest, OrderOfCandidatesAndThreadsDoNotMatter) {
   const prognosis::CarriedState state = line_state();
   NextQuestion question = line_question("x = -1, 2, 4");

@@ -107,6 +107,8 @@ test_that("accelerated tests are the program's", {
   given <- list(use = "50 degC", highest = "120 degC", until = "183 d", specimens = 300, failing_at_use = "0.1 %")
   flags <- c("accelerate", "--use", "50 degC", "--highest", "120 degC", "--until", "183 d", "--specimens", 300, "--failing-at-use", "0.1 %")
   same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9)), flags, "--sigma", 0.6, "--failing-at-highest", 0.9)
+  same(do.call(ww_plan_accelerate, c(given, sigma = 0.6, failing_at_highest = 0.9, stop = list(c("366 d", "183 d", "92 d")))), flags,
+       "--sigma", 0.6, "--failing-at-highest", 0.9, "--stop", "366 d, 183 d, 92 d")
   refused(do.call(ww_plan_accelerate, given), "shape, sigma: give one of them")
   refused(do.call(ww_plan_accelerate, c(given, sigma = 0.6, activation_energy = "0.7 eV", exponent = 4)),
           "exponent: belongs to relation inverse-power, not arrhenius")
@@ -130,6 +132,9 @@ test_that("next tests are the program's, of folders and fits, files and frames",
   same(ww_plan_next(folder, goal, grid = grid, specimens = c(1, 3), batch = 2, samples = 64, nodes = 200, seed = 7),
        "next", folder, "--goal", goal, "--grid", "alternating_stress_MPa = 230, 250; mean_stress_MPa = 1000; stop = 5e5 cycles",
        "--specimens", "1, 3", "--batch", 2, "--samples", 64, "--nodes", 200, "--seed", 7)
+  same(ww_plan_next(folder, goal, candidates = file, by = "loss", failure_cost = "20 EUR", replacement_cost = "1 EUR", nodes = 200),
+       "next", folder, "--goal", goal, "--candidates", file, "--by", "loss", "--failure-cost", "20 EUR", "--replacement-cost", "1 EUR",
+       "--nodes", 200)
   refused(ww_plan_next(fit, "B10 at hanger", candidates = tests), "goal: the study has no")
   refused(ww_plan_next(fit, goal, candidates = tests, cost = "price"), "cost: candidates has no column 'price'")
   refused(ww_plan_next(fit, goal, candidates = tests, seed = -1), "seed is -1")

@@ -11,6 +11,8 @@
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/plan_arguments.h"
 #include "wearwell/input/option_value.h"
+#include "wearwell/models/clutch/clutch_model_file.h"
+#include "wearwell/models/clutch/next_point.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/plan/accelerate.h"
 #include "wearwell/plan/demonstrate.h"
@@ -200,6 +202,21 @@ Work decide(PlanArguments& arguments, const PlanSubject& subject, const Monitor&
   };
 }
 
+bool is_clutch(const PlanSubject& subject) {
+  return subject.run ? subject.run->result->header.model == "clutch-wear"
+                     : clutch::is_clutch_result(subject.path);
+}
+
+plan::Answer next_point_of(const PlanSubject& subject, const plan::NextQuestion& question) {
+  if (!subject.run) return clutch::next_point(subject.path, question);
+  const Result& result = *subject.run->result;
+  for (const auto& [name, content] : result.files)
+    if (name == "model.json")
+      return clutch::next_point(clutch::read_model_text(content, "model.json"),
+                                result.header.trusted, question);
+  throw InputError("the fit holds no model.json to plan with");
+}
+
 Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) {
   plan::NextQuestion question;
   arguments.text("goal", question.goal);
@@ -210,6 +227,9 @@ Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) 
   arguments.number("use_cost", question.use_cost);
   arguments.text("measure", question.measure);
   arguments.text("by", question.by);
+  arguments.text("failure_cost", question.failure_cost);
+  arguments.text("replacement_cost", question.replacement_cost);
+  arguments.text("fleet_use", question.fleet_use);
   arguments.number("value", question.value);
   arguments.number("budget", question.budget);
   arguments.whole("batch", question.batch);
@@ -223,6 +243,10 @@ Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) 
   if (const Table* candidates = table_of(subject, "candidates")) question.candidates = *candidates;
   question.tests = tables_of(subject, "tests");
   return [question, files, &subject]() mutable {
+    if (is_clutch(subject)) {
+      for (const std::string& file : files) question.tests.push_back(read_table(file));
+      return next_point_of(subject, question);
+    }
     prognosis::CarriedState state = carried_posterior(subject);
     for (const std::string& file : files)
       question.tests.push_back(prognosis::read_new_data(state.source, file));
@@ -237,6 +261,7 @@ Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
   arguments.text("use", question.use);
   arguments.text("highest", question.highest);
   arguments.text("until", question.until);
+  arguments.list("stop", question.stop);
   arguments.whole("specimens", question.specimens);
   arguments.text("family", question.family);
   arguments.text("relation", question.relation);

@@ -34,12 +34,19 @@ std::string acceleration_sentence(const AccelerationResult& result) {
 
 std::string settings_sentence(const AccelerationResult& result) {
   const AccelerationTest& test = result.test;
-  static constexpr const char* relations[] = {"Arrhenius relation", "inverse power relation",
+  static constexpr const char* relations[] = {"Arrhenius relation", "Eyring relation",
+                                              "inverse power relation",
                                               "log life linear in the stress"};
+  std::vector<std::string> stops;
+  for (const double stop : test.stops) stops.push_back(plain_given(stop / test.time_unit.scale));
+  const std::string until =
+      stops.empty() ? plain_given(test.until / test.time_unit.scale) + " " + test.time_unit.text
+                    : fmt::format("{} {} (lower, middle, highest level)", fmt::join(stops, ", "),
+                                  test.time_unit.text);
   std::string text = fmt::format(
-      "{} specimens until {} {}; {} lives of the same scatter at all stresses; {}; highest stress "
+      "{} specimens until {}; {} lives of the same scatter at all stresses; {}; highest stress "
       "{}",
-      test.question.specimens, plain_given(test.until / test.time_unit.scale), test.time_unit.text,
+      test.question.specimens, until,
       test.question.family == "weibull" ? "Weibull" : test.question.family,
       relations[static_cast<int>(test.relation)], stress_text(test, 1));
   if (test.lowest_xi > 0) text += fmt::format(", lowest {}", stress_text(test, test.lowest_xi));
@@ -138,6 +145,7 @@ Json acceleration_json(const AccelerationResult& result) {
       levels.push_back(
           {{"stress", from_si(test.stress_unit, test.stress(plan.levels[i].xi))},
            {"transformed", plan.levels[i].xi},
+           {"until", test.stop(plan.levels[i]) / test.time_unit.scale},
            {"specimens", plan.specimens[i]},
            {"failing", plan.failing[i]},
            {"expected_failures", static_cast<double>(plan.specimens[i]) * plan.failing[i]},
@@ -156,11 +164,12 @@ Json acceleration_json(const AccelerationResult& result) {
         {{"true", off.what}, {"standard_errors", errors}, {"optimum", finite_json(off.optimum)}});
   }
   for (const StopTime& each : result.stop_times)
-    json["stop_times"].push_back({{"until", each.until / test.time_unit.scale},
+    json["stop_times"].push_back({{"factor", each.factor},
+                                  {"until", each.until / test.time_unit.scale},
                                   {"optimum", finite_json(each.optimum)},
                                   {"compromise", finite_json(each.compromise)},
                                   {"specimens", finite_json(each.specimens)}});
-  json["optimum_gain"] = result.optimum_gain;
+  json["optimum_gain"] = test.stops.empty() ? Json(result.optimum_gain) : Json();
   json["warnings"] = Json::array();
   for (const PlanWarning& each : acceleration_warnings(result))
     json["warnings"].push_back({{"name", each.name}, {"detail", each.text}});

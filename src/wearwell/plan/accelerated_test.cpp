@@ -22,11 +22,12 @@ using TermVector = Eigen::Matrix<double, n, 1>;
 
 // Information of terms 1, xi, ... of the location and of the scale, last, times scale^2.
 template <int terms>
-InformationMatrix<terms + 1> information_of(const CensoredInformation& information,
-                                            const PlanningPoint& point, double xi) {
-  const LocationScaleInformation f = information(point.at_use + point.rise * xi);
+InformationMatrix<terms + 1> information_of(const AccelerationGoal& goal,
+                                            const CensoredInformation& information,
+                                            const PlanningPoint& point, const TestLevel& level) {
+  const LocationScaleInformation f = information(standardized_stop(goal, point, level));
   TermVector<terms> x;
-  for (int i = 0; i < terms; ++i) x[i] = std::pow(xi, i);
+  for (int i = 0; i < terms; ++i) x[i] = std::pow(level.xi, i);
   InformationMatrix<terms + 1> m;
   m.template topLeftCorner<terms, terms>() = f.location * x * x.transpose();
   m.template topRightCorner<terms, 1>() = f.both * x;
@@ -36,13 +37,15 @@ InformationMatrix<terms + 1> information_of(const CensoredInformation& informati
 }
 
 template <int terms>
-InformationMatrix<terms + 1> information_of(const CensoredInformation& information,
+InformationMatrix<terms + 1> information_of(const AccelerationGoal& goal,
+                                            const CensoredInformation& information,
                                             const PlanningPoint& point,
-                                            std::span<const TestLevel> levels, bool scale_known) {
+                                            std::span<const TestLevel> levels) {
   InformationMatrix<terms + 1> sum = InformationMatrix<terms + 1>::Zero();
   for (const TestLevel& level : levels)
-    if (level.share > 0) sum += level.share * information_of<terms>(information, point, level.xi);
-  if (scale_known) {
+    if (level.share > 0)
+      sum += level.share * information_of<terms>(goal, information, point, level);
+  if (goal.scale_known) {
     sum.row(terms).setZero();
     sum.col(terms).setZero();
     sum(terms, terms) = 1;
@@ -85,22 +88,32 @@ double least_over(double from, double to, int steps, const F& f) {
   return y < value ? x : best;
 }
 
-std::vector<TestLevel> levels_of(PlanKind kind, double low, double low_share, double middle_share) {
+std::vector<TestLevel> levels_of(PlanKind kind, const AccelerationGoal& goal, double low,
+                                 double low_share, double middle_share) {
   const double middle = 0.5 * (1 + low);
+  const auto& [low_stop, middle_stop, high_stop] = goal.log_stops;
   switch (kind) {
     case PlanKind::optimum:
-      return {{low, low_share}, {1, 1 - low_share}};
+      return {{low, low_share, low_stop}, {1, 1 - low_share, high_stop}};
     case PlanKind::compromise:
-      return {{low, low_share}, {middle, middle_share}, {1, 1 - low_share - middle_share}};
+      return {{low, low_share, low_stop},
+              {middle, middle_share, middle_stop},
+              {1, 1 - low_share - middle_share, high_stop}};
     case PlanKind::four_two_one:
-      return {{low, 4.0 / 7}, {middle, 2.0 / 7}, {1, 1.0 / 7}};
+      return {{low, 4.0 / 7, low_stop}, {middle, 2.0 / 7, middle_stop}, {1, 1.0 / 7, high_stop}};
     case PlanKind::equal:
       break;
   }
-  return {{low, 1.0 / 3}, {middle, 1.0 / 3}, {1, 1.0 / 3}};
+  return {{low, 1.0 / 3, low_stop}, {middle, 1.0 / 3, middle_stop}, {1, 1.0 / 3, high_stop}};
 }
 
 }  // namespace
+
+double standardized_stop(const AccelerationGoal& goal, const PlanningPoint& point,
+                         const TestLevel& level) {
+  const double known = goal.known_part ? goal.known_part(level.xi) : 0;
+  return point.at_use + point.rise * level.xi + (level.log_stop + known) / point.scale;
+}
 
 std::vector<double> goal_variances(const AccelerationGoal& goal,
                                    const CensoredInformation& information,
@@ -108,8 +121,7 @@ std::vector<double> goal_variances(const AccelerationGoal& goal,
   const TermVector<3> c = gradient_of(goal);
   std::vector<double> all;
   for (const PlanningPoint& point : goal.points) {
-    const auto x =
-        inverse_times<3>(information_of<2>(information, point, levels, goal.scale_known), c);
+    const auto x = inverse_times<3>(information_of<2>(goal, information, point, levels), c);
     all.push_back(x ? point.scale * point.scale * c.dot(*x) : undetermined);
   }
   return all;
@@ -128,8 +140,7 @@ double curvature_variance(const AccelerationGoal& goal, const CensoredInformatio
   double sum = 0;
   const TermVector<4> c = {0, 0, 1, 0};
   for (const PlanningPoint& point : goal.points) {
-    const auto x =
-        inverse_times<4>(information_of<3>(information, point, levels, goal.scale_known), c);
+    const auto x = inverse_times<4>(information_of<3>(goal, information, point, levels), c);
     if (!x || levels.size() < 3) return undetermined;
     sum += point.weight * point.scale * point.scale * c.dot(*x);
   }
@@ -141,11 +152,9 @@ double gain_at(const AccelerationGoal& goal, const CensoredInformation& informat
   const TermVector<3> c = gradient_of(goal);
   double gain = 0, variance = 0;
   for (const PlanningPoint& point : goal.points) {
-    const auto x =
-        inverse_times<3>(information_of<2>(information, point, levels, goal.scale_known), c);
+    const auto x = inverse_times<3>(information_of<2>(goal, information, point, levels), c);
     if (!x) return undetermined;
-    const TestLevel one[] = {{xi, 1}};
-    InformationMatrix<3> here = information_of<2>(information, point, one, false);
+    InformationMatrix<3> here = information_of<2>(goal, information, point, TestLevel{xi, 1});
     if (goal.scale_known) {
       here.row(2).setZero();
       here.col(2).setZero();
@@ -161,12 +170,12 @@ std::vector<TestLevel> best_allocation(PlanKind kind, const AccelerationGoal& go
                                        const CensoredInformation& information, double low,
                                        double middle_share) {
   if (kind == PlanKind::four_two_one || kind == PlanKind::equal)
-    return levels_of(kind, low, 0, middle_share);
+    return levels_of(kind, goal, low, 0, middle_share);
   const double most = kind == PlanKind::optimum ? 1 : 1 - middle_share;
   const double share = least_over(0.002 * most, 0.998 * most, 8, [&](double low_share) {
-    return goal_variance(goal, information, levels_of(kind, low, low_share, middle_share));
+    return goal_variance(goal, information, levels_of(kind, goal, low, low_share, middle_share));
   });
-  return levels_of(kind, low, share, middle_share);
+  return levels_of(kind, goal, low, share, middle_share);
 }
 
 std::vector<TestLevel> best_plan(PlanKind kind, const AccelerationGoal& goal,
@@ -196,20 +205,21 @@ std::vector<std::size_t> whole_allocation(std::span<const TestLevel> levels, std
   return count;
 }
 
-double failing_at(const AccelerationGoal& goal, double xi) {
+double failing_at(const AccelerationGoal& goal, const TestLevel& level) {
   double sum = 0;
   for (const PlanningPoint& point : goal.points)
-    sum += point.weight * cdf(goal.distribution, point.at_use + point.rise * xi);
+    sum += point.weight * cdf(goal.distribution, standardized_stop(goal, point, level));
   return sum;
 }
 
-double enough_failures(const AccelerationGoal& goal, double xi, std::size_t n, std::size_t least) {
+double enough_failures(const AccelerationGoal& goal, const TestLevel& level, std::size_t n,
+                       std::size_t least) {
   if (least == 0) return 1;
   double sum = 0;
   for (const PlanningPoint& point : goal.points)
-    sum +=
-        point.weight *
-        (1 - at_most_failing(n, least - 1, cdf(goal.distribution, point.at_use + point.rise * xi)));
+    sum += point.weight *
+           (1 - at_most_failing(n, least - 1,
+                                cdf(goal.distribution, standardized_stop(goal, point, level))));
   return sum;
 }
 

@@ -20,9 +20,6 @@
 namespace wearwell::plan {
 namespace {
 
-constexpr double boltzmann = 8.617333262e-5;       // eV/K, CODATA 2018
-constexpr double electron_volt = 1.602176634e-19;  // J
-
 std::size_t choice_of(const std::string& option, const std::string& word,
                       const std::vector<std::string>& words) {
   const auto at = std::find(words.begin(), words.end(), word);
@@ -64,7 +61,7 @@ NamedValue spread_of(const AccelerateQuestion& question) {
 // A stress in SI: a temperature, or a quantity of the dimension of the highest stress.
 double read_stress(const AccelerationTest& test, const std::string& option,
                    const std::string& text) {
-  return test.relation == Relation::arrhenius
+  return is_of_temperature(test.relation)
              ? option_value(option, text, "K")
              : prognosis::quantity_like(option, text, test.stress_unit);
 }
@@ -72,7 +69,7 @@ double read_stress(const AccelerationTest& test, const std::string& option,
 void read_stresses(const AccelerateQuestion& question, AccelerationTest& test) {
   required_option("--use", question.use, "50 degC");
   required_option("--highest", question.highest, "120 degC");
-  if (test.relation == Relation::arrhenius) option_value("--highest", question.highest, "K");
+  if (is_of_temperature(test.relation)) option_value("--highest", question.highest, "K");
   test.stress_unit = read_any_quantity("--highest", question.highest).unit;
   test.highest = read_stress(test, "--highest", question.highest);
   test.use = read_stress(test, "--use", question.use);
@@ -94,6 +91,24 @@ void read_stresses(const AccelerateQuestion& question, AccelerationTest& test) {
   if (!question.low.empty()) test.low_xi = level("--low", question.low);
   if (test.low_xi >= 0 && test.low_xi < test.lowest_xi)
     throw InputError("--low: is below --lowest");
+}
+
+// "365 d, 250 d, 183 d": of the lower, the middle and the highest level.
+void read_stops(AccelerationTest& test) {
+  const std::string& text = test.question.stop;
+  if (text.empty()) return;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::size_t first = std::min(text.find_first_not_of(' ', begin), end);
+    test.stops.push_back(prognosis::quantity_like("--stop", text.substr(first, end - first),
+                                                  test.time_unit, Allowed::positive));
+    begin = end + 1;
+  }
+  if (test.stops.size() != 3)
+    throw InputError(fmt::format(
+        "--stop: '{}' has {} time{}; it has three, of the lower, the middle and the highest level, "
+        "like '365 d, 250 d, 183 d' (the plan with two levels uses the first and the last)",
+        printable(text), test.stops.size(), test.stops.size() == 1 ? "" : "s"));
 }
 
 NamedValue life_value(AccelerationTest& test) {
@@ -125,13 +140,16 @@ NamedValue life_value(AccelerationTest& test) {
 std::optional<NamedValue> slope_value(const AccelerationTest& test) {
   const AccelerateQuestion& question = test.question;
   const std::tuple<Relation, const char*, const std::string*, const char*> all[] = {
-      {Relation::arrhenius, "--activation-energy", &question.activation_energy, "arrhenius"},
+      {Relation::arrhenius, "--activation-energy", &question.activation_energy,
+       "arrhenius or eyring"},
       {Relation::inverse_power, "--exponent", &question.exponent, "inverse-power"},
       {Relation::linear, "--slope", &question.slope, "linear"}};
   std::optional<NamedValue> found;
   for (const auto& [relation, option, text, name] : all) {
     if (text->empty()) continue;
-    if (relation != test.relation)
+    const bool fits = relation == Relation::arrhenius ? is_of_temperature(test.relation)
+                                                      : relation == test.relation;
+    if (!fits)
       throw InputError(
           fmt::format("{}: belongs to --relation {}, not {}", option, name, question.relation));
     if (relation == Relation::arrhenius)
@@ -169,7 +187,7 @@ void read_relation(AccelerationTest& test) {
         fmt::format("the line of life needs two planning values, not {}: two of --failing-at-use, "
                     "--failing-at-highest or --life-at-highest, and {}",
                     found.size(),
-                    test.relation == Relation::arrhenius       ? "--activation-energy"
+                    is_of_temperature(test.relation)           ? "--activation-energy"
                     : test.relation == Relation::inverse_power ? "--exponent"
                                                                : "--slope"));
   test.values[1] = std::move(found[0]);
@@ -188,90 +206,6 @@ void check_line(const AccelerationTest& test, const AccelerationGoal& goal) {
 
 }  // namespace
 
-double transformed_stress(Relation relation, double stress) {
-  return relation == Relation::arrhenius       ? -1 / (boltzmann * stress)
-         : relation == Relation::inverse_power ? std::log(stress)
-                                               : stress;
-}
-
-double stress_of(Relation relation, double transformed) {
-  return relation == Relation::arrhenius       ? -1 / (boltzmann * transformed)
-         : relation == Relation::inverse_power ? std::exp(transformed)
-                                               : transformed;
-}
-
-double AccelerationTest::xi(double stress) const {
-  const double at_use = transformed_stress(relation, use);
-  return (transformed_stress(relation, stress) - at_use) /
-         (transformed_stress(relation, highest) - at_use);
-}
-
-double AccelerationTest::stress(double at) const {
-  return stress_of(relation, std::lerp(transformed_stress(relation, use),
-                                       transformed_stress(relation, highest), at));
-}
-
-PlanningPoint AccelerationTest::point(const std::array<double, 3>& value) const {
-  const double scale = values[0].name == "shape" ? 1 / value[0] : value[0];
-  const auto is = [&](int i, std::string_view option) { return values[i].option == option; };
-  double at_use = 0, at_highest = 0;
-  bool use_known = false, highest_known = false;
-  for (int i = 1; i < 3; ++i) {
-    if (is(i, "--failing-at-use")) {
-      at_use = quantile(distribution, value[i]);
-      use_known = true;
-    } else if (is(i, "--failing-at-highest")) {
-      at_highest = quantile(distribution, value[i]);
-      highest_known = true;
-    } else if (is(i, "--life-at-highest")) {
-      at_highest = quantile(distribution, life_share) + std::log(until / value[i]) / scale;
-      highest_known = true;
-    }
-  }
-  if (use_known && highest_known) return {at_use, at_highest - at_use, scale, 1};
-  // The slope is the second: of log life by the transformed stress in its usual unit.
-  const double reach = transformed_stress(relation, highest) - transformed_stress(relation, use);
-  const double slope = relation == Relation::arrhenius ? value[2] / electron_volt
-                       : relation == Relation::linear  ? value[2] / stress_unit.scale
-                                                       : value[2];
-  const double rise = slope * reach / scale;
-  return {use_known ? at_use : at_highest - rise, rise, scale, 1};
-}
-
-std::array<double, 3> AccelerationTest::medians() const {
-  return {values[0].value.at(0), values[1].value.at(0), values[2].value.at(0)};
-}
-
-bool AccelerationTest::uncertain() const {
-  return std::any_of(values.begin(), values.end(),
-                     [](const NamedValue& each) { return each.value.uncertain; });
-}
-
-AccelerationGoal AccelerationTest::with(const std::array<double, 3>& value) const {
-  return {distribution, failing, {point(value)}};
-}
-
-AccelerationGoal AccelerationTest::at_medians() const {
-  return with(medians());
-}
-
-AccelerationGoal AccelerationTest::averaged() const {
-  const std::vector<NormalNode> one = {{0, 1}}, many = normal_nodes(7);
-  const auto nodes = [&](int i) -> const std::vector<NormalNode>& {
-    return values[i].value.uncertain ? many : one;
-  };
-  AccelerationGoal goal{distribution, failing, {}};
-  for (const NormalNode& a : nodes(0))
-    for (const NormalNode& b : nodes(1))
-      for (const NormalNode& c : nodes(2)) {
-        PlanningPoint each =
-            point({values[0].value.at(a.z), values[1].value.at(b.z), values[2].value.at(c.z)});
-        each.weight = a.weight * b.weight * c.weight;
-        goal.points.push_back(each);
-      }
-  return goal;
-}
-
 AccelerationTest read_acceleration(const AccelerateQuestion& question) {
   static constexpr StandardDistribution standards[] = {StandardDistribution::smallest_extreme_value,
                                                        StandardDistribution::normal,
@@ -280,8 +214,8 @@ AccelerationTest read_acceleration(const AccelerateQuestion& question) {
   test.question = question;
   test.distribution =
       standards[choice_of("--family", question.family, {"weibull", "lognormal", "loglogistic"})];
-  test.relation = static_cast<Relation>(
-      choice_of("--relation", question.relation, {"arrhenius", "inverse-power", "linear"}));
+  test.relation = static_cast<Relation>(choice_of(
+      "--relation", question.relation, {"arrhenius", "eyring", "inverse-power", "linear"}));
   read_stresses(question, test);
   const Quantity until =
       read_any_quantity("--until", required_option("--until", question.until, "183 d"));
@@ -289,6 +223,7 @@ AccelerationTest read_acceleration(const AccelerateQuestion& question) {
   test.time_unit = until.unit;
   if (const auto unit = parse_unit(until.unit.text); unit && unit->offset != 0)
     throw InputError(fmt::format("--until: '{}' is not a time", printable(question.until)));
+  read_stops(test);
   if (question.specimens < 4 || question.specimens > 1'000'000)
     throw InputError("--specimens: must lie between 4 and 1 000 000");
   test.failing = goal_share(question.goal);

@@ -32,8 +32,8 @@ std::vector<StopTime> all_stop_times(const AccelerationResult& result) {
       return std::sqrt(goal_variance(goal, result.information, levels_for(result, goal, kind)) /
                        size);
     };
-    StopTime at{factor * result.test.until, error(PlanKind::optimum), error(PlanKind::compromise),
-                0};
+    StopTime at{factor, factor * result.test.until, error(PlanKind::optimum),
+                error(PlanKind::compromise), 0};
     at.specimens = size * std::pow(at.compromise, 2);
     all.push_back(at);
   }
@@ -49,11 +49,10 @@ AccelerationPlan evaluated_plan(const AccelerationResult& result, PlanKind kind)
   plan.levels = levels_for(result, result.goal, kind);
   plan.specimens = whole_allocation(plan.levels, n);
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
-    const double xi = plan.levels[i].xi;
     plan.levels[i].share = static_cast<double>(plan.specimens[i]) / static_cast<double>(n);
-    plan.failing.push_back(failing_at(result.goal, xi));
-    plan.enough.push_back(
-        enough_failures(result.goal, xi, plan.specimens[i], result.test.question.least_failures));
+    plan.failing.push_back(failing_at(result.goal, plan.levels[i]));
+    plan.enough.push_back(enough_failures(result.goal, plan.levels[i], plan.specimens[i],
+                                          result.test.question.least_failures));
   }
   const auto size = static_cast<double>(n);
   plan.standard_error =
@@ -117,7 +116,7 @@ AccelerationResult acceleration_of(const AccelerationTest& test) {
                             {}};
   for (const PlanKind kind : plan_kinds) result.plans.push_back(evaluated_plan(result, kind));
   const std::vector<TestLevel> best = levels_for(result, result.goal, PlanKind::optimum);
-  for (int i = 0; i <= 100; ++i)
+  for (int i = 0; i <= 100 && test.stops.empty(); ++i)
     result.optimum_gain = std::max(
         result.optimum_gain,
         gain_at(result.goal, result.information, best, std::lerp(test.lowest_xi, 1.0, i / 100.0)));

@@ -28,8 +28,9 @@ struct OffValues {
   double optimum = 0;
 };
 
-/// The same test with another stop time, its plans chosen for it.
+/// The same test with other stop times, its plans chosen for them.
 struct StopTime {
+  double factor = 1;   ///< on the stop times of the test
   double until = 0;    ///< SI
   double optimum = 0;  ///< standard errors with as many specimens
   double compromise = 0;
@@ -43,7 +44,9 @@ struct AccelerationResult {
   std::vector<AccelerationPlan> plans;
   std::vector<OffValues> off;
   std::vector<StopTime> stop_times;  ///< a quarter to four times the given one
-  double optimum_gain = 0;    ///< the largest gain_at of the optimum plan: 1 if no level is missing
+  /// The largest gain_at of the optimum plan: 1 if no level is missing; 0 with stop times by level,
+  /// where other levels have no stop time.
+  double optimum_gain = 0;
   double heaviest_share = 0;  ///< of one point in the mean variance of the optimum plan
 };
 AccelerationResult acceleration_of(const AccelerationTest& test);

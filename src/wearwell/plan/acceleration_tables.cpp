@@ -25,8 +25,8 @@ double shown_stress(const AccelerationTest& test, double xi) {
 // The time by which a share fails at xi, in the unit of the stop time, at the planning medians.
 double planned_life(const AccelerationTest& test, double share, double xi) {
   const PlanningPoint point = test.point(test.medians());
-  const double log_ratio =
-      point.scale * (quantile(test.distribution, share) - (point.at_use + point.rise * xi));
+  const double reach = standardized_stop(test.at_medians(), point, {xi, 1});
+  const double log_ratio = point.scale * (quantile(test.distribution, share) - reach);
   return test.until / test.time_unit.scale * std::exp(log_ratio);
 }
 
@@ -81,8 +81,10 @@ present::Table levels_table(const AccelerationResult& result) {
   const AccelerationTest& test = result.test;
   present::Table table{
       "levels",
-      fmt::format("Levels and specimens, each until {} {}",
-                  plain_given(test.until / test.time_unit.scale), test.time_unit.text),
+      test.stops.empty()
+          ? fmt::format("Levels and specimens, each until {} {}",
+                        plain_given(test.until / test.time_unit.scale), test.time_unit.text)
+          : "Levels, their stop times and specimens",
       {{"plan"},
        {"stress", test.stress_unit.text, present::digits(4)},
        {"specimens", "1", present::given},
@@ -90,29 +92,43 @@ present::Table levels_table(const AccelerationResult& result) {
        {"fail", "%", present::digits(3)},
        {"failures expected", "1", present::digits(3)},
        {fmt::format("{} or more", test.question.least_failures), "%", present::digits(3)}}};
+  const auto stop_place = table.columns.begin() + 2;
+  if (!test.stops.empty())
+    table.columns.insert(stop_place, {"stop time", test.time_unit.text, present::digits(4)});
   for (const AccelerationPlan& plan : result.plans)
-    for (std::size_t i = 0; i < plan.levels.size(); ++i)
-      table.rows.push_back(
-          {plan_name(plan.kind), shown_stress(test, plan.levels[i].xi),
-           present::count(plan.specimens[i]), 100 * plan.levels[i].share, 100 * plan.failing[i],
-           present::count(plan.specimens[i]) * plan.failing[i], 100 * plan.enough[i]});
+    for (std::size_t i = 0; i < plan.levels.size(); ++i) {
+      std::vector<present::Cell> row = {plan_name(plan.kind),
+                                        shown_stress(test, plan.levels[i].xi),
+                                        present::count(plan.specimens[i]),
+                                        100 * plan.levels[i].share,
+                                        100 * plan.failing[i],
+                                        present::count(plan.specimens[i]) * plan.failing[i],
+                                        100 * plan.enough[i]};
+      if (!test.stops.empty())
+        row.insert(row.begin() + 2, test.stop(plan.levels[i]) / test.time_unit.scale);
+      table.rows.push_back(std::move(row));
+    }
   return table;
 }
 
 present::Table stop_times_table(const AccelerationResult& result) {
   const AccelerationTest& test = result.test;
+  const bool by_level = !test.stops.empty();
   present::Table table{"stop-times",
                        fmt::format("Stop time against specimens: precision of {} at {}",
                                    test.question.goal, stress_text(test, 0)),
-                       {{"stop time", test.time_unit.text, present::digits(4)},
+                       {by_level ? present::Column{"times the stop times"}
+                                 : present::Column{"stop time", test.time_unit.text},
                         {"optimum", "1", present::digits(4)},
                         {"compromise", "1", present::digits(4)},
                         {"90 % factor", "1", present::digits(3)},
                         {"specimens for the planned precision", "1", present::given}}};
+  table.columns.front().format = present::digits(4);
   for (const StopTime& each : result.stop_times)
-    table.rows.push_back(
-        {each.until / test.time_unit.scale, finite_cell(each.optimum), finite_cell(each.compromise),
-         finite_cell(interval_factor(each.compromise)), finite_cell(each.specimens)});
+    table.rows.push_back({by_level ? each.factor : each.until / test.time_unit.scale,
+                          finite_cell(each.optimum), finite_cell(each.compromise),
+                          finite_cell(interval_factor(each.compromise)),
+                          finite_cell(each.specimens)});
   return table;
 }
 
@@ -167,19 +183,21 @@ html::Figure life_stress_figure(const AccelerationResult& result) {
   marks.push_back(
       plot::line({{"x", xi}, {"y", goal}}, {colour::posterior, test.question.goal, 1, 2, true}));
   const double until = test.until / test.time_unit.scale;
-  marks.push_back(plot::horizontal_line(until, {colour::limit, "stop time", 1, 1.5, true}));
+  if (test.stops.empty())
+    marks.push_back(plot::horizontal_line(until, {colour::limit, "stop time", 1, 1.5, true}));
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     const AccelerationPlan& plan = result.plans[i];
     std::vector<double> x, y, n, expected;
     for (std::size_t k = 0; k < plan.levels.size(); ++k) {
       x.push_back(plan.levels[k].xi);
       // The plans apart, about the stop time.
-      y.push_back(until * (i == 0 ? 1.25 : 0.8));
+      const double stop = test.stop(plan.levels[k]) / test.time_unit.scale;
+      y.push_back(stop * (i == 0 ? 1.25 : 0.8));
       n.push_back(present::count(plan.specimens[k]));
       expected.push_back(n.back() * plan.failing[k]);
       // Neighbours at two heights: on a phone they would stand on each other.
       const double away = k % 2 == 0 ? 1.9 : 3.4;
-      marks.push_back(plot::text(x.back(), i == 0 ? until * away : until / away,
+      marks.push_back(plot::text(x.back(), i == 0 ? stop * away : stop / away,
                                  fmt::format("{:.0f} of {}", expected.back(), plan.specimens[k]),
                                  i == 0 ? colour::measured : colour::chains[2]));
     }

@@ -66,17 +66,16 @@ class BatchChoice {
 
   Gain gain_of(std::vector<std::size_t> chosen) const {
     std::sort(chosen.begin(), chosen.end());  // the same numbers for the same set
-    Batch batch;
-    for (const std::size_t each : chosen) {
-      batch.outcomes.push_back(plan_.judged[each].outcomes);
-      batch.specimens.push_back(plan_.judged[each].candidate.specimens);
-    }
-    return gain_of_batch(plan_.points, batch, {question_.samples, question_.seed});
+    std::vector<Tested> tests;
+    for (const std::size_t each : chosen)
+      tests.push_back({each, plan_.judged[each].candidate.specimens});
+    return plan_.gain_together(plan_, tests);
   }
 
   // What is to be small.
   double left(const Gain& gain) const {
     if (question_.by == "information") return -gain.information;
+    if (question_.by == "loss") return 1 - gain.saved / plan_.loss->now;
     return std::sqrt(gain.variance) / plan_.nodes.sd;
   }
 

@@ -33,6 +33,14 @@ double quantile_between(std::span<const double> goal, std::span<const double> we
   return at_before;
 }
 
+// What the best decision under these weights saves against today's, times the sum of the weights.
+double saved_by(const GoalNodes& nodes, const std::vector<double>& weight) {
+  if (nodes.loss.size() == 0) return 0;
+  const Eigen::Map<const Eigen::VectorXd> w(weight.data(), std::ssize(weight));
+  const Eigen::RowVectorXd loss = w.transpose() * nodes.loss;
+  return loss[nodes.best] - loss.minCoeff();
+}
+
 // Tests of a batch, specimen by specimen.
 std::vector<const Outcomes*> specimens_of(const Batch& batch) {
   std::vector<const Outcomes*> all;
@@ -158,6 +166,7 @@ Gain gain_of_one(const GoalNodes& nodes, const Outcomes& outcomes) {
     gain.use += evidence * outcomes.value[m];
     if (outcomes.runout && m + 1 == outcomes.size()) gain.runout = evidence;
     gain.effective += evidence * effective_number(weight);
+    gain.saved += saved_by(nodes, weight);
   }
   gain.information = std::max(0.0, gain.information);
   return gain;
@@ -166,7 +175,8 @@ Gain gain_of_one(const GoalNodes& nodes, const Outcomes& outcomes) {
 Gain gain_of_batch(const GoalNodes& nodes, const Batch& batch, const NestedSettings& settings) {
   const Nested nested(nodes, batch, settings);
   const auto n = static_cast<std::size_t>(settings.samples);
-  std::vector<double> variance(n), width(n), information(n), use(n), runouts(n), effective(n);
+  std::vector<double> variance(n), width(n), information(n), use(n), runouts(n), effective(n),
+      saved(n);
   tbb::parallel_for(std::size_t{0}, n, [&](std::size_t s) {
     const Simulated each = nested.sample(static_cast<int>(s));
     const GoalSpread after = goal_spread(nodes.goal, each.weight);
@@ -176,9 +186,11 @@ Gain gain_of_batch(const GoalNodes& nodes, const Batch& batch, const NestedSetti
     use[s] = each.use;
     runouts[s] = each.runouts;
     effective[s] = effective_number(each.weight);
+    saved[s] =
+        saved_by(nodes, each.weight) / std::accumulate(each.weight.begin(), each.weight.end(), 0.0);
   });
   const Average of_variance = average(variance), of_width = average(width),
-                of_information = average(information);
+                of_information = average(information), of_saved = average(saved);
   const auto tests = static_cast<double>(std::max<std::size_t>(1, nested.tests()));
   return {of_variance.mean,
           of_variance.error,
@@ -188,7 +200,9 @@ Gain gain_of_batch(const GoalNodes& nodes, const Batch& batch, const NestedSetti
           of_information.error,
           average(use).mean / tests,
           average(runouts).mean / tests,
-          average(effective).mean};
+          average(effective).mean,
+          of_saved.mean,
+          of_saved.error};
 }
 
 std::vector<double> typical_posterior(const GoalNodes& nodes, const Batch& batch,

@@ -13,6 +13,9 @@ namespace wearwell::plan {
 struct GoalNodes {
   std::vector<double> goal;    ///< GoalValues::value, ascending
   std::vector<double> weight;  ///< sum to 1
+  /// Loss of each decision at each node, nodes x decisions; empty without decisions.
+  Eigen::MatrixXd loss = {};
+  Eigen::Index best = 0;  ///< the decision of least mean loss under `weight`
 };
 
 /// What is known of the goal: its standard deviation, and the ends of its central 90 % interval, on
@@ -45,6 +48,10 @@ struct Gain {
   double use = 0;     ///< expected value of one specimen's test (time on test), unit of the table
   double runout = 0;  ///< expected share of run-outs
   double effective = 0;  ///< expected number of nodes that carry the posterior after the tests
+  /// The expected value of sample information (Raiffa and Schlaifer 1961): mean loss of today's
+  /// best decision less that of the best after the tests, at least 0.
+  double saved = 0;
+  double saved_error = 0;
 };
 
 /// One specimen, by quadrature over outcomes and nodes. `outcomes` have the nodes' order.

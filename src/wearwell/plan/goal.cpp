@@ -75,6 +75,7 @@ Goal b_life(const PosteriorStudy& study, const NamedLife& life, double percent) 
     return distribution_at(life, {x, count}).quantile(share);
   };
   goal.reported = reported_b_life(life, percent);
+  goal.lives = [life](std::span<const double> x) { return distribution_at(life, x); };
   return goal;
 }
 

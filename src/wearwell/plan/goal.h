@@ -22,6 +22,8 @@ struct Goal {
   /// Its posterior 5, 50 and 95 % quantiles, SI, as the study reports them; empty where the study
   /// reports none.
   std::function<std::optional<std::vector<double>>(const WeightedDraws& draws)> reported = {};
+  /// Of a B-life: the distribution of lives of new units that it is of, SI. Else empty.
+  std::function<LifeDistribution(std::span<const double> x)> lives = {};
 };
 
 /// The goal that a text names, case ignored:

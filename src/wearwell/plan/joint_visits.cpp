@@ -1,4 +1,5 @@
 #include "wearwell/plan/joint_visits.h"
+#include "wearwell/base/progress.h"
 
 #include <tbb/parallel_for.h>
 
@@ -65,7 +66,10 @@ class VisitSearch {
   VisitSearch(std::span<const LifeAhead> units, std::span<const InspectionBounds> bounds,
               const InspectionPrices& prices, std::span<const double> candidates,
               const Monitor& monitor)
-      : prices_(prices), visit_(prices.visit), count_(candidates.size()), monitor_(monitor) {
+      : prices_(prices),
+        visit_(prices.visit),
+        count_(candidates.size()),
+        progress_(monitor, "sets of visits") {
     prices_.visit = 0;
     for (std::size_t u = 0; u < units.size(); ++u) {
       UnitPlaces places;
@@ -87,7 +91,7 @@ class VisitSearch {
   const InspectionPrices& own_prices() const { return prices_; }
 
   double total(const std::vector<std::size_t>& visits) const {
-    if (monitor_.stop.stop_requested()) throw Cancelled();
+    progress_.advance(1);
     double sum = visit_ * static_cast<double>(visits.size());
     for (const BestOfUnit& best : each(visits, prices_)) sum += best.cost;
     return sum;
@@ -150,7 +154,7 @@ class VisitSearch {
   InspectionPrices prices_;  // without visits
   double visit_ = 0;
   std::size_t count_ = 0;
-  const Monitor& monitor_;
+  mutable wearwell::Progress progress_;
   std::vector<UnitPlaces> units_;
 };
 

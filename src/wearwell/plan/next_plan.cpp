@@ -27,38 +27,6 @@ using Eigen::Index;
 // Nodes of a slow likelihood (integrals within it) are fewer.
 constexpr int nodes_of_slow = 150;
 
-void check_question(const NextQuestion& question) {
-  if (question.candidates.has_value() == !question.grid.empty())
-    throw InputError("give either --candidates, a table, or --grid");
-  if (question.goal.empty())
-    throw InputError("--goal is missing: what are the tests to determine?");
-  if (question.by != "variance" && question.by != "information")
-    throw InputError(
-        fmt::format("--by: '{}' must be variance or information", printable(question.by)));
-  const auto positive = [](const char* option, const std::optional<double>& value) {
-    if (value && !(*value > 0 && std::isfinite(*value)))
-      throw InputError(fmt::format("{}: {:.6g} must be positive", option, *value));
-  };
-  positive("--specimen-cost", question.specimen_cost);
-  positive("--use-cost", question.use_cost);
-  positive("--value", question.value);
-  positive("--budget", question.budget);
-  const bool costs = !question.cost.empty() || question.specimen_cost || question.use_cost;
-  if (!question.cost.empty() && (question.specimen_cost || question.use_cost))
-    throw InputError("--cost names a column of costs; leave out --specimen-cost and --use-cost");
-  if (!costs && (question.budget || question.value))
-    throw InputError(fmt::format("{}: needs costs: --cost COLUMN, --specimen-cost or --use-cost",
-                                 question.budget ? "--budget" : "--value"));
-  if (!question.grid.empty() && !question.cost.empty())
-    throw InputError("--cost: a grid has no column of costs; use --specimen-cost or --use-cost");
-  if (question.batch < 1 || question.batch > 100)
-    throw InputError(fmt::format("--batch: {} must be 1 to 100", question.batch));
-  if (question.samples < 16 || question.samples > 100'000)
-    throw InputError(fmt::format("--samples: {} must be 16 to 100000", question.samples));
-  if (question.nodes < 50 || question.nodes > 20'000)
-    throw InputError(fmt::format("--nodes: {} must be 50 to 20000", question.nodes));
-}
-
 // The posterior after the tests that were done since the fit.
 void take_tests(const std::vector<Table>& tests, const std::string& result, const ReadStudy& read,
                 prognosis::CarriedState& state, NextPlan& plan) {
@@ -144,121 +112,38 @@ std::vector<std::size_t> different_tests(const std::vector<Candidate>& all,
   return test_of;
 }
 
-std::optional<double> cost_of(const Candidate& candidate, const Gain& gain,
-                              const NextQuestion& question) {
-  if (candidate.cost) return candidate.cost;
-  if (!question.specimen_cost && !question.use_cost) return {};
-  return candidate.specimens *
-         (question.specimen_cost.value_or(0) + question.use_cost.value_or(0) * gain.use);
+Gain gain_of_tests(const NextPlan& plan, std::span<const Tested> tests,
+                   const NestedSettings& settings) {
+  Batch batch;
+  for (const Tested& each : tests) {
+    batch.outcomes.push_back(plan.judged[each.candidate].outcomes);
+    batch.specimens.push_back(each.specimens);
+  }
+  return gain_of_batch(plan.points, batch, settings);
 }
 
-double gain_by(const std::string& by, const NextPlan& plan, const Gain& gain) {
-  if (by == "information") return gain.information;
-  return 1 - std::sqrt(gain.variance) / plan.nodes.sd;
-}
-
-void judge(const NextQuestion& question, NextPlan& plan) {
-  const double variance = plan.nodes.sd * plan.nodes.sd;
+void find_gains(const NextQuestion& question, NextPlan& plan) {
+  const NestedSettings settings{question.samples, question.seed};
+  plan.gain_together = [settings](const NextPlan& of, std::span<const Tested> tests) {
+    return gain_of_tests(of, tests, settings);
+  };
   tbb::parallel_for(std::size_t{0}, plan.judged.size(), [&](std::size_t i) {
     Judged& each = plan.judged[i];
-    each.gain = each.candidate.specimens == 1
-                    ? gain_of_one(plan.points, *each.outcomes)
-                    : gain_of_batch(plan.points, {{each.outcomes}, {each.candidate.specimens}},
-                                    {question.samples, question.seed});
-    each.variance_share = each.gain.variance / variance;
-    each.narrowing = 1 - std::sqrt(each.variance_share);
-    each.narrowing_error =
-        0.5 * each.gain.variance_error / variance / std::sqrt(each.variance_share) +
-        each.outcomes->defect;
-    each.cost = cost_of(each.candidate, each.gain, question);
-    each.score = gain_by(question.by, plan, each.gain) / each.cost.value_or(1);
+    const Tested test[] = {{i, each.candidate.specimens}};
+    each.gain = each.candidate.specimens == 1 ? gain_of_one(plan.points, *each.outcomes)
+                                              : gain_of_tests(plan, test, settings);
   });
-  std::stable_sort(plan.judged.begin(), plan.judged.end(),
-                   [](const Judged& a, const Judged& b) { return a.score > b.score; });
 }
 
-// Whether the best is worth doing.
-void find_worth(const NextQuestion& question, NextPlan& plan) {
-  constexpr double least = 1e-3;
-  const auto best = std::max_element(
-      plan.judged.begin(), plan.judged.end(), [](const Judged& a, const Judged& b) {
-        return a.narrowing - 2 * a.narrowing_error < b.narrowing - 2 * b.narrowing_error;
-      });
-  if (question.by == "variance" && best->narrowing - 2 * best->narrowing_error < least) {
-    plan.worth_it = false;
-    plan.why_not =
-        "No candidate narrows the interval of the goal by more than 0.1 % and twice its error.";
-    return;
-  }
-  if (!question.value) return;
-  double most = -infinity;
-  const Judged* cheapest = nullptr;
-  for (const Judged& each : plan.judged) {
-    const double net = *question.value * 100 * each.narrowing - *each.cost;
-    if (net > most) most = net, cheapest = &each;
-  }
-  if (most > 0) return;
-  plan.worth_it = false;
-  plan.why_not = fmt::format(
-      "No candidate is worth its cost: the nearest, {}, narrows the interval by {:.3g} %, worth "
-      "{:.4g}, and costs {:.4g}.",
-      cheapest->candidate.name, 100 * cheapest->narrowing,
-      100 * cheapest->narrowing * *question.value, *cheapest->cost);
-}
-
-// The smallest number of specimens of the best candidate whose expected width is small enough.
-void find_further_tests(const NextQuestion& question, NextPlan& plan) {
-  Target& target = *plan.target;
-  const Judged& best = plan.judged.front();
-  const double wanted = target.width / plan.now.width() * plan.nodes.sd;
-  const auto width_after = [&](int n) {
-    return std::sqrt(
-        gain_of_batch(plan.points, {{best.outcomes}, {n}}, {question.samples, question.seed})
-            .variance);
-  };
-  int below = 0, enough = 1;
-  while (enough <= target.most && width_after(enough) > wanted) {
-    below = enough;
-    enough *= 2;
-  }
-  if (enough > target.most) return;
-  while (enough - below > 1) {
-    const int middle = (below + enough) / 2;
-    (width_after(middle) > wanted ? below : enough) = middle;
-  }
-  target.tests = enough;
-}
-
-void add_checks(NextPlan& plan) {
-  constexpr double fewest = 20;
-  std::size_t few = 0, outside = 0, coarse = 0;
-  for (const Judged& each : plan.judged) {
-    few += each.gain.effective < fewest;
-    outside += !each.candidate.outside.empty();
-    coarse += each.outcomes->defect > 1e-3;
-  }
-  const std::size_t all = plan.judged.size();
-  if (few > 0)
-    plan.checks.push_back(
-        {"resolution", Verdict::warn,
-         fmt::format("after {} of {} candidates fewer than {:.0f} nodes carry the posterior", few,
-                     all, fewest),
-         "Their gains are rough; use more nodes: --nodes 5000."});
-  if (coarse > 0)
-    plan.checks.push_back(
-        {"outcomes", Verdict::warn,
-         fmt::format("the integration over outcomes has an error above 0.1 % for {} of {} "
-                     "candidates",
-                     coarse, all),
-         "The error is part of the stated one."});
-  if (outside > 0)
-    plan.checks.push_back(
-        {"extrapolation", Verdict::warn,
-         fmt::format("{} of {} candidates lie outside the tested range", outside, all),
-         "What they would show, and so their gain, rests on the model. They are marked."});
-  if (!plan.trusted)
-    plan.checks.push_back({"study", Verdict::fail, "the fit itself is not trusted",
-                           "Look at its checks first: wearwell report."});
+void find_loss(const NextQuestion& question, const Points& nodes, NextPlan& plan) {
+  plan.loss = decision_loss(question, plan.goal, nodes, plan.points);
+  if (!plan.currency.empty() && !plan.loss->currency.empty() &&
+      plan.currency != plan.loss->currency)
+    throw InputError(
+        fmt::format("--failure-cost is in {}, and the costs of candidates in {}; give "
+                    "both in one currency",
+                    printable(plan.loss->currency), printable(plan.currency)));
+  if (plan.currency.empty()) plan.currency = plan.loss->currency;
 }
 
 Candidates candidates_of(const NextQuestion& question, const TestStudy& study) {
@@ -304,6 +189,7 @@ NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const
   if (!(plan.nodes.sd > 0))
     throw InputError(fmt::format("--goal: {} is known already: it is the same under all parameters",
                                  plan.goal.name));
+  if (question.by == "loss") find_loss(question, nodes.values, plan);
   std::vector<PlannedTest> tests;
   const std::vector<std::size_t> test_of = different_tests(candidates.all, tests);
   plan.outcomes =
@@ -328,19 +214,13 @@ double NextPlan::in_unit(double goal_value) const {
 Answer next_test(prognosis::CarriedState state, const std::string& result, const ReadStudy& read,
                  const NextQuestion& question) {
   NextPlan plan = plan_of(std::move(state), result, read, question);
-  judge(question, plan);
-  add_checks(plan);
-  find_worth(question, plan);
+  find_gains(question, plan);
+  rank_candidates(question, plan);
   const Judged& best = plan.judged.front();
   plan.typical =
       typical_posterior(plan.points, {{best.outcomes}, {best.candidate.specimens}},
                         {question.samples, question.seed}, std::sqrt(best.gain.variance));
-  if (question.batch > 1 || question.budget) plan.batch = choose_batch(plan, question);
-  if (plan.target) {
-    plan.target->reached = plan.now.width() <= plan.target->width;
-    if (!plan.target->reached) find_further_tests(question, plan);
-  }
-  return answer_of(plan, question);
+  return answer_of_ranked(std::move(plan), question);
 }
 
 }  // namespace wearwell::plan

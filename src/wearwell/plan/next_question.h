@@ -22,7 +22,10 @@ struct NextQuestion {
   std::optional<double> specimen_cost = {};  ///< instead of a column: cost of each specimen
   std::optional<double> use_cost = {};       ///< and of each unit of its expected life on test
   std::string measure = {};                  ///< the measured column, if the study has several
-  std::string by = "variance";               ///< ranks: variance (of the goal) or information
+  std::string by = "variance";  ///< ranks: variance (of the goal), information, or loss
+  /// Of `loss`: costs of age replacement, "12000 EUR" (decision_loss.h), and optionally the use of
+  /// all units that the decision is for, "1e9 cycles".
+  std::string failure_cost = {}, replacement_cost = {}, fleet_use = {};
   std::optional<double> value = {};   ///< worth of one per cent of narrowing, in units of cost
   std::optional<double> budget = {};  ///< of a batch, in units of cost
   int batch = 1;                      ///< at most so many candidates together

@@ -14,8 +14,6 @@
 namespace wearwell::plan {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t most_in_terminal = 15;
 
 std::string unit_after(const Unit& unit) {
@@ -45,11 +43,6 @@ std::string specimens_text(int count) {
   return count == 1 ? "one specimen" : fmt::format("{} specimens", count);
 }
 
-// The expected width, from the present one of the whole posterior.
-double expected_width(const NextPlan& plan, double narrowing) {
-  return plan.now.width() * (1 - narrowing);
-}
-
 std::string with_error(double percent, double error) {
   if (error < 0.05) return fmt::format("{:.3g} %", percent);
   return fmt::format("{:.3g} +- {:.1g} %", percent, error);
@@ -62,7 +55,11 @@ std::string best_text(const NextPlan& plan) {
       fmt::format("Test next: {}, {}. Its expected narrowing of the interval is {}, to {}.",
                   best.candidate.name, specimens_text(best.candidate.specimens),
                   with_error(100 * best.narrowing, 100 * best.narrowing_error),
-                  width_text(plan, expected_width(plan, best.narrowing)));
+                  width_text(plan, plan.expected_width(best.narrowing)));
+  if (plan.loss)
+    text += fmt::format(" It is expected to save {} of the cost.",
+                        with_error(100 * best.gain.saved / plan.loss->now,
+                                   100 * best.gain.saved_error / plan.loss->now));
   if (!best.candidate.outside.empty())
     text += fmt::format(" It is an extrapolation: {}.", fmt::join(best.candidate.outside, "; "));
   return text;
@@ -83,7 +80,7 @@ std::string batch_text(const NextPlan& plan) {
   std::string text =
       fmt::format("Together: {}. Expected narrowing {}, to {}", fmt::join(parts, "; "),
                   with_error(100 * batch.narrowing, 100 * batch.narrowing_error),
-                  width_text(plan, expected_width(plan, batch.narrowing)));
+                  width_text(plan, plan.expected_width(batch.narrowing)));
   if (batch.cost)
     text += fmt::format(", for {}{}", plain_number(*batch.cost),
                         plan.currency.empty() ? "" : " " + plan.currency);
@@ -129,6 +126,9 @@ present::Table candidates_table(const NextPlan& plan) {
                          plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
                         {"variance left", "%", present::digits(3)},
                         {"information", "nat", present::digits(3)}}};
+  const bool saving = plan.loss && plan.loss->fleet_use > 0;
+  if (plan.loss) table.columns.push_back({"cost saved", "%", present::digits(3)});
+  if (saving) table.columns.push_back({"saving", currency, present::digits(4)});
   if (lives) table.columns.push_back({"expected test", plan.use_unit, present::digits(3)});
   if (stops) table.columns.push_back({"run-outs", "%", present::digits(3)});
   if (costs) {
@@ -137,7 +137,7 @@ present::Table candidates_table(const NextPlan& plan) {
   }
   table.columns.push_back({"note"});
   for (const Judged& each : plan.judged) {
-    const double width = expected_width(plan, each.narrowing);
+    const double width = plan.expected_width(each.narrowing);
     std::vector<present::Cell> row = {
         each.candidate.name,
         static_cast<double>(each.candidate.specimens),
@@ -146,6 +146,8 @@ present::Table candidates_table(const NextPlan& plan) {
         plan.logarithmic ? std::exp(width) : width,
         100 * each.variance_share,
         each.gain.information};
+    if (plan.loss) row.emplace_back(100 * each.gain.saved / plan.loss->now);
+    if (saving) row.emplace_back(plan.loss->saved(each.gain.saved));
     if (lives) row.emplace_back(each.gain.use);
     if (stops)
       row.emplace_back(each.candidate.stop ? present::Cell(100 * each.gain.runout)
@@ -193,6 +195,7 @@ std::string next_text(const NextPlan& plan) {
   std::string text = wrapped(printable(plan.title), 0, 2) +
                      wrapped(printable(present_text(plan)), 2, 4) + "\n" +
                      wrapped(printable(best_text(plan)), 0, 2);
+  if (plan.loss) text += wrapped(printable(loss_text(*plan.loss)), 0, 2);
   if (plan.batch) text += wrapped(printable(batch_text(plan)), 0, 2);
   if (plan.target) text += wrapped(printable(target_text(plan)), 0, 2);
   text += next_table_text(candidates_table(plan));
@@ -203,6 +206,7 @@ std::string next_text(const NextPlan& plan) {
 }
 
 std::string how_computed(const NextPlan& plan, const NextQuestion& question) {
+  if (!plan.how.empty()) return plan.how;
   const bool several = std::any_of(plan.judged.begin(), plan.judged.end(),
                                    [](const Judged& each) { return each.candidate.specimens > 1; });
   std::string text = fmt::format(
@@ -223,6 +227,7 @@ std::vector<present::Section> next_sections(const NextPlan& plan, const NextQues
   present::Section answer{"answer", "Which test next"};
   answer.add(present::Prose{best_text(plan), true});
   answer.add(present::Prose{present_text(plan) + "."});
+  if (plan.loss) answer.add(present::Prose{loss_text(*plan.loss)});
   if (plan.batch) answer.add(present::Prose{batch_text(plan)});
   if (plan.target) answer.add(present::Prose{target_text(plan)});
   for (const Check& check : plan.checks)
@@ -236,92 +241,6 @@ std::vector<present::Section> next_sections(const NextPlan& plan, const NextQues
   for (const std::string& note : plan.notes)
     candidates.add(present::Prose{html::capital(note) + "."});
   return {answer, candidates};
-}
-
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json candidate_json(const NextPlan& plan, const Judged& each) {
-  Json json = {{"name", each.candidate.name},
-               {"row", each.candidate.row + 1},
-               {"specimens", each.candidate.specimens},
-               {"stop", each.candidate.stop ? Json(*each.candidate.stop) : Json()}};
-  Json conditions = Json::object();
-  for (const ConditionColumn& condition : plan.conditions) {
-    const auto& column = condition_column(plan.condition_values, condition.heading);
-    conditions[condition.name] =
-        condition.words ? Json(cell_word(column, each.candidate.row))
-                        : finite(cell_number(plan.condition_values, column, each.candidate.row));
-  }
-  json["conditions"] = std::move(conditions);
-  const double width = expected_width(plan, each.narrowing);
-  json["narrowing"] = each.narrowing;
-  json["error"] = each.narrowing_error;
-  json["width"] = plan.logarithmic ? std::exp(width) : width;
-  json["variance_left"] = each.variance_share;
-  json["variance_error"] = each.gain.variance_error / (plan.nodes.sd * plan.nodes.sd);
-  json["information"] = each.gain.information;
-  json["information_error"] = each.gain.information_error;
-  json["test"] = plan.use_unit.empty() ? Json() : finite(each.gain.use);
-  json["runouts"] = each.gain.runout;
-  json["cost"] = each.cost ? Json(*each.cost) : Json();
-  json["score"] = each.score;
-  json["effective"] = each.gain.effective;
-  json["outside"] = each.candidate.outside;
-  return json;
-}
-
-Json next_json(const NextPlan& plan, const NextQuestion& question) {
-  Json json = {{"title", plan.title},
-               {"trusted", plan.trusted},
-               {"goal",
-                {{"name", plan.goal.name},
-                 {"unit", plan.goal.unit.text},
-                 {"scale", plan.logarithmic ? "logarithmic" : "linear"},
-                 {"q05", plan.in_unit(plan.now.low)},
-                 {"q50", plan.in_unit(plan.now.median)},
-                 {"q95", plan.in_unit(plan.now.high)},
-                 {"width", plan.logarithmic ? std::exp(plan.now.width()) : plan.now.width()},
-                 {"sd", plan.nodes.sd}}},
-               {"by", question.by},
-               {"worth_it", plan.worth_it},
-               {"why_not", plan.why_not.empty() ? Json() : Json(plan.why_not)},
-               {"test_unit", plan.use_unit.empty() ? Json() : Json(plan.use_unit)},
-               {"currency", plan.currency.empty() ? Json() : Json(plan.currency)},
-               {"nodes", plan.points.goal.size()},
-               {"samples", question.samples},
-               {"seed", question.seed},
-               {"tests_done", plan.tests_done}};
-  Json candidates = Json::array();
-  for (const Judged& each : plan.judged) candidates.push_back(candidate_json(plan, each));
-  json["candidates"] = std::move(candidates);
-  if (plan.batch) {
-    Json chosen = Json::array();
-    for (const std::size_t i : plan.batch->chosen)
-      chosen.push_back({{"name", plan.judged[i].candidate.name},
-                        {"row", plan.judged[i].candidate.row + 1},
-                        {"specimens", plan.judged[i].candidate.specimens}});
-    json["batch"] = {{"chosen", std::move(chosen)},
-                     {"narrowing", plan.batch->narrowing},
-                     {"error", plan.batch->narrowing_error},
-                     {"cost", plan.batch->cost ? Json(*plan.batch->cost) : Json()},
-                     {"considered", plan.batch->shortlist}};
-  }
-  if (plan.target)
-    json["until"] = {{"text", plan.target->text},
-                     {"reached", plan.target->reached},
-                     {"tests", plan.target->tests ? Json(*plan.target->tests) : Json()},
-                     {"most", plan.target->most}};
-  Json checks = Json::array();
-  static constexpr const char* words[] = {"pass", "warn", "fail"};
-  for (const Check& check : plan.checks)
-    checks.push_back({{"name", check.name},
-                      {"verdict", words[static_cast<int>(check.verdict)]},
-                      {"detail", check.detail}});
-  json["checks"] = std::move(checks);
-  json["notes"] = plan.notes;
-  return json;
 }
 
 }  // namespace

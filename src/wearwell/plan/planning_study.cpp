@@ -100,6 +100,31 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
   return table;
 }
 
+// [predict] types names types of the data, which are not there before any test.
+TextFile without_types(const TextFile& study) {
+  TextFile rest = study;
+  rest.text.clear();
+  bool predict = false, inside = false;  // [predict], and a list of types over several lines
+  for (std::size_t at = 0; at < study.text.size();) {
+    const std::size_t end = std::min(study.text.find('\n', at), study.text.size() - 1) + 1;
+    const std::string line = study.text.substr(at, end - at);
+    at = end;
+    const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size() - 1);
+    if (line[first] == '[' && !inside) predict = line.compare(first, 9, "[predict]") == 0;
+    if (predict && !inside && line.compare(first, 5, "types") == 0 &&
+        line.find_first_not_of(" \t", first + 5) == line.find('='))
+      inside = true;
+    if (!inside) {
+      rest.text += line;
+    } else {
+      rest.text += "\n";  // messages name lines
+      const bool list = line.find('[', first) < line.find('#');
+      inside = (list || line[first] != 't') && line.find(']') == line.npos;
+    }
+  }
+  return rest;
+}
+
 void refuse_improper(const PosteriorStudy& study) {
   std::vector<std::string> improper, defaults;
   for (const Parameter& each : study.parameters) {
@@ -146,6 +171,7 @@ PlanningStudy planning_study(const Source& source, const ReadStudy& read, const 
   PlanningStudy planning;
   const TomlReader root = TomlReader::parse(source.study);
   Source stand_in = source;
+  if (root.required_text("model") == "sn") stand_in.study = without_types(source.study);
   stand_in.tables[as_read_name(root.required_table("data"))] = stand_in_rows(root, rows);
   planning.whole = read(stand_in);
   refuse_improper(planning.study());

@@ -73,7 +73,24 @@ class Progress {
 struct OneFit {
   std::optional<GoalInterval> interval;
   double truth = 0;  // unit of the goal
+  bool without_failure = false;
 };
+
+// The interval after the first `size` specimens. A study may refuse run-outs alone, which then bound
+// nothing.
+void find_interval(const SizeReport& report, std::span<const std::size_t> specimens,
+                   const SimulatedCampaign& campaign, std::size_t size, OneFit& fit) {
+  const auto first = std::span(campaign.outcomes).first(size);
+  const bool runouts =
+      std::all_of(first.begin(), first.end(), [](const TestOutcome& each) { return each.runout; });
+  try {
+    fit.interval =
+        goal_interval(*report.planning, report.goal, specimens, campaign, size, report.level);
+  } catch (const InputError&) {
+    if (!runouts) throw;
+    fit.without_failure = true;
+  }
+}
 
 SizeRow row_of(const SizeReport& report, const std::vector<SimulatedCampaign>& campaigns,
                const std::vector<OneFit>& fits, std::size_t size) {
@@ -93,7 +110,7 @@ SizeRow row_of(const SizeReport& report, const std::vector<SimulatedCampaign>& c
     }
     row.longest += longest;
     if (!interval) {
-      ++row.unresolved;
+      ++(fits[i].without_failure ? row.without_failure : row.unresolved);
       widths.push_back(INFINITY);
       continue;
     }
@@ -134,8 +151,7 @@ Answer size(const SizeQuestion& question, const Source& source, const Table& tes
   const auto at = [&](std::size_t size) {
     std::vector<OneFit> fits(campaigns.size());
     tbb::parallel_for(std::size_t{0}, campaigns.size(), [&](std::size_t i) {
-      fits[i].interval =
-          goal_interval(planning, report.goal, specimens, campaigns[i], size, report.level);
+      find_interval(report, specimens, campaigns[i], size, fits[i]);
       fits[i].truth = from_si(report.goal.unit, report.goal.value(campaigns[i].truth.data()));
       progress.done();
     });

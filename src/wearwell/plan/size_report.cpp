@@ -176,7 +176,8 @@ nlohmann::ordered_json size_json(const SizeReport& report) {
         {"error", point.error()},
         {"median_width", std::isfinite(each.median_width) ? Json(each.median_width) : Json()},
         {"coverage", static_cast<double>(each.covered) / static_cast<double>(each.runs)},
-        {"unresolved", each.unresolved}};
+        {"unresolved", each.unresolved},
+        {"without_failure", each.without_failure}};
     if (report.planning->tests.is_life) {
       row["failures"] = each.failures;
       row["runouts"] = each.runouts;
@@ -205,6 +206,16 @@ std::vector<Check> size_checks(const SizeReport& report) {
                      "as too wide",
                      worst->unresolved, worst->runs),
          "Give narrower priors."});
+  const auto fewest = std::max_element(
+      report.rows.begin(), report.rows.end(),
+      [](const SizeRow& a, const SizeRow& b) { return a.without_failure < b.without_failure; });
+  if (fewest->without_failure > 0)
+    checks.push_back(
+        {"run-outs", Verdict::warn,
+         fmt::format("in {} of {} simulated campaigns of {} specimens every test is a run-out, "
+                     "from which the study computes no interval; they count as too wide",
+                     fewest->without_failure, fewest->runs, fewest->size),
+         "Test longer, or at higher stresses."});
   return checks;
 }
 

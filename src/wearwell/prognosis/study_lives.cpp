@@ -99,6 +99,10 @@ KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, boo
 
 }  // namespace
 
+WeightedLives represented_lives(const LifeDistribution& lives) {
+  return represented(lives.quantile);
+}
+
 KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
                           const std::string& title, bool trusted, const std::string& point) {
   const std::vector<NamedLife> lives = named_lives(study);
@@ -116,7 +120,7 @@ KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& post
   tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
     const auto x = few.values.row(static_cast<Eigen::Index>(k));
     known.fresh.lives[k] =
-        represented(distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}).quantile);
+        represented_lives(distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}));
   });
   return known;
 }

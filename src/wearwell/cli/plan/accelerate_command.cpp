@@ -16,6 +16,9 @@ void add_conditions(CLI::App& command, AccelerateQuestion& question) {
   command.add_option("--low", question.low,
                      "Lower level of the plans with three levels (default: optimized)");
   command.add_option("--until", question.until, "Stop time of every test, '183 d'")->required();
+  command.add_option("--stop", question.stop,
+                     "Stop times by level instead, lower, middle and highest: '365 d, 250 d, 183 "
+                     "d'. Shares that fail stay those by --until");
   command.add_option("--specimens", question.specimens, "Number of specimens in all")->required();
   command.add_option("--goal", question.goal, "Life to predict at the stress in use")
       ->capture_default_str();
@@ -34,7 +37,7 @@ void add_planning_values(CLI::App& command, AccelerateQuestion& question) {
       ->check(one_of({"weibull", "lognormal", "loglogistic"}))
       ->capture_default_str();
   command.add_option("--relation", question.relation, "Relation of log life to stress")
-      ->check(one_of({"arrhenius", "inverse-power", "linear"}))
+      ->check(one_of({"arrhenius", "eyring", "inverse-power", "linear"}))
       ->capture_default_str();
   command.add_option("--shape", question.shape,
                      "Weibull shape: a number, an interval '1.5 to 2' (90 %), or a prior like "
@@ -48,7 +51,7 @@ void add_planning_values(CLI::App& command, AccelerateQuestion& question) {
   command.add_option("--life-at-highest", question.life_at_highest,
                      "Instead: median life there, '60 d', or another one, 'B10 = 20 d'");
   command.add_option("--activation-energy", question.activation_energy,
-                     "Arrhenius: how steeply life falls, '0.7 eV' or '0.65 to 0.8 eV'");
+                     "Arrhenius and Eyring: how steeply life falls, '0.7 eV' or '0.65 to 0.8 eV'");
   command.add_option("--exponent", question.exponent, "The same for inverse-power: '4'");
   command.add_option("--slope", question.slope,
                      "The same for linear: fall of the natural logarithm of life per unit of "

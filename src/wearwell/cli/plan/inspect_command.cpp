@@ -1,11 +1,14 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "wearwell/cli/lives_input.h"
 #include "wearwell/cli/plan/command_parts.h"
 #include "wearwell/plan/inspect.h"
+#include "wearwell/present/progress_line.h"
 
 namespace wearwell::plan {
 namespace {
@@ -78,7 +81,9 @@ void add_inspect_command(CLI::App& plan, Models models, int& exit_code) {
   command->callback([options, models, &exit_code] {
     exit_code = give_answer(options->answer, [&] {
       const LivesInput input = read_lives(options->lives, models);
-      return inspect(options->question, input.lives, input.followed());
+      ProgressLine line(!options->answer.json && isatty(STDERR_FILENO) ? stderr : nullptr);
+      const Monitor monitor{.progress = [&](const Step& step) { line.show(step); }};
+      return inspect(options->question, input.lives, input.followed(), monitor);
     });
   });
 }

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "wearwell/cli/carried.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/cli/plan/command_parts.h"
+#include "wearwell/models/clutch/next_point.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/prognosis/new_data.h"
 
@@ -19,9 +21,13 @@ struct NextOptions {
 };
 
 Answer answer_next(const NextOptions& options, Models models) {
-  prognosis::CarriedState state = read_carried(options.result);
   NextQuestion question = options.question;
   if (!options.candidates.empty()) question.candidates = read_table(options.candidates);
+  if (clutch::is_clutch_result(options.result)) {
+    for (const auto& each : options.tests) question.tests.push_back(read_table(each));
+    return clutch::next_point(options.result, question);
+  }
+  prognosis::CarriedState state = read_carried(options.result);
   for (const auto& each : options.tests)
     question.tests.push_back(prognosis::read_new_data(state.source, each));
   const ReadStudy read = [models](const Source& source) { return read_study(source, models); };
@@ -39,7 +45,7 @@ void add_next_command(CLI::App& plan, Models models, int& exit_code) {
   command
       ->add_option("--goal", question.goal,
                    "What the tests are to determine: 'B10 at NAME', a reported quantity, a "
-                   "prediction, a parameter")
+                   "prediction, a parameter; of a clutch 'wear rate at POINT' or 'life at POINT'")
       ->required();
   command->add_option("--candidates", options->candidates,
                       "Table of tests: a column for each condition of the data, and optionally "
@@ -59,8 +65,19 @@ void add_next_command(CLI::App& plan, Models models, int& exit_code) {
   command->add_option("--batch", question.batch, "Choose up to so many candidates together")
       ->capture_default_str();
   command->add_option("--budget", question.budget, "Most that they may cost together");
-  command->add_option("--by", question.by, "Rank by the variance of the goal or by information")
+  command
+      ->add_option("--by", question.by,
+                   "Rank by the variance of the goal, by information, or by the loss of age "
+                   "replacement")
+      ->check(one_of({"variance", "information", "loss"}))
       ->capture_default_str();
+  command->add_option("--failure-cost", question.failure_cost,
+                      "Of --by loss: cost of a failure in service, '12000 EUR'");
+  command->add_option("--replacement-cost", question.replacement_cost,
+                      "And of a replacement before it, '3000 EUR'");
+  command->add_option("--fleet-use", question.fleet_use,
+                      "And use of all units that the decision is for, '1e9 cycles': savings in "
+                      "money, and whether a test is worth its cost");
   command->add_option("--tests", options->tests,
                       "Tables of tests done since the fit, in the columns of its data");
   command->add_option("--until", question.until,
@@ -81,7 +98,11 @@ void add_next_command(CLI::App& plan, Models models, int& exit_code) {
       "  wearwell plan next springs --goal 'B10 at softer spring' \\\n"
       "    --grid 'alternating_stress_MPa = 200 to 300 by 10; mean_stress_MPa = 1000; stop = 5e5 "
       "cycles' \\\n"
-      "    --specimens '1, 3' --tests log.csv --until 'width <= factor 1.5' -o next\n\n"
+      "    --specimens '1, 3' --tests log.csv --until 'width <= factor 1.5' -o next\n"
+      "  wearwell plan next clutch --goal 'life at slip_speed = 1700 rpm, torque = 50 N m, "
+      "temperature = 170 degC, closing_time = 2.15 s' \\\n"
+      "    --grid 'slip_speed = 1200 to 2800 by 400 rpm; torque = 50 N m; temperature = 120, 240 "
+      "degC; closing_time = 2.15 s; cycles = 1500'\n\n"
       "Exit codes: 0 done; 1 the fit is not trusted; 2 the request is wrong, nothing written.");
   command->callback([options, models, &exit_code] {
     exit_code = give_answer(options->answer, [&] { return answer_next(*options, models); });

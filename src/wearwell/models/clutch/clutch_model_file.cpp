@@ -182,6 +182,34 @@ std::filesystem::path model_in(const std::filesystem::path& path) {
       path.string()));
 }
 
+WearModel model_of(const Json& content, const std::filesystem::path& file) {
+  const JsonReader json(content, file);
+  check_format(json, file, model_format, model_version);
+  WearModel model;
+  model.title = json.at("title").text();
+  const JsonReader map = json.at("map");
+  model.r = map.at("r").number();
+  model.q = map.at("q").number();
+  for (const JsonReader& term : map.at("terms").items()) model.terms.push_back(read_term(term));
+  model.covariance = read_matrix(map.at("covariance"), std::ssize(model.terms));
+  model.run_in = read_run_in(json.at("run_in"));
+  model.run_in_covariance = read_matrix(json.at("run_in_covariance"), 4);
+  model.scatter = read_scatter(json.at("scatter"));
+  model.scatter_floor = json.at("scatter").at("floor").number(0);
+  model.plate_sd = json.at("plate_sd").number(0);
+  const JsonReader validity = json.at("validity");
+  model.lowest = read_point(validity.at("lowest"));
+  model.highest = read_point(validity.at("highest"));
+  for (const Input& input : inputs) {
+    if (!(model.lowest.*input.value <= model.highest.*input.value))
+      validity.fail(fmt::format("has a minimum {0} above its maximum {0}", input.name));
+  }
+  model.worn_out = json.at("worn_out").positive();
+  for (const JsonReader& each : json.at("replicates").items())
+    model.replicates.push_back({read_polynomial(each.at("w")), read_run_in(each.at("run_in"))});
+  return model;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const WearModel& model) {
@@ -224,32 +252,13 @@ nlohmann::ordered_json to_json(const WearModel& model) {
 
 WearModel read_model(const std::filesystem::path& path) {
   const std::filesystem::path file = model_in(path);
-  const Json content = read_json(file);
-  const JsonReader json(content, file);
-  check_format(json, file, model_format, model_version);
-  WearModel model;
-  model.title = json.at("title").text();
-  const JsonReader map = json.at("map");
-  model.r = map.at("r").number();
-  model.q = map.at("q").number();
-  for (const JsonReader& term : map.at("terms").items()) model.terms.push_back(read_term(term));
-  model.covariance = read_matrix(map.at("covariance"), std::ssize(model.terms));
-  model.run_in = read_run_in(json.at("run_in"));
-  model.run_in_covariance = read_matrix(json.at("run_in_covariance"), 4);
-  model.scatter = read_scatter(json.at("scatter"));
-  model.scatter_floor = json.at("scatter").at("floor").number(0);
-  model.plate_sd = json.at("plate_sd").number(0);
-  const JsonReader validity = json.at("validity");
-  model.lowest = read_point(validity.at("lowest"));
-  model.highest = read_point(validity.at("highest"));
-  for (const Input& input : inputs) {
-    if (!(model.lowest.*input.value <= model.highest.*input.value))
-      validity.fail(fmt::format("has a minimum {0} above its maximum {0}", input.name));
-  }
-  model.worn_out = json.at("worn_out").positive();
-  for (const JsonReader& each : json.at("replicates").items())
-    model.replicates.push_back({read_polynomial(each.at("w")), read_run_in(each.at("run_in"))});
-  return model;
+  return model_of(read_json(file), file);
+}
+
+WearModel read_model_text(const std::string& text, const std::filesystem::path& name) {
+  const Json content = Json::parse(text, nullptr, false);
+  if (content.is_discarded()) throw InputError(fmt::format("{}: is not JSON", name.string()));
+  return model_of(content, name);
 }
 
 IdentifiedModel read_identified_model(const std::filesystem::path& path) {

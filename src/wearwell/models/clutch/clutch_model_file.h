@@ -15,6 +15,8 @@ namespace wearwell::clutch {
 nlohmann::ordered_json to_json(const WearModel& model);
 /// Throws InputError that names the file and the missing or invalid part.
 WearModel read_model(const std::filesystem::path& file);
+/// The same for its text; `name` stands in messages.
+WearModel read_model_text(const std::string& text, const std::filesystem::path& name);
 
 /// With its SHA-1. Throws as read_model does, and if the model is not in a file.
 struct IdentifiedModel {
