@@ -179,7 +179,9 @@ void judge_effects(const FitData& data, const std::vector<std::vector<double>>& 
 }
 
 std::string suspect(const FitData& data, std::size_t row) {
-  return fmt::format("{} {} is an outlier compared with the others", data.noun, row + 1);
+  const std::string name =
+      data.names.empty() ? fmt::format("{} {}", data.noun, row + 1) : data.names[row];
+  return name + " is an outlier compared with the others";
 }
 
 // Tests the most extreme observation, by its leave-one-out distribution if known.

@@ -26,23 +26,26 @@ std::string per_unit(const Unit& unit) {
   return one ? "1/" + unit.text : "1/(" + unit.text + ")";
 }
 
-LifeDistribution::LifeDistribution(std::shared_ptr<const Path> family_parameters,
-                                   const Measured& measured)
-    : family_parameters_(std::move(family_parameters)),
-      family_(measured.form->family),
-      positive_(measured.form->positive),
-      family_parameter_(measured.family_parameter) {}
+Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured) {
+  return {std::move(family_parameters), measured.family_parameter, measured.form->family,
+          measured.form->positive};
+}
+
+LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(risks)) {}
 
 double LifeDistribution::Next::cdf(double life) const {
+  const std::size_t stride = risks_.size() * most_response_parameters;
   double sum = 0;
-  for (const Component& each : components_) {
-    sum += each.weight * std::exp(log_cdf(family_, life, each.family_parameter));
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const double* const own = &family_parameters_[i * stride];
+    sum += weights_[i] * (risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, own))
+                                             : -std::expm1(log_survival_of(risks_, life, own)));
   }
   return sum;
 }
 
 double LifeDistribution::Next::quantile(double p) const {
-  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, positive_);
+  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, risks_.front().positive);
 }
 
 double LifeDistribution::Next::quantile(double p, double from) const {
@@ -51,29 +54,26 @@ double LifeDistribution::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
-LifeAtPoint LifeDistribution::at_point() const {
-  return {*family_parameters_, family_parameter_, family_, positive_};
-}
-
 bool LifeDistribution::over_all() const {
-  return family_parameters_->model->effects.empty();
+  return risks_.size() == 1 && risks_.front().family_parameters->model->effects.empty();
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
                                               double share_of_points) const {
   LifeAtPoint at = at_point();
   Next next;
-  next.family_ = family_;
-  next.positive_ = positive_;
-  const ThinnedPosterior few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
+  next.risks_ = risks_;
+  const ThinnedPosterior few(draws, risks_.size() > 1 ? some(4000, share_of_points)
+                                    : at.size() == 1  ? 20'000
+                                                      : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.quantile(0.5);
     for (std::size_t j = 0; j < at.size(); ++j) {
       if (at.weight(j) < 1e-9) continue;
-      Next::Component component{few.weights[i] * at.weight(j), {}};
-      std::copy_n(at.slots(j), most_response_parameters, component.family_parameter);
-      next.components_.push_back(component);
+      next.weights_.push_back(few.weights[i] * at.weight(j));
+      next.family_parameters_.insert(next.family_parameters_.end(), at.slots(j),
+                                     at.slots(j) + risks_.size() * most_response_parameters);
     }
   }
   return next;
@@ -192,6 +192,18 @@ LifeDistribution::Known LifeDistribution::hazard(const WeightedDraws& draws, dou
       [&](const double* x) {
         at.move_to(x);
         return at.hazard(life);
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::incidence(const WeightedDraws& draws, std::size_t risk,
+                                                    double life, double share_of_points) const {
+  LifeAtPoint at = at_point();
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.incidence(risk, life);
       },
       share_of_points);
 }
