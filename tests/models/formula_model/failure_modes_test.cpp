@@ -248,7 +248,7 @@ TEST_F(FailureModesTest, SharesAddUpAndOneModeAloneIsItsOwnDistribution) {
 // Weibull lives of one shape have hazards in a fixed ratio: so have the shares failed by each mode.
 TEST_F(FailureModesTest, ProportionalHazardsHaveSharesInTheirRatio) {
   const auto own = model(content("examples/life/shock_absorbers.csv"), shocks + flat("eta beta"));
-  const TomlReader root = TomlReader::parse({"study.toml", ""});
+  const TomlReader root = TomlReader::parse({"study.toml", "model = \"formula\"\n"});
   std::vector<Risk> risks;
   for (const Measured& each : own->measured)
     risks.push_back(risk_of(make_path(own, root, "likelihood", each.wanted, false, {}), each));

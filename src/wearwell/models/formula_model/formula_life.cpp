@@ -54,8 +54,14 @@ double LifeDistribution::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
+// Then the posterior has parameters of all modes: a lattice over them has very many points.
+bool LifeDistribution::competes() const {
+  const FormulaModel& model = *risks_.front().family_parameters->model;
+  return model.modes && model.measured.size() > 1;
+}
+
 bool LifeDistribution::over_all() const {
-  return risks_.size() == 1 && risks_.front().family_parameters->model->effects.empty();
+  return risks_.front().family_parameters->model->effects.empty() && !competes();
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
@@ -63,9 +69,9 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
   LifeAtPoint at = at_point();
   Next next;
   next.risks_ = risks_;
-  const ThinnedPosterior few(draws, risks_.size() > 1 ? some(4000, share_of_points)
-                                    : at.size() == 1  ? 20'000
-                                                      : some(1000, share_of_points));
+  const ThinnedPosterior few(draws, competes()       ? some(4000, share_of_points)
+                                    : at.size() == 1 ? 20'000
+                                                     : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.quantile(0.5);
@@ -98,7 +104,9 @@ LifeDistribution::Known LifeDistribution::undetermined(const WeightedDraws& draw
 template <class Value>
 LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const Value& value,
                                                double share_of_points) const {
-  if (over_all()) return {{draws, value}};
+  const bool are_few =
+      competes() && draws.values.rows() <= static_cast<Eigen::Index>(thinned_posterior);
+  if (over_all() || (are_few && share_of_points == 1)) return {{draws, value}};
   const ThinnedPosterior few(draws, some(thinned_posterior, share_of_points));
   Points at_few(few.values.rows(), 1);
   for (Eigen::Index i = 0; i < at_few.rows(); ++i) at_few(i, 0) = value(few.values.row(i).data());

@@ -37,7 +37,7 @@ class LifeDistribution {
     std::vector<double> weights_, family_parameters_;  // of the components, risk by risk
     double middle_ = 1;
   };
-  /// Over all points of a posterior, or over few if items vary or several risks compete: then all functions
+  /// Over all points of a posterior, or over few if items vary or failure modes compete: then all functions
   /// below take a share of the points below 1, to estimate the dependence on the points.
   bool over_all() const;
   Next next(const WeightedDraws& draws, double share_of_points = 1) const;
@@ -74,6 +74,7 @@ class LifeDistribution {
                   double share_of_points = 1) const;
 
  private:
+  bool competes() const;
   LifeAtPoint at_point() const { return LifeAtPoint(risks_); }
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   // Those given survival to `from`; empty if hardly any item survives.
