@@ -116,6 +116,7 @@ class Predictions {
     group.requests.push_back(request(what, "new " + noun_, given_words_, measured.unit));
     group.requests.back().is_life = true;
     group.requests.back().safe_end = 0.05;
+    group.requests.back().headline = model_->modes.has_value();
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
       group.requests.back().credible_level = levels.credible_level;

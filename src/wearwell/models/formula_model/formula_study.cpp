@@ -40,7 +40,7 @@ std::string description(const FormulaModel& model) {
                       each.program.text(o)));
     }
     parts.push_back(fmt::format("{}{} is {} with {}", each.column,
-                                each.mode.empty() ? "" : " by mode " + each.mode, each.form->name,
+                                each.mode.empty() ? "" : " by " + each.mode, each.form->name,
                                 fmt::join(family_parameters, ", ")));
   }
   if (model.modes)
