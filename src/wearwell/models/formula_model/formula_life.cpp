@@ -1,6 +1,10 @@
 #include "wearwell/models/formula_model/formula_life.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wearwell/predict/interpolated.h"
 #include "wearwell/predict/prediction.h"
@@ -13,6 +17,12 @@ namespace {
 constexpr double least_survival = 1e-3;
 
 constexpr std::size_t thinned_posterior = 2000;
+
+Eigen::Index heaviest(const WeightedDraws& draws) {
+  Eigen::Index row = 0;
+  draws.weights.maxCoeff(&row);
+  return row;
+}
 
 std::size_t some(std::size_t most, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(most));
@@ -34,14 +44,19 @@ Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& meas
 LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(risks)) {}
 
 double LifeDistribution::Next::cdf(double life) const {
+  constexpr std::size_t part = 4096;  // components, independent of the number of threads
+  std::vector<double> sums((weights_.size() + part - 1) / part);
   const std::size_t stride = risks_.size() * most_response_parameters;
-  double sum = 0;
-  for (std::size_t i = 0; i < weights_.size(); ++i) {
+  const auto failed = [&](std::size_t i) {
     const double* const own = &family_parameters_[i * stride];
-    sum += weights_[i] * (risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, own))
-                                             : -std::expm1(log_survival_of(risks_, life, own)));
-  }
-  return sum;
+    return risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, own))
+                              : -std::expm1(log_survival_of(risks_, life, own));
+  };
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
+    for (std::size_t i = k * part; i < std::min((k + 1) * part, weights_.size()); ++i)
+      sums[k] += weights_[i] * failed(i);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 double LifeDistribution::Next::quantile(double p) const {
@@ -54,14 +69,17 @@ double LifeDistribution::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
-// Then the posterior has parameters of all modes: a lattice over them has very many points.
-bool LifeDistribution::competes() const {
-  const FormulaModel& model = *risks_.front().family_parameters->model;
-  return model.modes && model.measured.size() > 1;
+bool LifeDistribution::over_all() const {
+  return risks_.front().family_parameters->model->effects.empty();
 }
 
-bool LifeDistribution::over_all() const {
-  return risks_.front().family_parameters->model->effects.empty() && !competes();
+void LifeDistribution::Next::add(const LifeAtPoint& at, double weight) {
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    if (at.weight(j) < 1e-9) continue;
+    weights_.push_back(weight * at.weight(j));
+    family_parameters_.insert(family_parameters_.end(), at.slots(j),
+                              at.slots(j) + risks_.size() * most_response_parameters);
+  }
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
@@ -69,18 +87,25 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
   LifeAtPoint at = at_point();
   Next next;
   next.risks_ = risks_;
-  const ThinnedPosterior few(draws, competes()       ? some(4000, share_of_points)
-                                    : at.size() == 1 ? 20'000
-                                                     : some(1000, share_of_points));
+  if (risks_.front().family_parameters->model->modes) {
+    // All points: few lose digits, because a mode with few failures has a long tail of parameters.
+    const double least = QuantityDistribution::least_weight(draws);
+    for (Eigen::Index i = 0; i < draws.weights.size(); ++i) {
+      if (!(draws.weights[i] > least)) continue;
+      at.move_to(draws.values.row(i).data());
+      next.add(at, draws.weights[i]);
+    }
+    const double total = std::accumulate(next.weights_.begin(), next.weights_.end(), 0.0);
+    for (double& each : next.weights_) each /= total;
+    at.move_to(draws.values.row(heaviest(draws)).data());
+    next.middle_ = at.quantile(0.5);
+    return next;
+  }
+  const ThinnedPosterior few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.quantile(0.5);
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      if (at.weight(j) < 1e-9) continue;
-      next.weights_.push_back(few.weights[i] * at.weight(j));
-      next.family_parameters_.insert(next.family_parameters_.end(), at.slots(j),
-                                     at.slots(j) + risks_.size() * most_response_parameters);
-    }
+    next.add(at, few.weights[i]);
   }
   return next;
 }
@@ -104,9 +129,7 @@ LifeDistribution::Known LifeDistribution::undetermined(const WeightedDraws& draw
 template <class Value>
 LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const Value& value,
                                                double share_of_points) const {
-  const bool are_few =
-      competes() && draws.values.rows() <= static_cast<Eigen::Index>(thinned_posterior);
-  if (over_all() || (are_few && share_of_points == 1)) return {{draws, value}};
+  if (over_all()) return {{draws, value}};
   const ThinnedPosterior few(draws, some(thinned_posterior, share_of_points));
   Points at_few(few.values.rows(), 1);
   for (Eigen::Index i = 0; i < at_few.rows(); ++i) at_few(i, 0) = value(few.values.row(i).data());

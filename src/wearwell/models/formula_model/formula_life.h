@@ -33,12 +33,13 @@ class LifeDistribution {
 
    private:
     friend class LifeDistribution;
+    void add(const LifeAtPoint& at, double weight);  // its components
     std::vector<Risk> risks_;
     std::vector<double> weights_, family_parameters_;  // of the components, risk by risk
     double middle_ = 1;
   };
-  /// Over all points of a posterior, or over few if items vary or failure modes compete: then all functions
-  /// below take a share of the points below 1, to estimate the dependence on the points.
+  /// Over all points of a posterior, or over few if items vary: then all functions below take a share of the
+  /// points below 1, to estimate the dependence on the points.
   bool over_all() const;
   Next next(const WeightedDraws& draws, double share_of_points = 1) const;
 
@@ -74,7 +75,6 @@ class LifeDistribution {
                   double share_of_points = 1) const;
 
  private:
-  bool competes() const;
   LifeAtPoint at_point() const { return LifeAtPoint(risks_); }
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   // Those given survival to `from`; empty if hardly any item survives.

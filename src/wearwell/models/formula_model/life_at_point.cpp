@@ -112,10 +112,21 @@ double LifeAtPoint::hazard(double life) const {
 
 double LifeAtPoint::quantile(double p) const {
   if (single()) return wearwell::quantile(risks_.front().family, p, slots(0));
-  double middle = infinity;
-  for (std::size_t r = 0; r < risks_.size(); ++r)
-    middle = std::min(middle, wearwell::quantile(risks_[r].family, 0.5, slots(size() / 2, r)));
-  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle, positive_);
+  const auto earliest = [&](double share) {
+    double least = infinity;
+    for (std::size_t r = 0; r < risks_.size(); ++r)
+      least = std::min(least, wearwell::quantile(risks_[r].family, share, slots(size() / 2, r)));
+    return least;
+  };
+  const auto failed = [&](double life) { return cdf(life); };
+  if (risks_.size() == 1) return quantile_of_cdf(failed, p, earliest(0.5), positive_);
+  // Before `least` each of m risks leaves at least the m-th root of 1 - p; at `most` one has ended p alone.
+  const double root = -std::expm1(std::log1p(-p) / static_cast<double>(risks_.size()));
+  const double least = earliest(root), most = earliest(p);
+  if (!(least > 0) || !std::isfinite(most))
+    return quantile_of_cdf(failed, p, earliest(0.5), positive_);
+  const double half = 0.5 * std::log(most / least);
+  return quantile_of_cdf(failed, p, std::sqrt(least) * std::sqrt(most), positive_, half + 1e-9);
 }
 
 double LifeAtPoint::mean_beyond(double from) const {
@@ -139,23 +150,30 @@ double LifeAtPoint::outlives(const LifeAtPoint& other) const {
 }
 
 double LifeAtPoint::incidence(std::size_t risk, double life) const {
-  constexpr double tail = 1e-10;
-  const double low = quantile(tail);
-  if (!(life > low)) return 0;
-  const auto integrand = [&](double at) {
-    const double here = std::exp(at);
-    double sum = 0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double* const own = slots(i, risk);
-      const double share = std::exp(log_response_value(risks_[risk].family, {.at = here}, own) -
-                                    wearwell::log_survival(risks_[risk].family, here, own) +
-                                    log_survival(i, here) + at);
-      if (share > 0) sum += weight(i) * share;
-    }
-    return sum;
-  };
-  const double end = std::min(life, quantile(1 - tail));
-  return LifeRule::integrate(integrand, std::log(low), std::log(end), deepest_cut, 1e-8);
+  // What is left out at the ends, relative to the share of this risk alone.
+  constexpr double before = 1e-9, beyond = 1e-13;
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double* const own = slots(i, risk);
+    const double alone = std::exp(log_cdf(risks_[risk].family, life, own));
+    if (!(alone > 0)) continue;
+    double end = life;
+    for (std::size_t r = 0; r < risks_.size(); ++r)
+      end = std::min(end, wearwell::quantile(risks_[r].family, 1 - beyond, slots(i, r)));
+    const double begin =
+        std::max(wearwell::quantile(risks_[risk].family, before * alone, own), 1e-300);
+    if (!(end > begin)) continue;
+    const auto density = [&](double log_life) {
+      const double here = std::exp(log_life);
+      double log_share = log_response_value(risks_[risk].family, {.at = here}, own) + log_life;
+      for (std::size_t r = 0; r < risks_.size(); ++r)
+        if (r != risk) log_share += wearwell::log_survival(risks_[r].family, here, slots(i, r));
+      return std::exp(log_share);
+    };
+    sum +=
+        weight(i) * LifeRule::integrate(density, std::log(begin), std::log(end), deepest_cut, 1e-7);
+  }
+  return sum;
 }
 
 }  // namespace wearwell::formula_model

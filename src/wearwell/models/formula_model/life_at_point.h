@@ -50,7 +50,8 @@ class LifeAtPoint {
   /// The probability that an item outlives one of `other`: the integral of this survival function
   /// over the other's distribution, within 1e-8 and the 2e-10 of its tails.
   double outlives(const LifeAtPoint& other) const;
-  /// The share that has ended by `life` through this risk: its cumulative incidence, within 1e-8.
+  /// The share that has ended by `life` through this risk: its cumulative incidence, within 1e-7 of it and
+  /// 1e-9 of the share that this risk alone would end.
   double incidence(std::size_t risk, double life) const;
 
  private:
@@ -70,16 +71,17 @@ class LifeAtPoint {
 /// log of the share that outlasts `life`, of risks with these parameters, `most_response_parameters` each.
 double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters);
 
-/// The quantile p of a cdf whose median is about `middle`; in the logarithm for positive values.
+/// The quantile p of a cdf, found from `middle`; for positive values in the logarithm, where the first bracket
+/// is `step` on either side.
 template <class F>
-double quantile_of_cdf(const F& cdf, double p, double middle, bool positive) {
+double quantile_of_cdf(const F& cdf, double p, double middle, bool positive, double step = 0.5) {
   if (!std::isfinite(middle)) return std::nan("");
   if (!positive) {
     return solve_increasing([&](double y) { return cdf(y) - p; }, middle,
                             std::max(1e-3 * std::abs(middle), 1e-12), {.relative = 1e-10});
   }
   return std::exp(solve_increasing([&](double log_y) { return cdf(std::exp(log_y)) - p; },
-                                   std::log(middle), 0.5, {.absolute = 1e-10}, -700, 700));
+                                   std::log(middle), step, {.absolute = 1e-10}, -700, 700));
 }
 
 }  // namespace wearwell::formula_model

@@ -68,6 +68,7 @@ std::vector<QuantityQuantiles> shares_failed(const LifeDistribution& part, std::
         part.incidence(draws, i % modes, by[i / modes].si(), points);
     const QuantityDistribution& of = known.distribution;
     all[i] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
+    all[i].predictive = of.mean();  // the probability for the next item
     all[i].numerical_error = known.misfit;
   });
   return all;

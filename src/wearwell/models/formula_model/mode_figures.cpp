@@ -17,7 +17,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 constexpr std::size_t places = 25;
-constexpr Eigen::Index draws_of_bands = 200;
+constexpr Eigen::Index draws_of_bands = 1000;
 
 const char* colour_of_mode(std::size_t k) {
   constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
