@@ -234,20 +234,23 @@ TEST_F(FailureModesTest, SharesAddUpAndOneModeAloneIsItsOwnDistribution) {
   const PosteriorSummary result =
       run_of(write("study.toml", head + common + priors +
                                      "[predict]\nb_lives = [10]\nsurvival_to = [10000, 25000]\n"));
-  const auto found = [&](const std::string& name, const std::string& at) {
+  const auto found = [&](const std::string& name, const std::string& of) {
     for (const auto& each : result.quantities) {
-      if (each.name == name && each.at == at) return each;
+      if (each.name == name && each.of == of) return each;
     }
-    ADD_FAILURE() << name << " at " << at;
+    ADD_FAILURE() << name << " of " << of;
     return result.quantities.front();
   };
   for (const std::string to : {"10000", "25000"}) {
-    const double survives = found("survival to " + to, "").best().q50;
-    const double one = found("failed by mode 1 to " + to, "").best().q50;
-    const double two = found("failed by mode 2 to " + to, "").best().q50;
-    EXPECT_NEAR(survives + one + two, 100, 2) << to;  // medians, per cent
+    const auto next = [&](const std::string& name, const std::string& of) {
+      return found(name, of).best().predictive.value_or(0);
+    };
+    const double survives = next("survival to " + to, "unit");
+    const double one = next("failed by mode 1 to " + to, "unit");
+    const double two = next("failed by mode 2 to " + to, "unit");
+    EXPECT_NEAR(survives + one + two, 100, 0.01) << to;  // per cent
     // Alone more fail by a mode than beside the other.
-    EXPECT_GT(100 - found("survival to " + to, "mode 1 alone (without mode 2)").best().q50, one);
+    EXPECT_GT(100 - next("survival to " + to, "unit with mode 1 alone"), one);
   }
 }
 

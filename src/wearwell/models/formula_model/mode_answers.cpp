@@ -11,21 +11,21 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Some of the modes, and how a report names the life that they give.
+// Some of the modes, and how a report names a part that can fail by them only.
 struct SomeModes {
   std::uint32_t modes;
-  std::string words;
+  std::string of;       // "with mode 1 alone"
+  std::string at = {};  // other words for the same
 };
 
-// Of two modes, one alone is the part without the other.
+// Of two modes, a part with one alone is the part without the other.
 std::vector<SomeModes> selections(const std::vector<std::string>& modes) {
   const std::uint32_t every = (std::uint32_t{1} << modes.size()) - 1;
   std::vector<SomeModes> all;
   if (modes.size() < 2) return all;
   for (std::size_t k = 0; k < modes.size(); ++k) {
-    std::string words = modes[k] + " alone";
-    if (modes.size() == 2) words += fmt::format(" (without {})", modes[1 - k]);
-    all.push_back({std::uint32_t{1} << k, words});
+    all.push_back({std::uint32_t{1} << k, fmt::format("with {} alone", modes[k])});
+    if (modes.size() == 2) all.back().at = "without " + modes[1 - k];
   }
   for (std::size_t k = 0; modes.size() > 2 && k < modes.size(); ++k)
     all.push_back({every & ~(std::uint32_t{1} << k), "without " + modes[k]});
@@ -34,7 +34,7 @@ std::vector<SomeModes> selections(const std::vector<std::string>& modes) {
 
 void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy& study) {
   const Unit& unit = asked.model->measured.front().unit;
-  const std::string at = joined(asked.words, some.words);
+  const std::string noun = asked.noun + " " + some.of, at = joined(asked.words, some.at);
   AskedOfLife own = asked.part;
   own.life = life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
                                asked.model, asked.conditions, some.modes);
@@ -47,13 +47,13 @@ void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy&
     group.requests.back().safe_end = 0.05;
     group.requests.back().credible_level = own.levels.credible_level;
   };
-  add("life", "new " + asked.noun, unit);
+  add("life", "new " + noun, unit);
   group.requests.back().is_life = true;
   group.requests.back().credible_level.reset();
-  for (const double percent : own.levels.percents) add(b_life_name(percent), asked.noun, unit);
-  if (own.mean) add("mean life", asked.noun, unit);
+  for (const double percent : own.levels.percents) add(b_life_name(percent), noun, unit);
+  if (own.mean) add("mean life", noun, unit);
   for (const Quantity& each : own.survival)
-    add("survival to " + description(each), asked.noun, Unit{"%", 0.01, 0});
+    add("survival to " + description(each), noun, Unit{"%", 0.01, 0});
   group.from_draws = [own](const WeightedDraws& draws) { return life_answers(own, draws); };
   group.lives = [own](const WeightedDraws& draws) { return predictive_lives(own, draws); };
   study.quantity_groups.push_back(std::move(group));
