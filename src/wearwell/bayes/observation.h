@@ -5,8 +5,7 @@
 
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/math/constants.h"
-#include "wearwell/prob/lognormal.h"
-#include "wearwell/prob/normal.h"
+#include "wearwell/prob/normal_density.h"
 
 namespace wearwell {
 

@@ -198,8 +198,12 @@ class Reader : Naming {
       complain(text_, token.at, "a ']' without a '['");
     if (token.kind == Token::unit)
       complain(text_, token.at, "two units after one number", "write one: 1 [N m]");
+    const bool like_unit =
+        token.kind == Token::name && at_ > 0 && tokens_[at_ - 1].kind == Token::number;
     complain(text_, token.at, fmt::format("a sign is missing before '{}'", seen),
-             "write a product with *");
+             like_unit ? fmt::format("write a product as {0} * {1}, a unit as {0} [{1}]",
+                                     tokens_[at_ - 1].text, seen)
+                       : "write a product with *");
   }
 
   Term number() {

@@ -213,9 +213,14 @@ void redraw_where_they_disagree(const Posterior& posterior, FitSettings settings
 
 }  // namespace
 
-Fit fit(const Posterior& whole, const FitSettings& settings) {
+Fit fit(const Posterior& whole, const FitSettings& requested) {
   constexpr int most_slow_dimension = 2;
+  // Trajectories through an improper posterior have no end, and their draws represent nothing.
+  constexpr int most_improper_treedepth = 5;
   PosteriorShape shape = posterior_shape(whole);
+  FitSettings settings = requested;
+  if (!all_integrable(shape.tails))
+    settings.nuts.max_treedepth = std::min(settings.nuts.max_treedepth, most_improper_treedepth);
   Fit fit{settings.method,
           whitening_at(shape.mode),
           shape.tails,

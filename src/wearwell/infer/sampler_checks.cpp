@@ -79,7 +79,9 @@ Check divergences(const Fit& fit, bool agrees_with_exact) {
     findings.add(Verdict::warn,
                  fmt::format("{} of {} transitions reached the tree depth limit {}", deepest, total,
                              max_treedepth),
-                 "The sampler is slow here: raise [sampler] max_treedepth or use a dense metric.");
+                 proper(fit) ? "The sampler is slow here: raise [sampler] max_treedepth or use a "
+                               "dense metric."
+                             : "Give priors that make the posterior proper.");
   }
   return findings.result(fmt::format("none in {} transitions", total));
 }

@@ -46,6 +46,27 @@ Factors factors(const Eigen::MatrixXd& deviation) {
   return factors;
 }
 
+// The right singular vectors whose singular values exceed 1e-3, and these values, at most 1. From the
+// smaller of the two products of the matrix with itself.
+struct PrincipalAxes {
+  Eigen::MatrixXd vectors;
+  Eigen::VectorXd size;
+};
+
+PrincipalAxes principal_axes(const Eigen::MatrixXd& matrix) {
+  constexpr double least = 1e-3;
+  const bool tall = matrix.rows() >= matrix.cols();
+  const Eigen::MatrixXd product = tall ? Eigen::MatrixXd(matrix.transpose() * matrix)
+                                       : Eigen::MatrixXd(matrix * matrix.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(product);
+  const auto rank = (solved.eigenvalues().array() > least * least).count();
+  const Eigen::VectorXd size = solved.eigenvalues().tail(rank).cwiseSqrt();
+  const Eigen::MatrixXd found = solved.eigenvectors().rightCols(rank);
+  return {
+      tall ? found : Eigen::MatrixXd(matrix.transpose() * found * size.cwiseInverse().asDiagonal()),
+      size.cwiseMin(1.0)};
+}
+
 }  // namespace
 
 StudentizedScores studentized_scores(std::vector<std::vector<double>> scores,
@@ -76,12 +97,8 @@ StudentizedScores studentized_scores(std::vector<std::vector<double>> scores,
 
 double null_size(const StudentizedScores& of,
                  const std::function<double(std::span<const double>)>& test) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(of.deviation, Eigen::ComputeThinV);
-  const Eigen::VectorXd singular = svd.singularValues().cwiseMin(1.0);
-  constexpr double least = 1e-3;
-  const auto rank = (singular.array() > least).count();
-  const Eigen::MatrixXd axes = svd.matrixV().leftCols(rank);
-  const Eigen::VectorXd size = singular.head(rank);
+  const auto [axes, size] = principal_axes(of.deviation);
+  const Eigen::Index rank = size.size();
   const Eigen::VectorXd of_mean = (1 - size.array().square()).sqrt();
   const Factors by = factors(of.deviation);
   std::vector<double> squares(null_samples);

@@ -19,7 +19,7 @@ std::string inspect_percent(double share) {
 }
 
 std::string use_text(const InspectReport& report, double si) {
-  return fmt::format("{} {}", plain_number(si / report.lives->unit.scale), report.lives->unit.text);
+  return plain_quantity(si / report.lives->unit.scale, report.lives->unit.text);
 }
 
 std::string money_text(const InspectReport& report, double amount) {

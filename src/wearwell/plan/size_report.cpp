@@ -20,7 +20,7 @@ std::string size_percent(double share) {
 
 std::string width_text(const SizeReport& report, double width) {
   return report.ratio ? fmt::format("a factor of {}", plain_number(width, 3))
-                      : fmt::format("{} {}", plain_number(width, 3), report.goal.unit.text);
+                      : plain_quantity(width, report.goal.unit.text, 3);
 }
 
 std::string asked(const SizeReport& report) {

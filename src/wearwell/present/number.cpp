@@ -195,9 +195,10 @@ std::string unit_description(const std::string& unit, Script script) {
   if (unit == "1") return {};
   const std::string multiple = multiple_text(unit, script);
   if (!multiple.empty()) return fmt::format("×{}{}", hard_space, multiple);
-  if (unit.starts_with("1/(") && unit.ends_with(")")) {
-    const std::string per = multiple_text(unit.substr(3, unit.size() - 4), script);
-    if (!per.empty()) return fmt::format("1/({})", per);
+  const std::size_t under = unit.find("/(");  // "1/(1e6 cycles)", "EUR/(1e6 cycles)"
+  if (under != unit.npos && unit.ends_with(")")) {
+    const std::string per = multiple_text(unit.substr(under + 2, unit.size() - under - 3), script);
+    if (!per.empty()) return fmt::format("{}/({})", unit.substr(0, under), per);
   }
   std::string out;
   for (const char c : script == Script::page ? powers_raised(unit) : unit)

@@ -6,17 +6,7 @@
 #include "wearwell/prob/family.h"
 #include "wearwell/prob/tails.h"
 
-namespace wearwell {
-
-/// log of the normal density of `x` with mean `mean` and standard deviation exp(log_sd) = 1 /
-/// inverse_sd: all observations of one likelihood share the logarithm and the division.
-template <class T>
-T normal_log_density(double x, const T& mean, const T& inverse_sd, const T& log_sd) {
-  const T z = (x - mean) * inverse_sd;
-  return -0.5 * z * z - log_sd - half_log_two_pi;
-}
-
-namespace families {
+namespace wearwell::families {
 
 struct Normal : OnLine {
   static constexpr std::string_view name = "normal";
@@ -55,5 +45,4 @@ struct Normal : OnLine {
   }
 };
 
-}  // namespace families
-}  // namespace wearwell
+}  // namespace wearwell::families

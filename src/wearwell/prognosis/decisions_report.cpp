@@ -48,11 +48,11 @@ std::string answer(const DecisionsReport& report) {
         "replacement to pay.",
         report.lives.noun);
   if (age.beyond_known)
-    return fmt::format("Replacing a {} before {} {}, the end of the known lives, saves nothing.",
-                       report.lives.noun, plain_number(shown.at(age.age)), shown.unit());
-  std::string text = fmt::format("Replace a {} at {} {}: {} {} in the long run", report.lives.noun,
-                                 plain_number(shown.at(age.age)), shown.unit(),
-                                 plain_number(shown.rate(age.rate)), shown.rate_unit());
+    return fmt::format("Replacing a {} before {}, the end of the known lives, saves nothing.",
+                       report.lives.noun, shown.age(age.age));
+  std::string text =
+      fmt::format("Replace a {} at {}: {} in the long run", report.lives.noun, shown.age(age.age),
+                  plain_quantity(shown.rate(age.rate), shown.rate_unit()));
   if (age.at_failure > 0)
     text += fmt::format(", {} less than replacement at failure only",
                         percent(1 - age.rate / age.at_failure));
@@ -67,8 +67,7 @@ std::string warranty_text(const DecisionsReport& report) {
     return fmt::format("A warranty of any length has claims for less than {} of new {}s.", share,
                        report.lives.noun);
   const auto length = [&](double si) {
-    return std::isfinite(si) ? fmt::format("{} {}", plain_number(shown.at(si)), shown.unit())
-                             : std::string("any length");
+    return std::isfinite(si) ? shown.age(si) : std::string("any length");
   };
   std::string text = fmt::format("A warranty of {} has claims for {} of new {}s on average",
                                  length(warranty.length), share, report.lives.noun);
@@ -85,10 +84,10 @@ std::string worth_text(const DecisionsReport& report) {
   const InspectionWorth& worth = asked.worth;
   const std::string money = report.question.currency.empty() ? "" : " " + report.question.currency;
   return fmt::format(
-      "A reading of {} of {} {} {} {} from now is worth {}{}: {} net of its cost. Its 90 % "
+      "A reading of {} of {} {} {} from now is worth {}{}: {} net of its cost. Its 90 % "
       "interval is {} to {} {}; with probability {} it leads you to replace the {}.",
-      asked.column, report.lives.noun, asked.unit, plain_number(shown.at(asked.after)),
-      shown.unit(), plain_number(worth.worth, 3), money, plain_number(worth.net, 3),
+      asked.column, report.lives.noun, asked.unit, shown.age(asked.after),
+      plain_number(worth.worth, 3), money, plain_number(worth.net, 3),
       plain_number(from_si(asked.reading_unit, asked.outcomes[asked.outcomes.size() / 20].reading)),
       plain_number(
           from_si(asked.reading_unit,

@@ -13,6 +13,8 @@ namespace wearwell::prognosis {
 struct Shown {
   const DecisionsReport& report;
 
+  /// "35.77 × 10^6 cycles"
+  std::string age(double si) const { return plain_quantity(at(si), unit()); }
   double at(double si) const { return si / report.lives.unit.scale; }
   double rate(double per_si) const { return per_si * report.lives.unit.scale; }
   const std::string& unit() const { return report.lives.unit.text; }

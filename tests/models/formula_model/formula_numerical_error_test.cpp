@@ -80,10 +80,9 @@ sd = "0.2 [um]"
 [prior]
 a = { distribution = "normal", mean = "1 um", sd = "0.5 um" }
 b = { distribution = "lognormal", median = "1 um/h", log_sd = 0.5 }
-a_scatter = { distribution = "half-normal", scale = "0.5 um" }
 b_scatter = { distribution = "half-normal", scale = 0.5 }
 [random_effects.unit]
-a = { distribution = "normal", sd = "a_scatter" }
+a = { distribution = "normal", sd = "0.4 [um]" }
 b = { distribution = "lognormal", log_sd = "b_scatter" }
 [predict]
 along = "time"
