@@ -174,6 +174,7 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
 // A unit with a reading beyond its given survival counts from its last reading.
 void require_ahead(const QuantityRequest& mine, const std::vector<QuantityRequest>& all,
                    const std::string& survived) {
+  if (is_new(mine)) return;
   for (const QuantityRequest& each : all) {
     if (!is_new(each) || each.name != "remaining useful life" || each.at == mine.at) continue;
     throw InputError(fmt::format(

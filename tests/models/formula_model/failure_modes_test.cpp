@@ -1,6 +1,7 @@
 // Competing failure modes (failure_modes.h): rows against integrals by R, published fits, identities, messages.
 #include <gtest/gtest.h>
 
+#include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <fstream>
@@ -9,13 +10,13 @@
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/infer/exact.h"
 #include "wearwell/infer/maximize.h"
 #include "wearwell/models/formula_model/formula_likelihood.h"
 #include "wearwell/models/formula_model/formula_reader.h"
-#include "wearwell/models/formula_model/formula_study.h"
+#include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_figures.h"
 #include "wearwell/models/formula_model/mode_fit_data.h"
-#include "wearwell/study/run_study.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -212,45 +213,38 @@ TEST_F(FailureModesTest, SeparateModesAreStudiesOfTheirOwn) {
   }
 }
 
-const std::string priors = R"toml([prior]
-eta = { distribution = "lognormal", median = 30000, log_sd = 1 }
-beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
-)toml";
-
-PosteriorSummary run_of(const std::filesystem::path& file) {
-  const Source source = source_of(file);
-  const TomlReader root = TomlReader::parse(source.study);
-  root.has("model");
-  const auto study = wearwell::read_posterior_study(root, source, read_formula_study);
-  return run_study(dynamic_cast<const PosteriorStudy&>(*study), {Method::exact, 1, {}, 50, {}}, {},
-                   false);
-}
-
-TEST_F(FailureModesTest, SharesAddUpAndOneModeAloneIsItsOwnDistribution) {
-  write("d.csv", content("examples/life/shock_absorbers.csv"));
-  std::string common = shocks;
-  common.replace(common.find("beta[mode]"), 10, "beta");
-  const std::string head = "model = \"formula\"\n[data]\nfile = \"d.csv\"\n";
-  const PosteriorSummary result =
-      run_of(write("study.toml", head + common + priors +
-                                     "[predict]\nb_lives = [10]\nsurvival_to = [10000, 25000]\n"));
-  const auto found = [&](const std::string& name, const std::string& of) {
-    for (const auto& each : result.quantities) {
-      if (each.name == name && each.of == of) return each;
-    }
-    ADD_FAILURE() << name << " of " << of;
-    return result.quantities.front();
+// Exponential modes under flat priors of their means: with r_k failures in a total of T the rates are gamma distributed (r_k - 1, 1/T),
+// that of the part too, and the share of mode 1 in it is beta distributed, independent of it.
+TEST_F(FailureModesTest, ExponentialModesHaveClosedForms) {
+  std::string text = shocks.substr(0, shocks.find("[likelihood"));
+  text += "[likelihood.life]\nfamily = \"exponential\"\nmean = \"m[mode]\"\n" + flat("m");
+  const auto own = model(content("examples/life/shock_absorbers.csv"), text);
+  const Posterior posterior(own->parameters, formula_likelihood(std::make_shared<const FormulaRows>(
+                                                 own, own->data.table.rows)));
+  const ExactPosterior exact =
+      integrate(posterior, whitening_at(find_mode(posterior, posterior.start())));
+  ASSERT_EQ(exact.failure, "");
+  const WeightedDraws& nodes = exact.nodes;
+  double total = 0;
+  for (const Response& each : own->lives.responses) total += each.at;
+  const TomlReader root = TomlReader::parse({"study.toml", "model = \"formula\"\n"});
+  const auto part = life_distribution(root, "likelihood", own, {});
+  const auto alone = life_distribution(root, "likelihood", own, {}, 1);
+  const double one = 7 - 1, two = 4 - 1;  // failures by mode, less 1
+  const double p = 0.1, life = total * (std::pow(1 - p, -1 / (one + two)) - 1);
+  EXPECT_NEAR(part->next(nodes).quantile(p) / life, 1, 1e-4);
+  EXPECT_NEAR(alone->next(nodes).quantile(p) / (total * (std::pow(1 - p, -1 / one) - 1)), 1, 1e-4);
+  const auto share = [&](std::size_t k) {
+    return part->incidence(nodes, k, life).distribution.mean();
   };
-  for (const std::string to : {"10000", "25000"}) {
-    const auto next = [&](const std::string& name, const std::string& of) {
-      return found(name, of).best().predictive.value_or(0);
-    };
-    const double survives = next("survival to " + to, "unit");
-    const double one = next("failed by mode 1 to " + to, "unit");
-    const double two = next("failed by mode 2 to " + to, "unit");
-    EXPECT_NEAR(survives + one + two, 100, 0.01) << to;  // per cent
-    // Alone more fail by a mode than beside the other.
-    EXPECT_GT(100 - next("survival to " + to, "unit with mode 1 alone"), one);
+  EXPECT_NEAR(share(0) / (p * one / (one + two)), 1, 1e-4);
+  EXPECT_NEAR(share(1) / (p * two / (one + two)), 1, 1e-4);
+  const boost::math::gamma_distribution<> rate(one + two, 1 / total);
+  const QuantityDistribution b10 = part->quantile(nodes, p).distribution;
+  const QuantityDistribution lasts = part->survival(nodes, life).distribution;
+  for (const double q : {0.05, 0.5, 0.95}) {
+    EXPECT_NEAR(b10.quantile(q) * quantile(rate, 1 - q) / -std::log1p(-p), 1, 1e-4) << q;
+    EXPECT_NEAR(lasts.quantile(q) / std::exp(-life * quantile(rate, 1 - q)), 1, 1e-4) << q;
   }
 }
 

@@ -39,21 +39,26 @@ void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy&
   own.life = life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
                                asked.model, asked.conditions, some.modes);
   own.fast = own.other = nullptr;
-  own.survived.reset();
   own.hazard.clear();
   QuantityGroup group;
-  const auto add = [&](const std::string& name, const std::string& of, const Unit& in) {
-    group.requests.push_back(request(name, of, at, in));
+  const auto add = [&](const std::string& name, const std::string& where, const Unit& in) {
+    group.requests.push_back(request(name, noun, where, in));
     group.requests.back().safe_end = 0.05;
     group.requests.back().credible_level = own.levels.credible_level;
   };
-  add("life", "new " + noun, unit);
-  group.requests.back().is_life = true;
-  group.requests.back().credible_level.reset();
-  for (const double percent : own.levels.percents) add(b_life_name(percent), noun, unit);
-  if (own.mean) add("mean life", noun, unit);
+  const auto add_life = [&](const std::string& name, const std::string& where) {
+    group.requests.push_back(request(name, "new " + noun, where, unit));
+    group.requests.back().safe_end = 0.05;
+    group.requests.back().is_life = true;
+    for (const double percent : own.levels.percents) add(b_life_name(percent, name), where, unit);
+    if (own.mean) add("mean " + name, where, unit);
+  };
+  add_life("life", at);
+  if (own.survived)
+    add_life("remaining useful life",
+             joined(at, fmt::format("from {} on", description(*own.survived))));
   for (const Quantity& each : own.survival)
-    add("survival to " + description(each), noun, Unit{"%", 0.01, 0});
+    add("survival to " + description(each), at, Unit{"%", 0.01, 0});
   group.from_draws = [own](const WeightedDraws& draws) { return life_answers(own, draws); };
   group.lives = [own](const WeightedDraws& draws) { return predictive_lives(own, draws); };
   study.quantity_groups.push_back(std::move(group));
@@ -68,7 +73,6 @@ std::vector<QuantityQuantiles> shares_failed(const LifeDistribution& part, std::
         part.incidence(draws, i % modes, by[i / modes].si(), points);
     const QuantityDistribution& of = known.distribution;
     all[i] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
-    all[i].predictive = of.mean();  // the probability for the next item
     all[i].numerical_error = known.misfit;
   });
   return all;

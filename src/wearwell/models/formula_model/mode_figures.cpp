@@ -23,7 +23,7 @@ const char* colour_of_mode(std::size_t k) {
   constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
                                      plot::colour::chains[2], plot::colour::chains[3],
                                      plot::colour::limit,     plot::colour::prior};
-  return colours[k % std::size(colours)];
+  return colours[(k + 1) % std::size(colours)];  // as in the probability plot, after all modes
 }
 
 double longest_life(const Observed& lives) {
