@@ -49,7 +49,7 @@ double LifeGroup::failures() const {
 
 namespace {
 
-// As far as a mode can be told: a failure that may have been of several modes is a run-out of each.
+// As far as a mode is known: a failure that may have been of several modes is a run-out of each.
 std::optional<Response> life_by_mode(const FormulaModel& model, std::size_t row, std::size_t k) {
   Response y = model.lives.responses[row];
   if (model.modes->possible[row] == std::uint32_t{1} << k) return y;
