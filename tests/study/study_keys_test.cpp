@@ -407,6 +407,30 @@ trials = "trials"
 [prior]
 p = { distribution = "beta", alpha = 2, beta = 2 }
 )toml"},
+      {"formula", R"toml(model = "formula"
+[data]
+file = "shock_absorbers.csv"
+[data.columns]
+life = { column = "km", unit = "km" }
+mode = "failure mode"
+[failure_modes]
+column = "mode"
+runout = "censored"
+unknown = "n/a"
+[failure_modes."mode 2"]
+family = "lognormal"
+median = "middle"
+log_sd = "scatter"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+middle = { distribution = "lognormal", median = "30000 km", log_sd = 1 }
+scatter = { distribution = "lognormal", median = 0.5, log_sd = 0.5 }
+eta = { distribution = "lognormal", median = "30000 km", log_sd = 1 }
+beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
+)toml"},
   };
   return all;
 }

@@ -6,7 +6,6 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/copied_rows.h"
@@ -179,7 +178,8 @@ void judge_effects(const FitData& data, const std::vector<std::vector<double>>& 
 }
 
 std::string suspect(const FitData& data, std::size_t row) {
-  return fmt::format("{} {} is an outlier compared with the others", data.noun, row + 1);
+  const std::string own = fmt::format("{} {}", data.noun, row + 1);
+  return (data.names.empty() ? own : data.names[row]) + " is an outlier compared with the others";
 }
 
 // Tests the most extreme observation, by its leave-one-out distribution if known.

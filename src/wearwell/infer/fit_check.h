@@ -82,6 +82,8 @@ struct FitData {
   std::vector<std::size_t> column = {};  ///< of each observation, if several columns are measured
   MeasuredValues measured = {};          ///< empty: no search for copies
   Remedies remedies = {};
+  std::vector<std::string> names =
+      {};  ///< of the observations, in messages; empty: `noun` and number
 };
 
 /// One test, combined over all draws.

@@ -65,6 +65,9 @@ bool is_positive_family(const TomlReader& root, const std::string& name) {
 Table stand_in_rows(const TomlReader& root, const Table& rows) {
   const TomlReader columns = root.required_table("data").required_table("columns");
   const bool formula = root.required_text("model") == "formula";
+  if (root.has("failure_modes"))
+    root.fail("failure_modes",
+              "is not possible with `wearwell plan size`; plan with a study of one mode");
   std::vector<std::string> measured, random;
   if (formula) measured = root.required_table("likelihood").keys();
   if (const auto effects = root.table("random_effects")) random = effects->keys();

@@ -60,6 +60,11 @@ const DataRoles::Named* used_as(const DataRoles& roles, const std::string& name)
 // The column that a test measures; its family decides what values it can have.
 void find_measured(const TomlReader& root, const std::string& measure, TestStudy& study) {
   const std::string model = root.required_text("model");
+  if (root.has("failure_modes"))
+    root.fail(
+        "failure_modes",
+        "is not possible with `wearwell plan next`: a test to come would have a probability for "
+        "each mode; plan with a study of one mode, the others being run-outs");
   if (model == "staircase") {
     if (!measure.empty())
       throw InputError("--measure: a staircase test shows failure or run-out, not a number");

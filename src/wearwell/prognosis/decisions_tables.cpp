@@ -14,6 +14,12 @@ namespace {
 using present::Table;
 namespace colour = plot::colour;
 
+// "units with mode 1 alone" of "unit with mode 1 alone".
+std::string plural(const std::string& noun) {
+  const std::size_t end = std::min({noun.find(" with "), noun.find(" without "), noun.size()});
+  return noun.substr(0, end) + "s" + noun.substr(end);
+}
+
 const char* inspected_how(const DecisionsReport& report) {
   return report.question.hidden ? "inspected, failures hidden" : "inspected, wear fully observed";
 }
@@ -25,7 +31,7 @@ Table policies_table(const DecisionsReport& report) {
   const Shown shown{report};
   const Decisions& decisions = report.decisions;
   Table table{"policies",
-              fmt::format("All {}s alike, in the long run", report.lives.noun),
+              fmt::format("All {} alike, in the long run", plural(report.lives.noun)),
               {{"policy"},
                {"every", shown.unit(), present::life()},
                {"cost", shown.rate_unit()},

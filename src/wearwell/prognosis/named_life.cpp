@@ -66,6 +66,9 @@ NamedLife life_named(const std::vector<NamedLife>& lives, const std::string& tex
   }
   if (fitting.size() == 1) return fitting.front();
   if (fresh.size() == 1) return fresh.front();
+  const auto first = std::find_if(fresh.begin(), fresh.end(),
+                                  [](const NamedLife& each) { return each.request->headline; });
+  if (text.empty() && first != fresh.end()) return *first;
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   if (fitting.empty())

@@ -25,7 +25,7 @@ LifeDistribution distribution_at(const NamedLife& life, std::span<const double> 
 std::string without_new(const std::string& of);
 
 /// The life that a text names, case ignored: by what it is of, by the last word of that, by its
-/// conditions, or by both; an empty text is the only one. A new unit is preferred to one that has
+/// conditions, or by both; an empty text is the only one, or the study's headline. A new unit is preferred to one that has
 /// survived. Throws InputError that begins with `option` and lists the known names.
 NamedLife life_named(const std::vector<NamedLife>& lives, const std::string& text,
                      const std::string& option);

@@ -139,6 +139,11 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
     is_new(each) ? fresh.push_back(bare) : names.push_back(label_of(each));
     if (fits) fitting.push_back(&each);
   }
+  // Without a name, the study's headline: the part as it is, not without one of its failure modes.
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const auto& each) { return each.headline; });
+  if (question.unit.empty() && first != all.end())
+    std::erase_if(fitting, [&](const auto* each) { return each->of != first->of; });
   // For a new unit both its life and its remaining life where it has survived so far.
   if (fitting.size() == 2 && fitting[0]->of == fitting[1]->of) return *fitting[1];
   if (fitting.size() == 1) return *fitting[0];
@@ -169,6 +174,7 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
 // A unit with a reading beyond its given survival counts from its last reading.
 void require_ahead(const QuantityRequest& mine, const std::vector<QuantityRequest>& all,
                    const std::string& survived) {
+  if (is_new(mine)) return;
   for (const QuantityRequest& each : all) {
     if (!is_new(each) || each.name != "remaining useful life" || each.at == mine.at) continue;
     throw InputError(fmt::format(

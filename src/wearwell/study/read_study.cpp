@@ -41,7 +41,9 @@ void require_stated(const TomlReader& root, const StudyKeys& keys) {
   std::vector<std::string> missing;
   for (const TomlReader::Present& each : root.present()) {
     const bool unit = each.path.starts_with("data.columns.") && each.path.ends_with(".unit");
-    if (each.text != not_stated || !(unit || each.path.starts_with("conditions."))) continue;
+    if (each.text != not_stated ||
+        !(unit || each.path.starts_with("conditions.") || each.path == "failure_modes.runout"))
+      continue;
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const StudyKey& known) {
       return matches_key(known.path, each.path);
     });

@@ -275,6 +275,16 @@ const std::vector<RoleForm>& role_forms() {
              "| suspended | suspension | event | failed | failure | ended | state | zustand | "
              "durchläufer | zensiert | ausgefallen | ausfall | bruch | ergebnis | statut | état | "
              "censuré | défaillance | rupture | estado | censurado | fallo | falla | rotura")},
+      {"mode",
+       {"1"},
+       "1",
+       Cells::any,
+       words("failure mode | failure cause | failure category | failure mechanism | cause of "
+             "failure | "
+             "mode of failure | root cause | mode | cause | ausfallart | ausfallursache | "
+             "fehlerart | "
+             "schadensart | mode de défaillance | cause de défaillance | modo de fallo | causa del "
+             "fallo")},
       {"count",
        {"1"},
        "1",

@@ -64,7 +64,7 @@ struct Exported {
 
   static std::shared_ptr<const FormulaModel> allowed(std::shared_ptr<const FormulaModel> read) {
     refuse_formula(*read);
-    refuse_drawn_effects(*read, "exported");
+    refuse_unsupported(*read, "exported");
     return read;
   }
 

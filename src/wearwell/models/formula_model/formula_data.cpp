@@ -310,6 +310,11 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
   const auto is_label = [&](const std::string& name) {
     return std::find(label_names.begin(), label_names.end(), name) != label_names.end();
   };
+  std::optional<std::string> mode;
+  if (const auto modes = root.table("failure_modes")) mode = modes->required_text("column");
+  if (mode && !columns.has(*mode))
+    root.required_table("failure_modes")
+        .fail("column", fmt::format("'{}' is not a column under data.columns", *mode));
   for (const std::string& name : columns.keys()) {
     std::string heading;
     std::optional<formula::AnyUnit> unit;
@@ -329,6 +334,10 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
       }
     }
     const Column* const column = &study_column(columns, name, heading, data.table);
+    if (mode == name) {
+      if (unit) columns.fail(name, "has a unit, but it is the column of failure modes");
+      continue;
+    }
     if (is_label(name) && unit) {
       columns.fail(name, "has a unit, but the study uses it as a label; remove one of the two");
     }

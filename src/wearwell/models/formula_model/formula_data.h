@@ -45,7 +45,7 @@ struct FormulaData {
 };
 
 /// Reads [data.columns]. Text columns are labels, and so are numeric columns that the study uses as
-/// such: `label_names`. Throws InputError.
+/// such: `label_names`. The column of failure modes is read elsewhere (failure_modes.h). Throws InputError.
 FormulaData read_own_data(const TomlReader& root, const Source& source,
                           const std::vector<std::string>& label_names);
 

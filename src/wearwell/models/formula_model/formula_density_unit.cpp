@@ -33,7 +33,20 @@ std::vector<bool> has_density(const FormulaModel& model, const Measured& measure
 
 }  // namespace
 
+// By row: the density of a part's life.
+static DensityUnit unit_of_lives(const FormulaModel& model) {
+  const Unit& life = model.measured.front().unit;
+  DensityUnit unit{life.text, {}, 0};
+  for (std::size_t i = 0; i < model.lives.responses.size(); ++i) {
+    const bool exact = model.lives.responses[i].seen == Censoring::none;
+    unit.terms.push_back(exact ? std::log(life.scale) : 0);
+    unit.total += unit.terms.back() * model.lives.counts[i];
+  }
+  return unit;
+}
+
 DensityUnit density_unit(const FormulaModel& model) {
+  if (model.modes) return unit_of_lives(model);
   DensityUnit unit{"", {}, 0};
   const bool by_unit = model.by_unit() || model.draws_units();
   if (by_unit) unit.terms.resize(model.units.size());

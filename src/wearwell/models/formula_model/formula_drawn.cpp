@@ -272,7 +272,12 @@ void tell_drawn_effects(std::shared_ptr<const FormulaModel> model, PosteriorStud
   }
 }
 
-void refuse_drawn_effects(const FormulaModel& model, const std::string& what) {
+void refuse_unsupported(const FormulaModel& model, const std::string& what) {
+  if (model.modes)
+    throw InputError(
+        fmt::format("a study with [failure_modes] cannot be {}: its life is the earliest of "
+                    "several; fit it, and read the lives of the result",
+                    what));
   if (model.drawn.empty()) return;
   throw InputError(fmt::format(
       "the random effects of {} are drawn, not integrated out ({} of each {}): units "

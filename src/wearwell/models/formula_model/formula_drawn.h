@@ -57,9 +57,9 @@ void put_drawn_effects_in_rows(FormulaModel& model);
 Function drawn_value(std::shared_ptr<const FormulaModel> model, std::size_t effect,
                      std::size_t level);
 
-/// Throws InputError if effects are drawn: `what`, for example "tracked", is not supported for such
-/// a model.
-void refuse_drawn_effects(const FormulaModel& model, const std::string& what);
+/// Throws InputError if effects are drawn or failure modes compete: `what`, for example "tracked", is
+/// not supported for such a model.
+void refuse_unsupported(const FormulaModel& model, const std::string& what);
 
 /// Adds the values for each observed level and for a new one to the study's quantities.
 void tell_drawn_effects(std::shared_ptr<const FormulaModel> model, PosteriorStudy& study);

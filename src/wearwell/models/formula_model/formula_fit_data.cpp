@@ -7,6 +7,7 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/mode_fit_data.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -27,9 +28,10 @@ double place(ResponseFamily family, double value, const double* family_parameter
   return normal_score(below, log_survival(family, value, family_parameters, trials));
 }
 
-// Normal scores of observations; for a count those of its ends.
-NormalScore score(const Measured& measured, const Response& y, const double* family_parameters) {
-  const ResponseFamily family = measured.form->family;
+}  // namespace
+
+NormalScore score_of(const ResponseForm& form, const Response& y, const double* family_parameters) {
+  const ResponseFamily family = form.family;
   // Given that it was not truncated at its entry: log P(Y > value | Y > entry).
   const double entered =
       y.entry > -infinity ? log_survival(family, y.entry, family_parameters, y.trials) : 0;
@@ -39,7 +41,7 @@ NormalScore score(const Measured& measured, const Response& y, const double* fam
         value > y.entry ? log_survival(family, value, family_parameters, y.trials) - entered : 0;
     return normal_score(std::log(-std::expm1(above)), above);
   };
-  if (measured.form->counted) {
+  if (form.counted) {
     const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
     return {y.at > 0 ? at(y.at - 1) : -infinity, high};
   }
@@ -58,7 +60,6 @@ NormalScore score(const Measured& measured, const Response& y, const double* fam
   return {at(y.at), at(y.until)};
 }
 
-// The same random numbers for the same parameters, for every caller.
 Rng lots_at(const double* x, std::size_t count) {
   std::uint64_t stream = 14695981039346656037ULL;
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,6 +69,8 @@ Rng lots_at(const double* x, std::size_t count) {
   constexpr std::uint64_t seed = 20261122;
   return Rng(seed, stream);
 }
+
+namespace {
 
 // A random node of each unit.
 std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
@@ -98,8 +101,8 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     return;
   }
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-    scores.push_back(score(column, column.observed.responses[i],
-                           &family_parameters[i * most_response_parameters]));
+    scores.push_back(score_of(*column.form, column.observed.responses[i],
+                              &family_parameters[i * most_response_parameters]));
   }
 }
 
@@ -219,6 +222,7 @@ Remedies remedies_of(const FormulaModel& model) {
 
 std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();
+  if (model.modes) return mode_fit_data(rows);
   FitData data;
   for (const Measured& measured : model.measured) {
     for (const Response& each : measured.observed.responses) {

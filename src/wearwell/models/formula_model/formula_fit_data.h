@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 
+#include "wearwell/base/rng.h"
+#include "wearwell/bayes/normal_score.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/models/formula_model/formula_likelihood.h"
 
@@ -13,5 +15,12 @@ namespace wearwell::formula_model {
 /// unit's rows: both together are a draw from the posterior, under which residuals and effects are
 /// standard normal. A reading of a process is scored given the earlier ones.
 std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows);
+
+/// The normal score of an observation, for a count those of its ends (bayes/normal_score.h).
+/// `family_parameters` are those of the form's family, SI.
+NormalScore score_of(const ResponseForm& form, const Response& y, const double* family_parameters);
+
+/// Random numbers that are the same for the same parameters, for every caller.
+Rng lots_at(const double* x, std::size_t count);
 
 }  // namespace wearwell::formula_model

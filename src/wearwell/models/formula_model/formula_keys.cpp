@@ -54,8 +54,25 @@ StudyKeys formula_keys() {
                    "([formula-language.md](formula-language.md))"},
                   {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
                    "one table per measured column"},
-                  needed_key("likelihood.*.family", "\"normal\"", "distribution of its scatter")});
+                  needed_key("likelihood.*.family", "\"normal\"", "distribution of its scatter",
+                             {"failure_modes"})});
   add_keys(keys, parameter_keys());
+  add_keys(
+      keys,
+      {{"failure_modes", "{ column = \"mode\" }",
+        "competing risks: a part fails by the mode whose life ends first "
+        "([life.md](life.md#failure-modes))"},
+       needed_key("failure_modes.column", "\"mode\"",
+                  "column of the failure modes under data.columns; an empty cell is any mode", {},
+                  {"failure_modes"}),
+       {"failure_modes.runout", "\"censored\"",
+        "words of this column that mark run-outs, if no status column does"},
+       {"failure_modes.unknown", "\"n/a\"", "words of this column for a failure of unknown mode"},
+       {"failure_modes.*", "{ family = \"lognormal\", median = \"m\", log_sd = \"s\" }",
+        "distribution of one mode, by its name; the other modes have that of `likelihood`, where "
+        "`slope[mode]` is a parameter of each"},
+       needed_key("failure_modes.*.family", "\"lognormal\"", "distribution of its life"),
+       {"failure_modes.*.*", "\"m\"", "expression or number, of the parameters of the family"}});
   add_keys(
       keys,
       {needed_key("likelihood.*.trials", "\"trials\"", "column of their numbers", {},

@@ -1,6 +1,10 @@
 #include "wearwell/models/formula_model/formula_life.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wearwell/predict/interpolated.h"
 #include "wearwell/predict/prediction.h"
@@ -14,6 +18,12 @@ constexpr double least_survival = 1e-3;
 
 constexpr std::size_t thinned_posterior = 2000;
 
+Eigen::Index heaviest(const WeightedDraws& draws) {
+  Eigen::Index row = 0;
+  draws.weights.maxCoeff(&row);
+  return row;
+}
+
 std::size_t some(std::size_t most, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(most));
 }
@@ -26,23 +36,31 @@ std::string per_unit(const Unit& unit) {
   return one ? "1/" + unit.text : "1/(" + unit.text + ")";
 }
 
-LifeDistribution::LifeDistribution(std::shared_ptr<const Path> family_parameters,
-                                   const Measured& measured)
-    : family_parameters_(std::move(family_parameters)),
-      family_(measured.form->family),
-      positive_(measured.form->positive),
-      family_parameter_(measured.family_parameter) {}
+Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured) {
+  return {std::move(family_parameters), measured.family_parameter, measured.form->family,
+          measured.form->positive};
+}
+
+LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(risks)) {}
 
 double LifeDistribution::Next::cdf(double life) const {
-  double sum = 0;
-  for (const Component& each : components_) {
-    sum += each.weight * std::exp(log_cdf(family_, life, each.family_parameter));
-  }
-  return sum;
+  constexpr std::size_t part = 4096;  // components, independent of the number of threads
+  std::vector<double> sums((weights_.size() + part - 1) / part);
+  const std::size_t stride = risks_.size() * most_response_parameters;
+  const auto failed = [&](std::size_t i) {
+    const double* const own = &family_parameters_[i * stride];
+    return risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, own))
+                              : -std::expm1(log_survival_of(risks_, life, own));
+  };
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
+    for (std::size_t i = k * part; i < std::min((k + 1) * part, weights_.size()); ++i)
+      sums[k] += weights_[i] * failed(i);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 double LifeDistribution::Next::quantile(double p) const {
-  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, positive_);
+  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, risks_.front().positive);
 }
 
 double LifeDistribution::Next::quantile(double p, double from) const {
@@ -51,30 +69,43 @@ double LifeDistribution::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
-LifeAtPoint LifeDistribution::at_point() const {
-  return {*family_parameters_, family_parameter_, family_, positive_};
+bool LifeDistribution::over_all() const {
+  return risks_.front().family_parameters->model->effects.empty();
 }
 
-bool LifeDistribution::over_all() const {
-  return family_parameters_->model->effects.empty();
+void LifeDistribution::Next::add(const LifeAtPoint& at, double weight) {
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    if (at.weight(j) < 1e-9) continue;
+    weights_.push_back(weight * at.weight(j));
+    family_parameters_.insert(family_parameters_.end(), at.slots(j),
+                              at.slots(j) + risks_.size() * most_response_parameters);
+  }
 }
 
 LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
                                               double share_of_points) const {
   LifeAtPoint at = at_point();
   Next next;
-  next.family_ = family_;
-  next.positive_ = positive_;
+  next.risks_ = risks_;
+  if (risks_.front().family_parameters->model->modes) {
+    // All points: few lose digits, because a mode with few failures has a long tail of parameters.
+    const double least = QuantityDistribution::least_weight(draws);
+    for (Eigen::Index i = 0; i < draws.weights.size(); ++i) {
+      if (!(draws.weights[i] > least)) continue;
+      at.move_to(draws.values.row(i).data());
+      next.add(at, draws.weights[i]);
+    }
+    const double total = std::accumulate(next.weights_.begin(), next.weights_.end(), 0.0);
+    for (double& each : next.weights_) each /= total;
+    at.move_to(draws.values.row(heaviest(draws)).data());
+    next.middle_ = at.quantile(0.5);
+    return next;
+  }
   const ThinnedPosterior few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.quantile(0.5);
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      if (at.weight(j) < 1e-9) continue;
-      Next::Component component{few.weights[i] * at.weight(j), {}};
-      std::copy_n(at.slots(j), most_response_parameters, component.family_parameter);
-      next.components_.push_back(component);
-    }
+    next.add(at, few.weights[i]);
   }
   return next;
 }
@@ -192,6 +223,18 @@ LifeDistribution::Known LifeDistribution::hazard(const WeightedDraws& draws, dou
       [&](const double* x) {
         at.move_to(x);
         return at.hazard(life);
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::incidence(const WeightedDraws& draws, std::size_t risk,
+                                                    double life, double share_of_points) const {
+  LifeAtPoint at = at_point();
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.incidence(risk, life);
       },
       share_of_points);
 }

@@ -14,12 +14,14 @@ namespace wearwell::formula_model {
 /// "1/h" of "h", "1/(1e6 cycles)" of "1e6 cycles".
 std::string per_unit(const Unit& unit);
 
-/// A life as a likelihood's family gives it, under conditions: its derived quantities over a
-/// posterior.
+/// The life of a measured column as a risk.
+Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured);
+
+/// A life as a likelihood's family gives it, or the earliest of several, under conditions: its derived
+/// quantities over a posterior.
 class LifeDistribution {
  public:
-  /// `family_parameters` has the outputs of the measured column.
-  LifeDistribution(std::shared_ptr<const Path> family_parameters, const Measured& measured);
+  explicit LifeDistribution(std::vector<Risk> risks);
 
   /// The predictive distribution: averaged over all uncertainty.
   class Next {
@@ -31,16 +33,13 @@ class LifeDistribution {
 
    private:
     friend class LifeDistribution;
-    struct Component {
-      double weight, family_parameter[most_response_parameters];
-    };
-    ResponseFamily family_;
-    bool positive_ = true;
-    std::vector<Component> components_;
+    void add(const LifeAtPoint& at, double weight);  // its components
+    std::vector<Risk> risks_;
+    std::vector<double> weights_, family_parameters_;  // of the components, risk by risk
     double middle_ = 1;
   };
-  /// Over all points of a posterior, or over few if items vary: then all functions below take a
-  /// share of the points below 1, to estimate the dependence on the points.
+  /// Over all points of a posterior, or over few if items vary: then all functions below take a share of the
+  /// points below 1, to estimate the dependence on the points.
   bool over_all() const;
   Next next(const WeightedDraws& draws, double share_of_points = 1) const;
 
@@ -62,6 +61,9 @@ class LifeDistribution {
   Known mean_beyond(const WeightedDraws& draws, double from, double share_of_points = 1) const;
   /// The hazard rate at this life, per SI unit of life.
   Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
+  /// The share that has ended by this life through one of the risks.
+  Known incidence(const WeightedDraws& draws, std::size_t risk, double life,
+                  double share_of_points = 1) const;
   /// The p-quantile over that of `other`.
   Known ratio(const WeightedDraws& draws, const LifeDistribution& other, double p,
               double share_of_points = 1) const;
@@ -73,7 +75,7 @@ class LifeDistribution {
                   double share_of_points = 1) const;
 
  private:
-  LifeAtPoint at_point() const;
+  LifeAtPoint at_point() const { return LifeAtPoint(risks_); }
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   // Those given survival to `from`; empty if hardly any item survives.
   std::optional<WeightedDraws> survivors(const WeightedDraws& draws, double from,
@@ -86,10 +88,7 @@ class LifeDistribution {
   template <class Value>
   Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
 
-  std::shared_ptr<const Path> family_parameters_;
-  ResponseFamily family_;
-  bool positive_;
-  std::vector<std::size_t> family_parameter_;
+  std::vector<Risk> risks_;
 };
 
 }  // namespace wearwell::formula_model

@@ -9,6 +9,7 @@
 #include "wearwell/models/formula_model/formula_gathered.h"
 #include "wearwell/models/formula_model/formula_hidden_path.h"
 #include "wearwell/models/formula_model/formula_row_columns.h"
+#include "wearwell/models/formula_model/joint_failures.h"
 #include "wearwell/models/formula_model/linear_form.h"
 
 // Longer than others: one likelihood: rows, integrals over effects, gradients of both.
@@ -493,8 +494,8 @@ class FormulaLikelihood : public LogDensity {
       if (const auto all = scratch.linear->sum(gradient)) return number(*all);
     }
     if (const auto all = quick_sum(scratch, x, gradient)) return number(*all);
-    const double sum =
-        model_->has_random_effects() ? number(rows_->integrate(x.data()).sum()) : value(x);
+    const double sum = model_->has_random_effects() ? number(rows_->integrate(x.data()).sum())
+                                                    : FormulaLikelihood::value(x);
     if (!(sum > -infinity)) return sum;
     if (!model_->has_random_effects()) {
       scratch.to_sum().add_gradient({}, ones_, gradient);
@@ -614,11 +615,80 @@ class HiddenLikelihood final : public FormulaLikelihood {
   }
 };
 
+// Of failure modes: those one by one, and what failures of unknown mode and within intervals add.
+class ModesLikelihood final : public FormulaLikelihood {
+ public:
+  ModesLikelihood(std::shared_ptr<const FormulaRows> rows, std::size_t count)
+      : FormulaLikelihood(rows), rows_(std::move(rows)), count_(count) {}
+
+  double value(std::span<const double> x) const override {
+    const double apart = FormulaLikelihood::value(x);
+    if (!(apart > -infinity)) return apart;
+    JointFailures& joint = own_joint();
+    joint.evaluate(x);
+    return sum_of(apart, joint.sum());
+  }
+
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    const double apart = FormulaLikelihood::value_and_gradient(x, gradient);
+    if (!(apart > -infinity)) return apart;
+    JointFailures& joint = own_joint();
+    joint.evaluate(x, gradient);
+    return sum_of(apart, joint.sum());
+  }
+
+  // By row: the product over the modes.
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    UnitRows& rows = mine().rows;
+    rows.move_to(x.data());
+    const FormulaModel& model = rows_->model();
+    std::vector<double> all(count_);
+    const std::vector<std::vector<double>> terms = rows.each_term({});
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      for (std::size_t i = 0; i < terms[k].size(); ++i) {
+        const std::size_t row = model.measured[k].observed.rows[i];
+        if (row < count_) all[row] += terms[k][i];
+      }
+    }
+    JointFailures& joint = own_joint();
+    const std::span<const double> factors = joint.evaluate(x);
+    for (std::size_t i = 0; i < factors.size(); ++i) all[joint.failures()[i].row] += factors[i];
+    return all;
+  }
+
+  std::vector<int> pointwise_counts() const override {
+    const std::vector<int>& counts = rows_->model().lives.counts;
+    return {counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(count_)};
+  }
+
+  double unsettled(std::span<const double> x) const override {
+    constexpr double fine = 1e-6;
+    JointFailures& joint = own_joint();
+    joint.evaluate(x);
+    return joint.open() > fine ? joint.open() : 0;
+  }
+
+ private:
+  static double sum_of(double apart, double joint) {
+    const double sum = apart + joint;
+    return sum < infinity ? sum : -infinity;
+  }
+  JointFailures& own_joint() const {
+    std::unique_ptr<JointFailures>& joint = joint_.local();
+    if (!joint) joint = std::make_unique<JointFailures>(rows_->model(), count_);
+    return *joint;
+  }
+
+  std::shared_ptr<const FormulaRows> rows_;
+  std::size_t count_;
+  mutable tbb::enumerable_thread_specific<std::unique_ptr<JointFailures>> joint_;
+};
+
 }  // namespace
 
 FormulaRows::FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
                          bool again_and_again)
-    : model_(std::move(model)), columns_(bind_columns(*model_, rows)) {
+    : model_(std::move(model)), rows_(rows), columns_(bind_columns(*model_, rows)) {
   linear_ = is_linear(*model_, columns_);
   proportional_ = is_proportional(*model_, columns_);
   if (again_and_again && !linear_) tabled_ = tabled_form(*model_, columns_);
@@ -681,6 +751,10 @@ FormulaRows::Scratch& FormulaRows::mine() const {
 std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const FormulaRows> rows) {
   if (rows->model().has_hidden_paths()) {
     return std::make_shared<HiddenLikelihood>(std::move(rows));
+  }
+  if (rows->model().modes) {
+    const std::size_t count = rows->rows();
+    return std::make_shared<ModesLikelihood>(std::move(rows), count);
   }
   return std::make_shared<FormulaLikelihood>(std::move(rows));
 }

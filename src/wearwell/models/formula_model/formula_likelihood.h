@@ -149,6 +149,7 @@ class FormulaRows {
   /// For a model with random effects: integrates them out at x, into this thread's `integrals`.
   const latent::UnitIntegrals& integrate(const double* x) const;
   const FormulaModel& model() const { return *model_; }
+  std::size_t rows() const { return rows_; }  ///< of the table, from the first
   /// Holds sums over gathered rows against those over all at these parameters, and sums over all from then on
   /// where they differ. Before other threads ask.
   void keep_gathered_at(const double* x);
@@ -156,6 +157,7 @@ class FormulaRows {
 
  private:
   std::shared_ptr<const FormulaModel> model_;
+  std::size_t rows_;
   std::vector<BoundColumn> columns_, gathered_;
   bool linear_ = false, proportional_ = false;
   std::optional<TabledForm> tabled_;

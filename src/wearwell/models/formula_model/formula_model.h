@@ -7,6 +7,7 @@
 
 #include "wearwell/bayes/parameter.h"
 #include "wearwell/formula/program.h"
+#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/formula_process.h"
 #include "wearwell/prob/response.h"
@@ -40,6 +41,7 @@ struct DrawnEffect {
 /// One measured column with the distribution of its scatter.
 struct Measured {
   std::string column;
+  std::string mode;  ///< the failure mode whose life this is; empty without failure modes
   Unit unit;
   formula::Powers powers;
   const ResponseForm* form = nullptr;
@@ -73,6 +75,11 @@ struct FormulaModel {
   std::vector<DrawnEffect> drawn;
   /// Their scatters, then the correlations of those that follow another.
   formula::Program drawn_scatter;
+
+  /// With failure modes measured[k] is the life of mode k.
+  std::optional<FailureModes> modes;
+  Observed lives;                   ///< of the parts, by row, if there are modes
+  std::vector<JointFailure> joint;  ///< what `measured` lacks
 
   FormulaData data;
   /// Rows in the order of the programs: unit by unit, along the axis.

@@ -112,7 +112,12 @@ bool is_life(const Measured& measured) {
 void require_status(const FormulaModel& model, const TomlReader& root) {
   const TomlReader data = root.required_table("data");
   static_cast<void>(data.texts("unused"));
-  if (model.measured.size() != 1 || model.along || model.data.status) return;
+  if (model.along || model.data.status) return;
+  if (model.modes) {  // whose cells can mark run-outs
+    if (std::ranges::count(model.modes->possible, 0U) > 0) return;
+  } else if (model.measured.size() != 1) {
+    return;
+  }
   const Measured& measured = model.measured.front();
   const SpecialColumns special = special_columns(model.data);
   if (measured.form->counted || measured.program.has_paths() || special.lower || special.upper) {

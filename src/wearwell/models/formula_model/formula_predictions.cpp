@@ -14,6 +14,8 @@
 #include "wearwell/models/formula_model/formula_path_ahead.h"
 #include "wearwell/models/formula_model/formula_reader.h"
 #include "wearwell/models/formula_model/life_answers.h"
+#include "wearwell/models/formula_model/life_groups.h"
+#include "wearwell/models/formula_model/mode_answers.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::formula_model {
@@ -68,13 +70,6 @@ class Predictions {
  private:
   // ---- Likelihoods of a life.
 
-  std::shared_ptr<const LifeDistribution> life_distribution(const Measured& measured,
-                                                            const char* key,
-                                                            const Conditions& conditions) const {
-    return std::make_shared<const LifeDistribution>(
-        make_path(model_, predict_, key, measured.wanted, false, conditions), measured);
-  }
-
   void read_life() {
     const Measured& measured = model_->measured.front();
     LifeLevels levels = read_life_levels(predict_);
@@ -100,24 +95,28 @@ class Predictions {
     if (mean && !measured.form->positive)
       predict_.fail("mean_life",
                     "is for a family of positive values; the mean of this one is its location");
-    const auto life = life_distribution(measured, predict_.has("given") ? "given" : "", common_);
+    const std::string given = predict_.has("given") ? "given" : "";
+    const auto life = life_distribution(predict_, given, model_, common_);
     std::shared_ptr<const LifeDistribution> fast, other;
     std::string fast_words, other_words;
     if (const auto compared = predict_.table("compared_with")) {
       const Conditions conditions = read_conditions(*compared, *model_);
       other_words = conditions.words;
-      other = life_distribution(measured, "compared_with", common_conditions(*model_, conditions));
+      other = life_distribution(predict_, "compared_with", model_,
+                                common_conditions(*model_, conditions));
     }
     if (const auto accelerated = predict_.table("accelerated")) {
       const Conditions conditions = read_conditions(*accelerated, *model_);
       fast_words = conditions.words;
-      fast = life_distribution(measured, "accelerated", common_conditions(*model_, conditions));
+      fast = life_distribution(predict_, "accelerated", model_,
+                               common_conditions(*model_, conditions));
     }
     QuantityGroup group;
     const std::string what = measured.form->positive ? "life" : measured.column;
     group.requests.push_back(request(what, "new " + noun_, given_words_, measured.unit));
     group.requests.back().is_life = true;
     group.requests.back().safe_end = 0.05;
+    group.requests.back().headline = model_->modes.has_value();
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
       group.requests.back().credible_level = levels.credible_level;
@@ -165,6 +164,8 @@ class Predictions {
     group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
     group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };
     study_.quantity_groups.push_back(std::move(group));
+    if (model_->modes && model_->measured.size() > 1)
+      add_mode_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }
 
   // ---- Functions of the parameters.

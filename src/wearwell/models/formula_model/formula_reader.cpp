@@ -44,6 +44,8 @@ struct Bounds {
 // A likelihood as written, before anything is compiled.
 struct WrittenLikelihood {
   std::string column;
+  std::string mode;   // of a failure mode, else empty
+  std::string place;  // "likelihood.life": its table in the study
   const ResponseForm* form;
   const ProcessForm* process;
   std::optional<std::string> trials;
@@ -102,6 +104,7 @@ class Reader {
   std::shared_ptr<FormulaModel> read() {
     read_texts();
     model_->data = read_own_data(root_, source_, label_names());
+    read_modes();
     choose_units();
     read_along();
     read_symbols();
@@ -128,8 +131,22 @@ class Reader {
       model_->lines = model_->written;
     }
     const TomlReader likelihoods = root_.required_table("likelihood");
+    const auto failure_modes = root_.table("failure_modes");
     for (const std::string& column : likelihoods.keys()) {
-      written_.push_back(read_likelihood(likelihoods.required_table(column), column));
+      const TomlReader table = likelihoods.required_table(column);
+      if (failure_modes && table.keys().empty()) {  // each mode has its own
+        written_.push_back({column, "", "likelihood." + column, nullptr, nullptr, {}, {}});
+      } else {
+        written_.push_back(read_likelihood(table, column, "likelihood." + column));
+      }
+    }
+    if (failure_modes && written_.size() > 1)
+      root_.fail("failure_modes", "needs one measured column, the life; [likelihood] has several");
+    for (const std::string& mode :
+         failure_modes ? modes_with_tables(*failure_modes) : std::vector<std::string>()) {
+      of_modes_.push_back(read_likelihood(failure_modes->required_table(mode),
+                                          written_.front().column, "failure_modes." + mode));
+      of_modes_.back().mode = mode;
     }
     if (written_.empty()) {
       root_.fail("likelihood", "is empty; give one table for each measured column");
@@ -150,7 +167,8 @@ class Reader {
     }
   }
 
-  WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column) {
+  WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
+                                    const std::string& place) {
     std::vector<std::string> names;
     for (const ResponseForm& form : response_forms()) {
       if (names.empty() || names.back() != form.name) names.emplace_back(form.name);
@@ -176,7 +194,7 @@ class Reader {
       table.fail("family", fmt::format("{} needs {}", *family,
                                        fmt::join(needed_parameters(*family), ", or ")));
     }
-    WrittenLikelihood result{column, form, process, {}, {}};
+    WrittenLikelihood result{column, "", place, form, process, {}, {}};
     for (std::size_t s = 0; s < form->family_parameters.size(); ++s) {
       const std::string name(form->family_parameters[s].name);
       if (!table.has(name)) continue;
@@ -185,6 +203,91 @@ class Reader {
     }
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
     return result;
+  }
+
+  // Replaces the one likelihood by those of the failure modes, and the lines that depend on the mode by
+  // copies.
+  void read_modes() {
+    if (!root_.has("failure_modes")) return;
+    const TomlReader section = root_.required_table("failure_modes");
+    refuse_with_modes(section);
+    const WrittenLikelihood common = written_.front();
+    std::vector<WrittenLikelihood> all = of_modes_;
+    if (common.form) all.push_back(common);
+    for (const WrittenLikelihood& each : all) {
+      if (each.process || each.form->counted || !each.form->positive)
+        section.fail("", fmt::format("needs families of positive lives, but {} is {}", each.place,
+                                     each.form->name));
+    }
+    const SpecialColumns special = special_columns(model_->data);
+    if (!measured_column(common, special)) fail_without_column(common);
+    if (all.empty())
+      section.fail("", "has no distribution: give [likelihood] or each mode a family");
+    const Observed lives =
+        read_observed(model_->data, common.column, *all.front().form, special, {}, false);
+    model_->modes = read_failure_modes(root_, model_->data, lives);
+    const FailureModes& modes = *model_->modes;
+    ObservedModes by_mode = observed_by_mode(modes, lives);
+    observed_of_modes_ = std::move(by_mode.of);
+    model_->joint = std::move(by_mode.joint);
+    model_->lives = lives;
+    for (std::size_t i = 0; i < lives.rows.size(); ++i) {
+      if (modes.possible[lives.rows[i]] == 0) model_->lives.responses[i].seen = Censoring::right;
+    }
+    const LinesByMode lines(root_, modes, model_->lines);
+    model_->lines = lines.lines();
+    written_.clear();
+    for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+      const auto own = std::find_if(of_modes_.begin(), of_modes_.end(),
+                                    [&](const auto& each) { return each.mode == modes.modes[k]; });
+      if (own == of_modes_.end() && !common.form)
+        section.fail(
+            "", fmt::format("mode '{}' has no distribution: give it a table [failure_modes.{}], or "
+                            "[likelihood.{}] a family for all modes without one",
+                            modes.modes[k], modes.modes[k], common.column));
+      written_.push_back(own == of_modes_.end() ? common : *own);
+      written_.back().mode = modes.modes[k];
+      for (auto& [family_parameter, text] : written_.back().family_parameters)
+        text = lines.text(text, k);
+    }
+    if (common.form && of_modes_.size() == modes.modes.size())
+      root_.required_table("likelihood")
+          .fail(common.column,
+                "is not used, because each failure mode has a table of its own; leave it empty");
+  }
+
+  void refuse_with_modes(const TomlReader& section) const {
+    if (root_.has("random_effects"))
+      root_.fail("random_effects", "is not possible with [failure_modes]");
+    if (const auto predict = root_.table("predict")) {
+      for (const char* key : {"along", "at", "limit", "units", "lives_of"}) {
+        if (predict->has(key))
+          predict->fail(key, "is for readings along an axis, not for lives with [failure_modes]");
+      }
+    }
+    const std::regex compared("\\b" + section.required_text("column") + R"(\s*(==|!=))");
+    for (const std::string& text : texts_) {
+      if (std::regex_search(text, compared))
+        section.fail("column", fmt::format("'{}' compares the failure mode; give the mode a table "
+                                           "[failure_modes.NAME] with its own expressions",
+                                           text));
+    }
+  }
+
+  const NumberColumn* measured_column(const WrittenLikelihood& written,
+                                      const SpecialColumns& special) const {
+    const NumberColumn* column = model_->data.number(written.column);
+    return !column && special.lower ? model_->data.number(*special.lower) : column;
+  }
+
+  [[noreturn]] void fail_without_column(const WrittenLikelihood& written) const {
+    const std::vector<std::string> names = number_names();
+    root_.required_table("likelihood")
+        .fail(written.column,
+              fmt::format("is not a numeric column under data.columns{}",
+                          names.empty() ? ""
+                                        : fmt::format(" (nearest: '{}')",
+                                                      nearest_name(written.column, names))));
   }
 
   void read_random_effects(const TomlReader& table, const std::string& label) {
@@ -349,6 +452,8 @@ class Reader {
     for (const LabelColumn& label : model_->data.labels) {
       if (label.name != "status") model_->symbols.labels.push_back({label.name, label.levels});
     }
+    if (model_->modes)
+      model_->symbols.labels.push_back({model_->modes->name, model_->modes->modes});
     if (const auto constants = root_.table("constants")) {
       for (const std::string& name : constants->keys()) {
         if (!constants->is_text(name)) {
@@ -454,7 +559,8 @@ class Reader {
   void read_levels(const TomlReader& priors, const std::string& base, const std::string& label,
                    const Bounds& bounds) {
     const LabelColumn* column = model_->data.label(label);
-    if (!column) {
+    const bool by_mode = model_->modes && model_->modes->name == label;
+    if (!column && !by_mode) {
       const auto& labels = model_->data.labels;
       const bool is_level = std::any_of(labels.begin(), labels.end(), [&](const LabelColumn& each) {
         return std::find(each.levels.begin(), each.levels.end(), label) != each.levels.end();
@@ -476,7 +582,7 @@ class Reader {
     }
     std::optional<formula::Powers> powers;
     const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
-    for (const std::string& level : column->levels) {
+    for (const std::string& level : by_mode ? model_->modes->modes : column->levels) {
       const std::string name = fmt::format("{}[{}]", base, level);
       const std::string key = priors.has(name) ? name : common;
       if (!priors.has(key)) {
@@ -582,7 +688,7 @@ class Reader {
                                process->form->name));
       }
     }
-    if (written_.size() > 1 &&
+    if (!model_->modes && written_.size() > 1 &&
         (special.status || special.lower || special.upper || special.entry)) {
       const TomlReader columns = root_.required_table("data").required_table("columns");
       columns.fail(special.status  ? "status"
@@ -595,22 +701,15 @@ class Reader {
   }
 
   void compile_measured() {
-    const TomlReader likelihoods = root_.required_table("likelihood");
     const SpecialColumns special = allowed_special_columns();
     for (const WrittenLikelihood& written : written_) {
-      const TomlReader table = likelihoods.required_table(written.column);
-      const NumberColumn* column = model_->data.number(written.column);
-      if (!column && special.lower) column = model_->data.number(*special.lower);
-      if (!column) {
-        std::vector<std::string> names = number_names();
-        likelihoods.fail(
-            written.column,
-            fmt::format("is not a numeric column under data.columns{}",
-                        names.empty() ? ""
-                                      : fmt::format(" (nearest: '{}')",
-                                                    nearest_name(written.column, names))));
-      }
+      const std::size_t dot = written.place.find('.');
+      const TomlReader table = root_.required_table(written.place.substr(0, dot))
+                                   .required_table(written.place.substr(dot + 1));
+      const NumberColumn* column = measured_column(written, special);
+      if (!column) fail_without_column(written);
       Measured measured{written.column,
+                        written.mode,
                         column->unit.unit,
                         column->unit.powers,
                         written.form,
@@ -632,8 +731,8 @@ class Reader {
         const ParameterForm& form = written.form->family_parameters[family_parameter];
         const bool dimensional =
             form.kind == ParameterKind::location || form.kind == ParameterKind::scale;
-        measured.wanted.push_back({fmt::format("[likelihood.{}] {}", written.column, form.name),
-                                   text, dimensional ? column->unit.powers : formula::Powers(),
+        measured.wanted.push_back({fmt::format("[{}] {}", written.place, form.name), text,
+                                   dimensional ? column->unit.powers : formula::Powers(),
                                    dimensional ? fmt::format("the column '{}'", written.column)
                                                : fmt::format("a {}", form.name)});
         measured.family_parameter.push_back(family_parameter);
@@ -645,8 +744,13 @@ class Reader {
       }
       if (written.process) model_->data.require_values(*column);
       const bool may_lack = written_.size() > 1;
-      measured.observed = read_observed(model_->data, written.column, *written.form, special,
-                                        written.trials, may_lack);
+      measured.observed = model_->modes ? std::move(observed_of_modes_[model_->measured.size()])
+                                        : read_observed(model_->data, written.column, *written.form,
+                                                        special, written.trials, may_lack);
+      if (model_->modes && measured.program.has_paths())
+        table.fail(
+            "",
+            "depends on earlier rows (cum, or a state); that is not possible with [failure_modes]");
       model_->measured.push_back(std::move(measured));
     }
     for (const NumberColumn& each : model_->data.numbers) {
@@ -683,6 +787,8 @@ class Reader {
   std::shared_ptr<FormulaModel> model_;
   std::vector<std::string> texts_;
   std::vector<WrittenLikelihood> written_;
+  std::vector<WrittenLikelihood> of_modes_;  // of the modes with a table
+  std::vector<Observed> observed_of_modes_;
   std::vector<WrittenEffects> varies_;
   std::vector<WrittenEffect> effects_;  // of the units, which are integrated out
   std::vector<WrittenEffects> drawn_;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -38,9 +39,13 @@ std::string description(const FormulaModel& model) {
           fmt::format("{} = {}", each.form->family_parameters[each.family_parameter[o]].name,
                       each.program.text(o)));
     }
-    parts.push_back(fmt::format("{} is {} with {}", each.column, each.form->name,
+    parts.push_back(fmt::format("{}{} is {} with {}", each.column,
+                                each.mode.empty() ? "" : " by " + each.mode, each.form->name,
                                 fmt::join(family_parameters, ", ")));
   }
+  if (model.modes)
+    parts.push_back(
+        fmt::format("{} of a part is the earliest of these", model.measured.front().column));
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
     parts.push_back(fmt::format("{} of each of {} {}s is {} about {} with {} {}", effect.name,
@@ -83,11 +88,54 @@ std::vector<std::string> meanings(const FormulaModel& model) {
   return all;
 }
 
+// How the lives of all parts ended.
+std::vector<std::string> notes_of_modes(const FormulaModel& model) {
+  const formula_model::FailureModes& modes = *model.modes;
+  std::vector<long long> of_mode(modes.modes.size());
+  long long sum = 0, runouts = 0, masked = 0, bounded = 0, truncated = 0;
+  for (std::size_t i = 0; i < model.lives.responses.size(); ++i) {
+    const Response& y = model.lives.responses[i];
+    const long long count = model.lives.counts[i];
+    const std::uint32_t possible = modes.possible[i];
+    sum += count;
+    truncated += y.entry > -infinity ? count : 0;
+    bounded += y.seen == Censoring::left || y.seen == Censoring::interval ? count : 0;
+    if (possible == 0) {
+      runouts += count;
+    } else if (std::has_single_bit(possible)) {
+      of_mode[static_cast<std::size_t>(std::countr_zero(possible))] += count;
+    } else {
+      masked += count;
+    }
+  }
+  std::string note =
+      fmt::format("{}: {} observation{}: {} run-out{}", model.measured.front().column, sum,
+                  sum == 1 ? "" : "s", runouts, runouts == 1 ? "" : "s");
+  for (std::size_t k = 0; k < of_mode.size(); ++k)
+    note += fmt::format(", {} failed by {}", of_mode[k], modes.modes[k]);
+  if (masked > 0) note += fmt::format(", {} by one of several modes (masked)", masked);
+  if (bounded > 0) note += fmt::format("; {} lives are known to an interval", bounded);
+  if (truncated > 0) note += fmt::format("; {} with delayed entry", truncated);
+  std::vector<std::string> all = {note};
+  for (std::size_t k = 0; k < of_mode.size(); ++k) {
+    if (of_mode[k] > 0) continue;
+    all.push_back(
+        fmt::format("no failure is known to be by {} alone: what the data tell of this mode "
+                    "comes from failures of several possible modes",
+                    modes.modes[k]));
+  }
+  all.emplace_back(
+      "failure modes are taken as independent, given the parameters: these data cannot test it");
+  return all;
+}
+
 std::vector<std::string> notes(const FormulaModel& model) {
   static constexpr const char* words[] = {"exact", "right-censored", "left-censored",
                                           "interval-censored"};
   std::vector<std::string> all;
+  if (model.modes) all = notes_of_modes(model);
   for (const Measured& each : model.measured) {
+    if (model.modes) break;
     long long counts[4] = {}, sum = 0, truncated = 0;
     for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
       const Response& y = each.observed.responses[i];
@@ -161,8 +209,11 @@ NothingSeen nothing_seen(const FormulaModel& model) {
 // What the likelihood is a density of, and its parameters.
 void tell_data(const FormulaModel& model, PosteriorStudy& study) {
   std::vector<std::string> names;
+  if (model.modes) {
+    for (const std::uint32_t each : model.modes->possible) study.observed.push_back(each);
+  }
   for (const Measured& each : model.measured) {
-    names.push_back(each.column);
+    if (names.empty() || !model.modes) names.push_back(each.column);
     for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
       const Response& y = each.observed.responses[i];
       study.observed.push_back(y.at);

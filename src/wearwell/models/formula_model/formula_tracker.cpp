@@ -81,7 +81,7 @@ std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedSt
   const auto predict = root.table("predict");
   const bool has_threshold = predict && predict->has("limit");
   if (!has_threshold && !model->along && model->measured.front().form->positive) return nullptr;
-  refuse_drawn_effects(*model, "tracked");
+  refuse_unsupported(*model, "tracked");
   for (const Measured& each : model->measured) {
     if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)
       continue;

@@ -6,30 +6,44 @@
 #include "wearwell/math/mean_beyond.h"
 
 namespace wearwell::formula_model {
+namespace {
 
-LifeAtPoint::LifeAtPoint(const Path& family_parameters, std::span<const std::size_t> places,
-                         ResponseFamily family, bool positive)
-    : places_(places),
-      family_(family),
-      positive_(positive),
-      model_(*family_parameters.model),
+using LifeRule = boost::math::quadrature::gauss_kronrod<double, 31>;
+constexpr unsigned deepest_cut = 12;
+
+}  // namespace
+
+double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters) {
+  double sum = 0;
+  for (std::size_t r = 0; r < risks.size(); ++r)
+    sum += log_survival(risks[r].family, life, family_parameters + r * most_response_parameters);
+  return sum;
+}
+
+LifeAtPoint::LifeAtPoint(std::span<const Risk> risks)
+    : risks_(risks),
+      positive_(risks.front().positive),
+      model_(*risks.front().family_parameters->model),
       nodes_(model_.effects.size(), 6.5),
-      new_units_(model_),
-      path_(family_parameters) {
-  family_parameters_.resize(most_response_parameters * size());
+      new_units_(model_) {
+  for (const Risk& each : risks) paths_.emplace_back(*each.family_parameters);
+  family_parameters_.resize(most_response_parameters * risks.size() * size());
 }
 
 void LifeAtPoint::move_to(const double* x) {
   const std::size_t d = model_.effects.size(), count = nodes_.weight.size();
   for (std::size_t k = 0; k < new_units_.count(); ++k) {
-    path_.move_to(new_units_.at(k, x, model_.parameters.size()));
-    for (std::size_t at = 0; at < count; at += Path::most) {
-      const std::size_t n = std::min(Path::most, count - at);
-      path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t o = 0; o < places_.size(); ++o) {
-          family_parameters_[(k * count + at + i) * most_response_parameters + places_[o]] =
-              path_.output(o, i);
+    const double* const there = new_units_.at(k, x, model_.parameters.size());
+    for (std::size_t r = 0; r < risks_.size(); ++r) {
+      paths_[r].move_to(there);
+      for (std::size_t at = 0; at < count; at += Path::most) {
+        const std::size_t n = std::min(Path::most, count - at);
+        paths_[r].evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
+        for (std::size_t i = 0; i < n; ++i) {
+          double* const own = &family_parameters_[((k * count + at + i) * risks_.size() + r) *
+                                                  most_response_parameters];
+          for (std::size_t o = 0; o < risks_[r].places.size(); ++o)
+            own[risks_[r].places[o]] = paths_[r].output(o, i);
         }
       }
     }
@@ -41,17 +55,36 @@ double LifeAtPoint::weight(std::size_t i) const {
   return nodes_.weight[i % count] * new_units_.share(i / count);
 }
 
+double LifeAtPoint::log_survival(std::size_t component, double life) const {
+  return log_survival_of(risks_, life, slots(component));
+}
+
+double LifeAtPoint::log_density(std::size_t component, double life) const {
+  if (risks_.size() == 1)
+    return log_response_value(risks_.front().family, {.at = life}, slots(component));
+  double hazard = 0;
+  for (std::size_t r = 0; r < risks_.size(); ++r) {
+    const double* const own = slots(component, r);
+    hazard += std::exp(log_response_value(risks_[r].family, {.at = life}, own) -
+                       wearwell::log_survival(risks_[r].family, life, own));
+  }
+  return std::log(hazard) + log_survival(component, life);
+}
+
 double LifeAtPoint::cdf(double life) const {
   double sum = 0;
-  for (std::size_t i = 0; i < size(); ++i)
-    sum += weight(i) * std::exp(log_cdf(family_, life, slots(i)));
+  for (std::size_t i = 0; i < size(); ++i) {
+    sum +=
+        weight(i) * (risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, slots(i)))
+                                        : -std::expm1(log_survival(i, life)));
+  }
   return sum;
 }
 
 double LifeAtPoint::log_survival(double life) const {
   double most = -infinity, sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    const double term = wearwell::log_survival(family_, life, slots(i));
+    const double term = log_survival(i, life);
     if (size() == 1) return term;
     if (term > most) {
       sum = sum * std::exp(most - term) + weight(i);
@@ -66,7 +99,7 @@ double LifeAtPoint::log_survival(double life) const {
 double LifeAtPoint::log_density(double life) const {
   double density = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    const double term = log_response_value(family_, {.at = life}, slots(i));
+    const double term = log_density(i, life);
     if (size() == 1) return term;
     density += weight(i) * std::exp(term);
   }
@@ -78,9 +111,22 @@ double LifeAtPoint::hazard(double life) const {
 }
 
 double LifeAtPoint::quantile(double p) const {
-  if (size() == 1) return wearwell::quantile(family_, p, slots(0));
-  const double middle = wearwell::quantile(family_, 0.5, slots(size() / 2));
-  return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle, positive_);
+  if (single()) return wearwell::quantile(risks_.front().family, p, slots(0));
+  const auto earliest = [&](double share) {
+    double least = infinity;
+    for (std::size_t r = 0; r < risks_.size(); ++r)
+      least = std::min(least, wearwell::quantile(risks_[r].family, share, slots(size() / 2, r)));
+    return least;
+  };
+  const auto failed = [&](double life) { return cdf(life); };
+  if (risks_.size() == 1) return quantile_of_cdf(failed, p, earliest(0.5), positive_);
+  // Before `least` each of m risks leaves at least the m-th root of 1 - p; at `most` one has ended p alone.
+  const double root = -std::expm1(std::log1p(-p) / static_cast<double>(risks_.size()));
+  const double least = earliest(root), most = earliest(p);
+  if (!(least > 0) || !std::isfinite(most))
+    return quantile_of_cdf(failed, p, earliest(0.5), positive_);
+  const double half = 0.5 * std::log(most / least);
+  return quantile_of_cdf(failed, p, std::sqrt(least) * std::sqrt(most), positive_, half + 1e-9);
 }
 
 double LifeAtPoint::mean_beyond(double from) const {
@@ -98,10 +144,36 @@ double LifeAtPoint::outlives(const LifeAtPoint& other) const {
     return std::exp(other.log_density(life) + log_survival(life) + (logarithmic ? at : 0));
   };
   // The rule adapts, because the integrand is a peak of any width.
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  constexpr unsigned depth = 12;
-  return logarithmic ? Rule::integrate(integrand, std::log(low), std::log(high), depth, 1e-8)
-                     : Rule::integrate(integrand, low, high, depth, 1e-8);
+  return logarithmic
+             ? LifeRule::integrate(integrand, std::log(low), std::log(high), deepest_cut, 1e-8)
+             : LifeRule::integrate(integrand, low, high, deepest_cut, 1e-8);
+}
+
+double LifeAtPoint::incidence(std::size_t risk, double life) const {
+  // What is left out at the ends, relative to the share of this risk alone.
+  constexpr double before = 1e-9, beyond = 1e-13;
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double* const own = slots(i, risk);
+    const double alone = std::exp(log_cdf(risks_[risk].family, life, own));
+    if (!(alone > 0)) continue;
+    double end = life;
+    for (std::size_t r = 0; r < risks_.size(); ++r)
+      end = std::min(end, wearwell::quantile(risks_[r].family, 1 - beyond, slots(i, r)));
+    const double begin =
+        std::max(wearwell::quantile(risks_[risk].family, before * alone, own), 1e-300);
+    if (!(end > begin)) continue;
+    const auto density = [&](double log_life) {
+      const double here = std::exp(log_life);
+      double log_share = log_response_value(risks_[risk].family, {.at = here}, own) + log_life;
+      for (std::size_t r = 0; r < risks_.size(); ++r)
+        if (r != risk) log_share += wearwell::log_survival(risks_[r].family, here, slots(i, r));
+      return std::exp(log_share);
+    };
+    sum +=
+        weight(i) * LifeRule::integrate(density, std::log(begin), std::log(end), deepest_cut, 1e-7);
+  }
+  return sum;
 }
 
 }  // namespace wearwell::formula_model

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,22 +14,30 @@
 
 namespace wearwell::formula_model {
 
+/// A life as a likelihood's family gives it, under conditions; of several, the earliest ends the part's
+/// life (failure_modes.h).
+struct Risk {
+  std::shared_ptr<const Path> family_parameters;  ///< output o is the family's parameter places[o]
+  std::vector<std::size_t> places;
+  ResponseFamily family;
+  bool positive = true;
+};
+
 /// A life at one point of the parameters: a mixture over the random effects of new items, one
-/// distribution where there are none. One thread at a time.
+/// distribution where there are none; or the earliest of several independent lives, without
+/// random effects. One thread at a time.
 class LifeAtPoint {
  public:
-  /// `family_parameters` has the outputs of the measured column; output o is the family's
-  /// parameter `places[o]`. Both must outlive this.
-  LifeAtPoint(const Path& family_parameters, std::span<const std::size_t> places,
-              ResponseFamily family, bool positive);
+  /// They must outlive this.
+  explicit LifeAtPoint(std::span<const Risk> risks);
 
   void move_to(const double* x);  ///< natural parameters, SI
 
-  /// The components: their weights, which sum to 1, and their family's parameters.
+  /// The components: their weights, which sum to 1, and their families' parameters, risk by risk.
   std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
   double weight(std::size_t i) const;
-  const double* slots(std::size_t i) const {
-    return &family_parameters_[i * most_response_parameters];
+  const double* slots(std::size_t i, std::size_t risk = 0) const {
+    return &family_parameters_[(i * risks_.size() + risk) * most_response_parameters];
   }
 
   double cdf(double life) const;
@@ -41,28 +50,38 @@ class LifeAtPoint {
   /// The probability that an item outlives one of `other`: the integral of this survival function
   /// over the other's distribution, within 1e-8 and the 2e-10 of its tails.
   double outlives(const LifeAtPoint& other) const;
+  /// The share that has ended by `life` through this risk: its cumulative incidence, within 1e-7 of it and
+  /// 1e-9 of the share that this risk alone would end.
+  double incidence(std::size_t risk, double life) const;
 
  private:
-  std::span<const std::size_t> places_;
-  ResponseFamily family_;
+  bool single() const { return size() == 1 && risks_.size() == 1; }
+  double log_survival(std::size_t component, double life) const;  // of all risks
+  double log_density(std::size_t component, double life) const;
+
+  std::span<const Risk> risks_;
   bool positive_;
   const FormulaModel& model_;
   NormalNodes nodes_;
   NewUnits new_units_;
-  PathAt path_;
+  std::vector<PathAt> paths_;
   std::vector<double> family_parameters_;
 };
 
-/// The quantile p of a cdf whose median is about `middle`; in the logarithm for positive values.
+/// log of the share that outlasts `life`, of risks with these parameters, `most_response_parameters` each.
+double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters);
+
+/// The quantile p of a cdf, found from `middle`; for positive values in the logarithm, where the first bracket
+/// is `step` on either side.
 template <class F>
-double quantile_of_cdf(const F& cdf, double p, double middle, bool positive) {
+double quantile_of_cdf(const F& cdf, double p, double middle, bool positive, double step = 0.5) {
   if (!std::isfinite(middle)) return std::nan("");
   if (!positive) {
     return solve_increasing([&](double y) { return cdf(y) - p; }, middle,
                             std::max(1e-3 * std::abs(middle), 1e-12), {.relative = 1e-10});
   }
   return std::exp(solve_increasing([&](double log_y) { return cdf(std::exp(log_y)) - p; },
-                                   std::log(middle), 0.5, {.absolute = 1e-10}, -700, 700));
+                                   std::log(middle), step, {.absolute = 1e-10}, -700, 700));
 }
 
 }  // namespace wearwell::formula_model

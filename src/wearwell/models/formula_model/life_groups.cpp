@@ -3,18 +3,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 
 namespace wearwell::formula_model {
 namespace {
 
 // The conditions of a row that the formula depends on.
 Conditions conditions_of_row(const FormulaModel& model, std::size_t row) {
-  const formula::Program& program = model.measured.front().program;
+  const auto any = [&](auto uses) {
+    return std::any_of(model.measured.begin(), model.measured.end(),
+                       [&](const Measured& each) { return uses(each.program); });
+  };
   Conditions found;
   std::vector<std::string> words;
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
-    if (!program.uses_column(c)) continue;
+    if (!any([c](const formula::Program& program) { return program.uses_column(c); })) continue;
     const NumberColumn& column = *model.data.number(model.row_symbols.columns[c].name);
     found.numbers[column.name] = column.values[row];
     const std::string& unit = column.unit.unit.text;
@@ -23,7 +28,7 @@ Conditions conditions_of_row(const FormulaModel& model, std::size_t row) {
                                 unit == "1" ? "" : " " + unit));
   }
   for (std::size_t c = 0; c < model.row_symbols.labels.size(); ++c) {
-    if (!program.uses_label(c)) continue;
+    if (!any([c](const formula::Program& program) { return program.uses_label(c); })) continue;
     const LabelColumn& column = *model.data.label(model.row_symbols.labels[c].name);
     found.labels[column.name] = column.at[row];
     words.push_back(fmt::format("{} = {}", column.name,
@@ -42,7 +47,52 @@ double LifeGroup::failures() const {
   return sum;
 }
 
+namespace {
+
+// As far as a mode is known: a failure that may have been of several modes is a run-out of each.
+std::optional<Response> life_by_mode(const FormulaModel& model, std::size_t row, std::size_t k) {
+  Response y = model.lives.responses[row];
+  if (model.modes->possible[row] == std::uint32_t{1} << k) return y;
+  if (y.seen == Censoring::left) return {};
+  y.seen = Censoring::right;
+  return y;
+}
+
+std::vector<LifeGroup> groups_of_modes(const FormulaModel& model, std::size_t most) {
+  std::vector<LifeGroup> groups;
+  std::map<std::pair<std::map<std::string, double>, std::map<std::string, int>>, std::size_t> known;
+  const std::size_t modes = model.measured.size();
+  for (std::size_t row = 0; row < model.lives.rows.size(); ++row) {
+    const Conditions own = conditions_of_row(model, row);
+    const auto [at, is_new] = known.try_emplace({own.numbers, own.labels}, groups.size());
+    if (is_new) {
+      if (groups.size() + modes + 1 > most) return {};
+      groups.push_back({own, {}});
+      groups.back().conditions.words = own.words.empty() ? "all modes" : "all modes, " + own.words;
+      for (std::size_t k = 0; k < modes; ++k) {
+        const std::string& mode = model.modes->modes[k];
+        groups.push_back({own, {}});
+        groups.back().conditions.words = own.words.empty() ? mode : mode + ", " + own.words;
+        groups.back().modes = std::uint32_t{1} << k;
+      }
+    }
+    LifeGroup* const group = &groups[at->second];
+    group->responses.push_back(model.lives.responses[row]);
+    group->counts.push_back(model.lives.counts[row]);
+    for (std::size_t k = 0; k < modes; ++k) {
+      const auto y = life_by_mode(model, row, k);
+      if (!y) continue;
+      group[k + 1].responses.push_back(*y);
+      group[k + 1].counts.push_back(model.lives.counts[row]);
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
 std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most) {
+  if (model.modes && model.measured.size() > 1) return groups_of_modes(model, most);
   const Measured& measured = model.measured.front();
   std::vector<LifeGroup> groups;
   std::map<std::pair<std::map<std::string, double>, std::map<std::string, int>>, std::size_t> known;
@@ -61,11 +111,17 @@ std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most) 
 }
 
 std::shared_ptr<const LifeDistribution> life_distribution(
-    const TomlReader& root, const std::shared_ptr<const FormulaModel>& model,
-    const Conditions& conditions) {
-  const Measured& measured = model->measured.front();
-  return std::make_shared<const LifeDistribution>(
-      make_path(model, root, "likelihood", measured.wanted, false, conditions), measured);
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions,
+    std::uint32_t modes) {
+  std::vector<Risk> risks;
+  for (std::size_t k = 0; k < (model->modes ? model->measured.size() : 1); ++k) {
+    if (!(modes >> k & 1)) continue;
+    const Measured& measured = model->measured[k];
+    risks.push_back(
+        risk_of(make_path(model, table, key, measured.wanted, false, conditions), measured));
+  }
+  return std::make_shared<const LifeDistribution>(std::move(risks));
 }
 
 }  // namespace wearwell::formula_model

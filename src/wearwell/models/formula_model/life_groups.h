@@ -15,18 +15,22 @@ struct LifeGroup {
   std::vector<Response> responses;
   std::vector<int> counts = {};
   std::shared_ptr<const LifeDistribution> life =
-      {};  ///< the distribution there; null until it is requested
+      {};                                   ///< the distribution there; null until it is requested
+  std::uint32_t modes = ~std::uint32_t{0};  ///< the failure modes that can end it, as bits
 
   double failures() const;
 };
 
 /// The observations of the first measured column by their conditions, in the order of their first
-/// occurrence. Empty if there are more than `most` conditions.
+/// occurrence. Empty if there are more than `most` conditions. With failure modes first those of the parts, then
+/// those of each mode, where failures by others are run-outs.
 std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most);
 
-/// The distribution of the first measured column under conditions.
+/// The distribution of the first measured column under conditions. With failure modes the life of a part
+/// that these modes (bits) can end. Throws InputError at `key` of `table` if a condition is missing.
 std::shared_ptr<const LifeDistribution> life_distribution(
-    const TomlReader& root, const std::shared_ptr<const FormulaModel>& model,
-    const Conditions& conditions);
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions,
+    std::uint32_t modes = ~std::uint32_t{0});
 
 }  // namespace wearwell::formula_model

@@ -44,7 +44,8 @@ std::vector<LifeGroup> drawn_groups(const TomlReader& root,
              std::pair(b.conditions.labels, b.conditions.numbers);
     });
   }
-  for (LifeGroup& each : groups) each.life = life_distribution(root, model, each.conditions);
+  for (LifeGroup& each : groups)
+    each.life = life_distribution(root, "likelihood", model, each.conditions, each.modes);
   return groups;
 }
 
@@ -60,6 +61,7 @@ class Drawing {
   Drawing(const FormulaModel& model, const std::vector<LifeGroup>& groups, std::size_t left_out,
           const Fit& fit)
       : measured_(model.measured.front()),
+        modes_(model.modes && model.measured.size() > 1),
         varies_(model.has_random_effects()),
         groups_(groups),
         left_out_(left_out),
@@ -264,12 +266,17 @@ class Drawing {
       words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
                            left_out_ + groups_.size(), groups_.size());
     }
+    if (modes_)
+      words +=
+          " By mode: the life that this mode alone would give; failures by others count as "
+          "run-outs, "
+          "and so do failures of unknown mode, which lowers these points.";
     if (varies_) words += " Units vary; the line is for all units together.";
     return words;
   }
 
   const Measured& measured_;
-  bool varies_;
+  bool modes_, varies_;
   const std::vector<LifeGroup>& groups_;
   std::size_t left_out_;
   Paper paper_;
@@ -284,15 +291,17 @@ class Drawing {
 void show_life_paper(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
                      PosteriorStudy& study) {
   const Measured& measured = model->measured.front();
-  if (model->along || model->measured.size() > 1 || measured.form->counted ||
+  if (model->along || (model->measured.size() > 1 && !model->modes) || measured.form->counted ||
       measured.program.has_paths() || measured.observed.failures == 0) {
     return;
   }
   std::vector<LifeGroup> all = life_groups(*model, most_conditions);
   if (all.empty()) return;
   const std::size_t conditions = all.size();
+  std::vector<LifeGroup> parts = all;  // whatever ended them
+  std::erase_if(parts, [](const LifeGroup& each) { return each.modes != ~std::uint32_t{0}; });
   const auto stresses =
-      std::make_shared<const std::vector<LifeStress>>(life_stresses(root, model, all));
+      std::make_shared<const std::vector<LifeStress>>(life_stresses(root, model, parts));
   const auto groups =
       std::make_shared<const std::vector<LifeGroup>>(drawn_groups(root, model, std::move(all)));
   study.figures = [model, groups, conditions, stresses, before = study.figures](const Fit& fit) {

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "wearwell/input/prior.h"
+#include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/study/column_values.h"
 
@@ -24,6 +26,8 @@ struct Lives {
   double largest = 1;      ///< in it
   double middle = 1;       ///< the median of the written values
   bool stated = false;     ///< text or a status marks these as lives
+  bool modes = false;      ///< with a column of failure modes
+  std::string runout;      ///< a line of [failure_modes]
 };
 
 bool is_interval(const ColumnRoles& roles) {
@@ -55,6 +59,39 @@ double middle_of(const Table& table, const Column& column) {
 bool is_path(const ColumnRoles& roles) {
   return roles.has({"depth", "volume", "mass", "crack", "measured"}) ||
          (has_units(roles) && !roles.has({"life"}));
+}
+
+// Failure modes differ from row to row; one word in all rows says nothing.
+bool has_modes(const ColumnRoles& roles) {
+  const auto mode = roles.find({"mode"});
+  if (!mode) return false;
+  const std::size_t kinds = kinds_of(roles.table(), *mode->column).size();
+  return kinds >= 2 && kinds <= FailureModes::most + 1;
+}
+
+void take_modes(ColumnRoles& roles, Lives& lives) {
+  if (!has_modes(roles)) return;
+  lives.columns += ColumnRoles::line("mode", *roles.take("mode", {"mode"}));
+  lives.modes = true;
+  lives.stated = true;
+}
+
+// Without a status column a word of the mode column marks run-outs: a long one is known, a short one can be a mode.
+void take_runouts_of_modes(ColumnRoles& roles, const Column& column, Lives& lives) {
+  std::vector<std::string> possible;
+  bool known = false;
+  for (const std::string& kind : kinds_of(roles.table(), column)) {
+    if (censoring_by_word(kind) != Censoring::right && kind != "0") continue;
+    known |= folded_word(kind).size() >= shortest_runout_word;
+    possible.push_back("'" + kind + "'");
+  }
+  if (known || possible.empty()) return;
+  lives.runout = roles.unstated_line(
+      "runout",
+      fmt::format(
+          "the word of column '{}' that marks parts that did not fail ({} can be it, or a mode)",
+          column.name, fmt::join(possible, ", ")),
+      "censored");
 }
 
 std::optional<Lives> take_lives(ColumnRoles& roles) {
@@ -94,9 +131,13 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
       roles.guesses.push_back(fmt::format(
           "column '{}' has no unit: a life is a plain number, such as cycles", life->column->name));
   }
+  const auto mode = roles.find({"mode"});
+  take_modes(roles, lives);
   if (const auto status = roles.take_status(true)) {
     lives.columns += *status;
     lives.stated = true;
+  } else if (lives.modes) {
+    take_runouts_of_modes(roles, *mode->column, lives);
   } else if (!lives.open_ends && lives.columns.starts_with("life")) {
     roles.guesses.emplace_back(
         "no column tells which parts were stopped unbroken: all count as failures");
@@ -109,6 +150,32 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.columns += ColumnRoles::line("entry", since);
   }
   return lives;
+}
+
+constexpr const char* family =
+    "[likelihood.life]\n"
+    "family = \"weibull\"                       # the usual first choice; or lognormal, "
+    "loglogistic, gamma "
+    "(docs/reference/formula-models.md)\n"
+    "scale  = \"characteristic\"                # 63.2 % have failed by then\n"
+    "shape  = \"slope\"\n";
+
+std::string likelihood(const Lives& lives, const std::string& scale) {
+  if (!lives.modes) return family;
+  return "[failure_modes]\n"
+         "column = \"mode\"                         # competing risks: a part fails by the mode "
+         "whose life "
+         "ends first\n" +
+         lives.runout +
+         "\n[likelihood.life]                       # of every mode; one of another family has a "
+         "table "
+         "[failure_modes.NAME]\n"
+         "family = \"weibull\"                       # or lognormal, loglogistic, gamma "
+         "(docs/reference/life.md)\n"
+         "scale  = " +
+         toml_text(scale) +
+         "          # 63.2 % would have failed by then, by this mode alone\n"
+         "shape  = \"slope[mode]\"\n";
 }
 
 std::string life_priors(const Lives& lives, const char* scale, double size) {
@@ -136,14 +203,6 @@ const char* const answers =
     "b_lives        = [1, 10, 50]             # lives at which 1, 10 and 50 % have failed\n"
     "credible_level = 0.9                     # of their lower bounds\n";
 
-constexpr const char* family =
-    "[likelihood.life]\n"
-    "family = \"weibull\"                       # the usual first choice; or lognormal, "
-    "loglogistic, gamma "
-    "(docs/reference/formula-models.md)\n"
-    "scale  = \"characteristic\"                # 63.2 % have failed by then\n"
-    "shape  = \"slope\"\n";
-
 }  // namespace
 
 std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
@@ -164,12 +223,14 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
   const std::string survival =
       toml_text(quantity_text(rounded_up(lives->largest) / 10, lives->unit));
   return roles.study(
-      "lives of parts: one Weibull distribution",
+      lives->modes ? "lives of parts: a Weibull distribution for each failure mode"
+                   : "lives of parts: one Weibull distribution",
       lives->stated ? ReadingFit::general : ReadingFit::possible,
-      head(roles, "Lives") + lives->columns + "\n" + family + "\n" +
-          life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
-          fmt::format("# survival_to = {}                  # share that survives this life\n",
-                      survival) +
+      head(roles, "Lives") + lives->columns + "\n" + likelihood(*lives, "characteristic[mode]") +
+          "\n" + life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
+          fmt::format("{}survival_to = {}                  # share that survives this life{}\n",
+                      lives->modes ? "" : "# ", survival,
+                      lives->modes ? ", and that has failed by each mode" : "") +
           (conditions.empty()
                ? ""
                : "\n# Lives that differ by group: characteristic = \"m[group]\" "
@@ -192,7 +253,9 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
     if (found && differs(roles.table(), *found->column)) powers.push_back(each);
   }
   if (!by_temperature && powers.empty()) return {};
-  std::string columns, constants, formula = "life_ref", given, priors;
+  std::string columns, constants, given, priors;
+  const std::string each = has_modes(roles) ? "[mode]" : "";
+  std::string formula = "life_ref" + each;
   std::vector<std::string> said;
   if (by_temperature) {
     const Found found = *roles.take("temperature", {"temperature"});
@@ -203,7 +266,7 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
         "boltzmann = \"8.617333262e-5 eV/K\"\n"
         "reference = {}    # conditions at which life_ref is the characteristic life\n",
         toml_text(quantity_text(*harsh, found.unit)));
-    formula += " * exp(energy/boltzmann * (1/temperature - 1/reference))";
+    formula += " * exp(energy" + each + "/boltzmann * (1/temperature - 1/reference))";
     given += fmt::format("temperature = {}", toml_text(quantity_text(*mild, found.unit)));
     priors +=
         "energy = { distribution = \"normal\", mean = \"0.7 eV\", sd = \"0.3 eV\" }    # "
@@ -211,9 +274,9 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
         "of the aging process\n";
     said.emplace_back("Arrhenius' law of temperature");
   }
-  for (const std::string_view each : powers) {
-    const Found found = *roles.take(std::string(each), {each});
-    const std::string name(each == "alternating_stress" ? "stress" : each);
+  for (const std::string_view power : powers) {
+    const Found found = *roles.take(std::string(power), {power});
+    const std::string name(power == "alternating_stress" ? "stress" : power);
     columns += ColumnRoles::line(name, found);
     const auto values = values_of(roles.table(), *found.column);
     const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
@@ -222,7 +285,7 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
     constants +=
         fmt::format("{}_ref = {}    # conditions at which life_ref is the characteristic life\n",
                     name, toml_text(quantity_text(*harsh, found.unit)));
-    formula += fmt::format(" * ({0}/{0}_ref)^-{0}_power", name);
+    formula += fmt::format(" * ({0}/{0}_ref)^-{0}_power{1}", name, each);
     given += fmt::format("{}{} = {}", given.empty() ? "" : ", ", name, quantity);
     priors += fmt::format(
         "{}_power = {{ distribution = \"normal\", mean = 5, sd = 5 }}    # exponent: a higher "
@@ -244,7 +307,8 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
           constants +
           "\n"
           "[formula]                                    # the simplest formula for such lives: " +
-          how + "\ncharacteristic = \"" + formula + "\"\n\n" + family + "\n" +
+          how + "\ncharacteristic = \"" + formula + "\"\n\n" +
+          likelihood(*lives, "characteristic") + "\n" +
           life_priors(*lives, "life_ref", lives->middle) + priors + "\n[predict]\n" +
           fmt::format(
               "given = {{ {} }}    # GUESS: the mildest conditions tested; state those of use\n",

@@ -102,7 +102,7 @@ std::vector<LifeStress> life_stresses(const TomlReader& root,
     for (const double at : stress.at) {
       Conditions there = most->conditions;
       there.numbers[name] = at;
-      stress.lives.push_back(life_distribution(root, model, there));
+      stress.lives.push_back(life_distribution(root, "likelihood", model, there));
     }
     stresses.push_back(std::move(stress));
   }

@@ -91,7 +91,7 @@ class Exporter {
         root_(TomlReader::parse(state.source.study)),
         model_(read_formula_model(root_, state.source)),
         population_(model_, state.posterior) {
-    refuse_drawn_effects(*model_, "exported");
+    refuse_unsupported(*model_, "exported");
     // Speed does not matter here.
     population_.few = population_.many;
     if (model_->has_process())

@@ -1,0 +1,262 @@
+#include "wearwell/models/formula_model/failure_modes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <regex>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/input/cell_text.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/status_words.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr std::string_view keys_of_modes[] = {"column", "runout", "unknown"};
+
+// Cells of the mode column.
+class ModeCells {
+ public:
+  ModeCells(const TomlReader& section, const FormulaData& data, const Observed& all,
+            const std::string& heading)
+      : section_(section), data_(data), column_(data.table.column(heading)), all_(all) {
+    for (const std::string& each : section.texts("runout")) runout_.push_back(folded_word(each));
+    for (const std::string& each : section.texts("unknown")) unknown_.push_back(folded_word(each));
+    for (std::size_t i = 0; i < all.rows.size(); ++i) marks_runouts_ |= says_runout(word(i));
+    const SpecialColumns special = special_columns(data);
+    stated_ = data.status || special.lower || special.upper || marks_runouts_ ||
+              std::any_of(all.responses.begin(), all.responses.end(),
+                          [](const Response& y) { return y.seen != Censoring::none; });
+  }
+
+  // The modes that the cell of observation i names; none for a run-out; `every` if it is unknown.
+  struct Named {
+    bool runout = false;
+    std::vector<std::string> modes = {};
+  };
+  Named named(std::size_t i) const {
+    const std::string text = word(i);
+    const bool none = text.empty(),
+               unknown = is_in(unknown_, text) || folded_word(text) == "unknown";
+    if (all_.responses[i].seen == Censoring::right) {
+      if (!none && !unknown && !says_runout(text) && !is_runout_word(text))
+        fail(i,
+             fmt::format("this life is a run-out, but has the failure mode '{}'; a run-out has no "
+                         "mode: leave the cell empty, or correct its status",
+                         text));
+      return {true};
+    }
+    if (says_runout(text)) {
+      if (data_.status)
+        fail(i, fmt::format("'{}' is a run-out, but column '{}' has '{}'; correct one of them",
+                            text, data_.status->column,
+                            cell_word(data_.table.column(data_.status->column), all_.rows[i])));
+      if (all_.responses[i].seen != Censoring::none)
+        fail(i, fmt::format("'{}' is a run-out, but the life has an upper end; correct one of them",
+                            text));
+      return {true};
+    }
+    if (unknown) return {};
+    if (none && !stated_)
+      fail(
+          i,
+          "no failure mode: it can mean a run-out, or a failure of unknown mode; write 'runout' or "
+          "'unknown' in the cell, or give the study a status column");
+    return none ? Named{} : Named{false, parts(i, text)};
+  }
+
+ private:
+  std::string word(std::size_t i) const {
+    const std::string text = cell_word(column_, all_.rows[i]);
+    return is_missing_mark(text) ? std::string() : text;
+  }
+  static bool is_in(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), folded_word(word)) != words.end();
+  }
+  static bool is_runout_word(const std::string& text) {
+    return censoring_by_word(text) == Censoring::right;
+  }
+
+  // The study's words take precedence. With a status column the status decides, so a short word can be a mode.
+  bool says_runout(const std::string& text) const {
+    if (text.empty()) return false;
+    if (!runout_.empty()) return is_in(runout_, text);
+    return is_runout_word(text) && folded_word(text).size() >= shortest_runout_word;
+  }
+
+  std::vector<std::string> parts(std::size_t i, const std::string& text) const {
+    std::vector<std::string> modes;
+    for (std::size_t at = 0; at <= text.size();) {
+      const std::size_t bar = std::min(text.find('|', at), text.size());
+      std::string mode = text.substr(at, bar - at);
+      mode.erase(0, std::min(mode.find_first_not_of(" \t"), mode.size()));
+      mode.erase(mode.find_last_not_of(" \t") + 1);
+      at = bar + 1;
+      if (mode.empty())
+        fail(i,
+             fmt::format("'{}' has an empty failure mode; write the possible ones as 'A|B'", text));
+      refuse_two_readings(i, mode);
+      if (mode.find('\'') != mode.npos && mode.find('"') != mode.npos)
+        fail(i, fmt::format("'{}' has both kinds of quotation marks", mode));
+      if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+    }
+    return modes;
+  }
+
+  void refuse_two_readings(std::size_t i, const std::string& mode) const {
+    if (data_.status || !runout_.empty() || marks_runouts_) return;
+    if (!is_runout_word(mode) && mode != "0") return;
+    fail(i,
+         fmt::format("'{0}' can mean a run-out, or a failure mode of this name; give the study a "
+                     "status column, or write [failure_modes] runout = \"{0}\", or the word of the "
+                     "table that marks run-outs",
+                     mode));
+  }
+
+  [[noreturn]] void fail(std::size_t i, const std::string& why) const {
+    throw InputError(fmt::format("{}: {}", place(data_.table, column_.name, all_.rows[i]), why));
+  }
+
+  const TomlReader& section_;
+  const FormulaData& data_;
+  const Column& column_;
+  const Observed& all_;
+  std::vector<std::string> runout_, unknown_;
+  bool marks_runouts_ = false, stated_ = false;
+};
+
+std::size_t place_of(std::vector<std::string>& all, const std::string& name) {
+  const auto at = std::find(all.begin(), all.end(), name);
+  const auto place = static_cast<std::size_t>(at - all.begin());
+  if (at == all.end()) all.push_back(name);
+  return place;
+}
+
+}  // namespace
+
+std::vector<std::string> modes_with_tables(const TomlReader& failure_modes) {
+  std::vector<std::string> names;
+  for (const std::string& key : failure_modes.keys()) {
+    if (std::find(std::begin(keys_of_modes), std::end(keys_of_modes), key) ==
+        std::end(keys_of_modes))
+      names.push_back(key);
+  }
+  return names;
+}
+
+FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
+                                const Observed& all) {
+  const TomlReader section = root.required_table("failure_modes");
+  FailureModes found{section.required_text("column"), {}, {}};
+  const TomlReader columns = root.required_table("data").required_table("columns");
+  const std::string heading = columns.is_text(found.name)
+                                  ? columns.required_text(found.name)
+                                  : columns.required_table(found.name).required_text("column");
+  const ModeCells cells(section, data, all, heading);
+  found.possible.assign(data.table.rows, 0);
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const ModeCells::Named named = cells.named(i);
+    if (named.runout) continue;
+    if (named.modes.empty()) unknown.push_back(all.rows[i]);
+    for (const std::string& mode : named.modes) {
+      const std::size_t k = place_of(found.modes, mode);
+      if (k == FailureModes::most)
+        throw InputError(fmt::format(
+            "{}: '{}' is failure mode number {}; at most {} are possible: put rare ones together",
+            place(data.table, heading, all.rows[i]), mode, k + 1, FailureModes::most));
+      found.possible[all.rows[i]] |= std::uint32_t{1} << k;
+    }
+  }
+  if (found.modes.empty())
+    throw InputError(
+        fmt::format("{}: column '{}' names no failure mode", data.table.source, heading));
+  const std::uint32_t every = (std::uint32_t{1} << found.modes.size()) - 1;
+  for (const std::size_t row : unknown) found.possible[row] = every;
+  for (const std::string& mode : modes_with_tables(section)) {
+    if (std::find(found.modes.begin(), found.modes.end(), mode) != found.modes.end()) continue;
+    section.fail(mode, fmt::format("no row of column '{}' has this failure mode, but {}{}", heading,
+                                   fmt::join(found.modes, ", "), did_you_mean(mode, found.modes)));
+  }
+  return found;
+}
+
+ObservedModes observed_by_mode(const FailureModes& modes, const Observed& all) {
+  ObservedModes result;
+  result.of.resize(modes.modes.size());
+  const bool alone = modes.modes.size() == 1;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const std::uint32_t possible = modes.possible[all.rows[i]];
+    const Response& y = all.responses[i];
+    Response lasted = y;
+    lasted.seen = Censoring::right;
+    const bool exact = y.seen == Censoring::none;
+    if (possible != 0 && !alone && (!exact || std::popcount(possible) > 1)) {
+      result.joint.push_back({all.rows[i], possible, y.seen == Censoring::left ? 0 : y.at,
+                              y.seen == Censoring::interval ? y.until : y.at});
+    }
+    for (std::size_t k = 0; k < result.of.size(); ++k) {
+      const bool mine = possible >> k & 1;
+      Observed& own = result.of[k];
+      own.failures += mine ? 1 : 0;
+      // From 0 on a run-out says nothing.
+      if (!alone && possible != 0 && y.seen == Censoring::left) continue;
+      const bool failed = mine && (alone || (exact && std::has_single_bit(possible)));
+      own.rows.push_back(all.rows[i]);
+      own.counts.push_back(all.counts[i]);
+      own.responses.push_back(failed ? y : lasted);
+    }
+  }
+  return result;
+}
+
+std::string of_mode(const std::string& text, const std::string& name, const std::string& mode) {
+  const char mark = mode.find('\'') == mode.npos ? '\'' : '"';
+  const std::regex level(R"(\[\s*)" + name + R"(\s*\])");
+  std::string escaped;
+  for (const char c : mode) escaped += c == '$' ? std::string("$$") : std::string(1, c);
+  return std::regex_replace(text, level, fmt::format("[{}{}{}]", mark, escaped, mark));
+}
+
+LinesByMode::LinesByMode(const TomlReader& root, const FailureModes& modes,
+                         const std::vector<formula::Line>& lines)
+    : modes_(modes), lines_(lines) {
+  const std::regex level(R"(\[\s*)" + modes.name + R"(\s*\])");
+  for (bool more = true; more;) {
+    more = false;
+    for (const formula::Line& line : lines) {
+      if (std::find(dependent_.begin(), dependent_.end(), line.name) != dependent_.end()) continue;
+      const bool uses = std::any_of(dependent_.begin(), dependent_.end(), [&](const auto& name) {
+        return std::regex_search(line.text, std::regex("\\b" + name + "\\b"));
+      });
+      if (!uses && !std::regex_search(line.text, level)) continue;
+      if (line.name.find('(') != line.name.npos)
+        root.required_table("formula").fail(
+            line.name,
+            fmt::format("depends on [{}]; only a plain intermediate value can", modes.name));
+      dependent_.push_back(line.name);
+      more = true;
+    }
+  }
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    for (const formula::Line& line : lines) {
+      if (std::find(dependent_.begin(), dependent_.end(), line.name) == dependent_.end()) continue;
+      lines_.push_back({fmt::format("{}__{}", line.name, k + 1), text(line.text, k)});
+    }
+  }
+}
+
+std::string LinesByMode::text(const std::string& written, std::size_t k) const {
+  std::string text = written;
+  for (const std::string& name : dependent_) {
+    text = std::regex_replace(text, std::regex("\\b" + name + "\\b"),
+                              fmt::format("{}__{}", name, k + 1));
+  }
+  return of_mode(text, modes_.name, modes_.modes[k]);
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,111 @@
+#include "wearwell/models/formula_model/mode_answers.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "wearwell/models/formula_model/formula_asked.h"
+#include "wearwell/models/formula_model/life_groups.h"
+#include "wearwell/models/formula_model/mode_figures.h"
+#include "wearwell/study/numerical_error.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+// Some of the modes, and how a report names a part that can fail by them only.
+struct SomeModes {
+  std::uint32_t modes;
+  std::string of;       // "with mode 1 alone"
+  std::string at = {};  // other words for the same
+};
+
+// Of two modes, a part with one alone is the part without the other.
+std::vector<SomeModes> selections(const std::vector<std::string>& modes) {
+  const std::uint32_t every = (std::uint32_t{1} << modes.size()) - 1;
+  std::vector<SomeModes> all;
+  if (modes.size() < 2) return all;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    all.push_back({std::uint32_t{1} << k, fmt::format("with {} alone", modes[k])});
+    if (modes.size() == 2) all.back().at = "without " + modes[1 - k];
+  }
+  for (std::size_t k = 0; modes.size() > 2 && k < modes.size(); ++k)
+    all.push_back({every & ~(std::uint32_t{1} << k), "without " + modes[k]});
+  return all;
+}
+
+void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy& study) {
+  const Unit& unit = asked.model->measured.front().unit;
+  const std::string noun = asked.noun + " " + some.of, at = joined(asked.words, some.at);
+  AskedOfLife own = asked.part;
+  own.life = life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
+                               asked.model, asked.conditions, some.modes);
+  own.fast = own.other = nullptr;
+  own.hazard.clear();
+  QuantityGroup group;
+  const auto add = [&](const std::string& name, const std::string& where, const Unit& in) {
+    group.requests.push_back(request(name, noun, where, in));
+    group.requests.back().safe_end = 0.05;
+    group.requests.back().credible_level = own.levels.credible_level;
+  };
+  const auto add_life = [&](const std::string& name, const std::string& where) {
+    group.requests.push_back(request(name, "new " + noun, where, unit));
+    group.requests.back().safe_end = 0.05;
+    group.requests.back().is_life = true;
+    for (const double percent : own.levels.percents) add(b_life_name(percent, name), where, unit);
+    if (own.mean) add("mean " + name, where, unit);
+  };
+  add_life("life", at);
+  if (own.survived)
+    add_life("remaining useful life",
+             joined(at, fmt::format("from {} on", description(*own.survived))));
+  for (const Quantity& each : own.survival)
+    add("survival to " + description(each), at, Unit{"%", 0.01, 0});
+  group.from_draws = [own](const WeightedDraws& draws) { return life_answers(own, draws); };
+  group.lives = [own](const WeightedDraws& draws) { return predictive_lives(own, draws); };
+  study.quantity_groups.push_back(std::move(group));
+}
+
+std::vector<QuantityQuantiles> shares_failed(const LifeDistribution& part, std::size_t modes,
+                                             const std::vector<Quantity>& by,
+                                             const WeightedDraws& draws, double points) {
+  std::vector<QuantityQuantiles> all(modes * by.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    const LifeDistribution::Known known =
+        part.incidence(draws, i % modes, by[i / modes].si(), points);
+    const QuantityDistribution& of = known.distribution;
+    all[i] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
+    all[i].numerical_error = known.misfit;
+  });
+  return all;
+}
+
+void add_shares(const AskedOfModes& asked, PosteriorStudy& study) {
+  const std::vector<Quantity>& by = asked.part.survival;
+  const std::vector<std::string>& modes = asked.model->modes->modes;
+  if (by.empty()) return;
+  QuantityGroup group;
+  for (const Quantity& each : by) {
+    for (const std::string& mode : modes) {
+      group.requests.push_back(request(fmt::format("failed by {} to {}", mode, description(each)),
+                                       asked.noun, asked.words, Unit{"%", 0.01, 0}));
+      group.requests.back().safe_end = 0.95;
+    }
+  }
+  group.from_draws = [part = asked.part.life, by,
+                      count = modes.size()](const WeightedDraws& draws) {
+    std::vector<QuantityQuantiles> found = shares_failed(*part, count, by, draws, 1);
+    if (!part->over_all())
+      estimate_numerical_errors(found, shares_failed(*part, count, by, draws, fewer_points));
+    return found;
+  };
+  study.quantity_groups.push_back(std::move(group));
+}
+
+}  // namespace
+
+void add_mode_answers(const AskedOfModes& asked, PosteriorStudy& study) {
+  add_shares(asked, study);
+  for (const SomeModes& each : selections(asked.model->modes->modes)) add_lives(asked, each, study);
+  show_incidence(asked.model, asked.part.life, asked.words, study);
+}
+
+}  // namespace wearwell::formula_model
