@@ -90,9 +90,9 @@ std::string loss_text(const DecisionLoss& loss) {
   const std::string per = factor == 1 ? unit : fmt::format("{} {}", plain_number(factor), unit);
   return fmt::format(
       "Replacement {} costs {}{}{} per {} today; with lives known exactly it would cost {}, so "
-      "that "
-      "no test saves more than {:.3g} %.",
-      std::isfinite(loss.age) ? "at " + with_plain_unit(loss.age, loss.per) : "at failure only",
+      "that no test saves more than {:.3g} %.",
+      std::isfinite(loss.age) ? fmt::format("at {} {}", plain_number(loss.age * factor), unit)
+                              : std::string("at failure only"),
       plain_number(loss.now), loss.currency.empty() ? "" : " ", loss.currency, per,
       plain_number(loss.known), 100 * (1 - loss.known / loss.now));
 }
