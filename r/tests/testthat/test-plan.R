@@ -132,8 +132,8 @@ test_that("next tests are the program's, of folders and fits, files and frames",
   same(ww_plan_next(folder, goal, grid = grid, specimens = c(1, 3), batch = 2, samples = 64, nodes = 200, seed = 7),
        "next", folder, "--goal", goal, "--grid", "alternating_stress_MPa = 230, 250; mean_stress_MPa = 1000; stop = 5e5 cycles",
        "--specimens", "1, 3", "--batch", 2, "--samples", 64, "--nodes", 200, "--seed", 7)
-  same(ww_plan_next(folder, goal, candidates = file, by = "loss", failure_cost = "20 EUR", replacement_cost = "1 EUR", nodes = 200),
-       "next", folder, "--goal", goal, "--candidates", file, "--by", "loss", "--failure-cost", "20 EUR", "--replacement-cost", "1 EUR",
+  same(ww_plan_next(folder, goal, candidates = file, cost = "cost", by = "loss", failure_cost = "20 EUR", replacement_cost = "1 EUR", nodes = 200),
+       "next", folder, "--goal", goal, "--candidates", file, "--cost", "cost", "--by", "loss", "--failure-cost", "20 EUR", "--replacement-cost", "1 EUR",
        "--nodes", 200)
   refused(ww_plan_next(fit, "B10 at hanger", candidates = tests), "goal: the study has no")
   refused(ww_plan_next(fit, goal, candidates = tests, cost = "price"), "cost: candidates has no column 'price'")
