@@ -293,7 +293,7 @@ def test_next_tests_by_loss(same, springs, candidates, results, tmp_path):
     same(plan, "next", results, "--goal", goal, "--candidates", table, "--cost", "cost", "--by", "loss", "--failure-cost", "20 EUR",
          "--replacement-cost", "1 EUR", "--fleet-use", "1e10 cycles", "--nodes", 200)
     with pytest.raises(ww.InputError, match="^replacement_cost is missing: by loss needs failure_cost"):
-        ww.plan.next(springs, goal, candidates=candidates, by="loss", failure_cost=3)
+        ww.plan.next(springs, goal, candidates=candidates, cost="cost", by="loss", failure_cost=3)
 
 
 def test_grids_batches_and_several_specimens(same, springs, results):
@@ -329,7 +329,7 @@ def test_errors_of_next_tests_name_the_argument(springs, candidates):
 
     refused("goal: the study has no", "B10 at hanger", candidates=candidates)
     refused("grid: 'stress'", goal, grid="stress")
-    refused("by: 'size' must be variance or information", goal, candidates=candidates, by="size")
+    refused("by: 'size' must be variance, information or loss", goal, candidates=candidates, by="size")
     refused("cost: candidates has no column 'price'", goal, candidates=candidates, cost="price")
     refused("specimen_cost", goal, candidates=candidates, specimen_cost=-1)
     refused("batch is 2.5; it is a whole number", goal, candidates=candidates, batch=2.5)
