@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plan/grid_posterior.h"
+#include "plan/lives_source.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/plan/next_question.h"
@@ -14,29 +15,6 @@ namespace {
 
 using nlohmann::ordered_json;
 using testing::HasSubstr;
-
-// Lives of six parts, in hours.
-Source lives_source() {
-  Source source{{"life.toml", R"(title = "Lives"
-model = "formula"
-[data]
-file = "lives.csv"
-[data.columns]
-life = { column = "hours", unit = "h" }
-[likelihood.life]
-family = "weibull"
-scale = "size"
-shape = "slope"
-[prior]
-size = { distribution = "lognormal", median = "100 h", log_sd = 1 }
-slope = { distribution = "lognormal", median = 2, log_sd = 0.5 }
-[predict]
-b_lives = [10]
-)"}};
-  source.tables["lives.csv"] =
-      table_of("lives.csv", {numbers_column("hours", {61, 80, 95, 110, 130, 150})});
-  return source;
-}
 
 WeightedDraws lives_posterior() {
   return on_grid(posterior_of(lives_source()), {3600.0 * 40, 3600.0 * 260, 0.4, 7.5, 40});

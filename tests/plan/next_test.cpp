@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plan/grid_posterior.h"
+#include "plan/lives_source.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/plan/gain.h"
@@ -189,29 +190,6 @@ TEST(NextTest, CountsTestsDoneSinceTheFit) {
               0.01 * std::sqrt(goal_variance({2})));
 }
 
-// Lives of six parts; the brute-force simulation draws whole tables and reads them as data.
-Source weibull_source() {
-  Source source{{"life.toml", R"(title = "Lives"
-model = "formula"
-[data]
-file = "lives.csv"
-[data.columns]
-life = { column = "hours", unit = "h" }
-[likelihood.life]
-family = "weibull"
-scale = "size"
-shape = "slope"
-[prior]
-size = { distribution = "lognormal", median = "100 h", log_sd = 1 }
-slope = { distribution = "lognormal", median = 2, log_sd = 0.5 }
-[predict]
-b_lives = [10]
-)"}};
-  source.tables["lives.csv"] =
-      table_of("lives.csv", {numbers_column("hours", {61, 80, 95, 110, 130, 150})});
-  return source;
-}
-
 constexpr Grid weibull_grid{3600.0 * 40, 3600.0 * 260, 0.4, 7.5, 40};
 
 double variance_after(const Source& source, std::span<const double> values) {
@@ -227,7 +205,7 @@ double variance_after(const Source& source, std::span<const double> values) {
 }
 
 TEST(NextTest, AgreesWithSimulatedTablesThatAreReadAsData) {
-  const Source source = weibull_source();
+  const Source source = lives_source();
   const WeightedDraws draws = on_grid(posterior_of(source), weibull_grid);
   const auto whole = reading()(source);
   const Goal goal = goal_of(require_posterior_study(*whole), "B10");
@@ -279,7 +257,7 @@ TEST(NextTest, AgreesWithSimulatedTablesThatAreReadAsData) {
 }
 
 TEST(NextTest, TestsStoppedAtOnceShowNothing) {
-  const Source source = weibull_source();
+  const Source source = lives_source();
   NextQuestion question;
   question.goal = "B10";
   question.grid = "stop = 0.001, 60, 1000 h";
