@@ -76,7 +76,7 @@ bool proper(const Fit& fit);
 std::string beyond_quadrature(std::size_t parameters);
 
 /// Finds the mode, examines the tails, searches for other local maxima, integrates exactly when there are at most
-/// `max_exact_dimension` parameters and the posterior is proper, and draws. What a stage does not reach is in `shortfalls`, not
+/// `max_exact_dimension` parameters and the posterior is proper, and draws. What a stage does not reach is in `stage_diagnostics`, not
 /// thrown; ask `trust_checks` before you use the numbers. Throws `Cancelled` when it is asked to stop.
 Fit fit(const Posterior& posterior, const FitSettings& settings);
 
