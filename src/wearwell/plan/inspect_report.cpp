@@ -8,6 +8,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/prognosis/plural.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::plan {
@@ -79,28 +80,28 @@ std::string fleet_answer(const InspectReport& report) {
     past += each.past;
   }
   const std::string& noun = report.lives->noun;
+  const std::string nouns = prognosis::plural(noun);
   std::string text =
       report.visits.empty()
           ? fmt::format("No inspection is needed until {} from now.",
                         use_text(report, report.until))
           : fmt::format(
-                "{} visit{} with {} inspections of {} {}s until {} from now; the first {}.",
+                "{} visit{} with {} inspections of {} {} until {} from now; the first {}.",
                 report.visits.size(), report.visits.size() == 1 ? "" : "s", inspections,
-                report.units.size() - past, noun, use_text(report, report.until),
+                report.units.size() - past, nouns, use_text(report, report.until),
                 report.visits[0] == 0 ? "now" : "after " + use_text(report, report.visits[0]));
   if (report.aim == InspectAim::fewest)
     text += fmt::format(
-        " No plan with fewer visits keeps the risk of every {0}; {0}s planned one by one would "
-        "need "
-        "{1} visits.",
-        noun, report.alone_visits);
+        " No plan with fewer visits keeps the risk of every {}; {} planned one by one would "
+        "need {} visits.",
+        noun, nouns, report.alone_visits);
   if (report.joint)
     text += fmt::format(
         " Expected cost {}, visits included; no plan at the examined times costs less than {}.",
         money_text(report, report.joint->total), money_text(report, report.joint->least_possible));
   if (past > 0)
-    text += fmt::format(" {} {}{} more likely than not past the threshold: replace or inspect now.",
-                        past, noun, past == 1 ? " is" : "s are");
+    text += fmt::format(" {} {} more likely than not past the threshold: replace or inspect now.",
+                        past, past == 1 ? noun + " is" : nouns + " are");
   return text;
 }
 

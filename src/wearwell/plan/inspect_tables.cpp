@@ -6,6 +6,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/plan/inspect_report.h"
 #include "wearwell/present/plot.h"
+#include "wearwell/prognosis/plural.h"
 
 namespace wearwell::plan {
 namespace {
@@ -135,7 +136,7 @@ present::Table visits_table(const InspectReport& report) {
                        {{"visit"},
                         {"from now", axis},
                         {"inspects", "1", present::given},
-                        {fmt::format("{}s", report.lives->noun)},
+                        {prognosis::plural(report.lives->noun)},
                         {"reach the threshold by then", "1", present::digits(3)},
                         {"at least one", "%", present::digits(3)}}};
   for (std::size_t v = 0; v < report.visits.size(); ++v) {
@@ -229,10 +230,13 @@ html::Figure visits_figure(const InspectReport& report) {
     marks.push_back(plot::points({{"x", x}, {"y", y}}, {colour::measured, "inspection"}));
   }
   const std::string shown =
-      report.units.size() > most ? fmt::format(" The first {} {}s.", most, report.lives->noun) : "";
+      report.units.size() > most
+          ? fmt::format(" The first {} {}.", most, prognosis::plural(report.lives->noun))
+          : "";
   return {"visits",
           "Visits ahead",
-          fmt::format("Which {}s are inspected at which visit.{}", report.lives->noun, shown),
+          fmt::format("Which {} are inspected at which visit.{}",
+                      prognosis::plural(report.lives->noun), shown),
           plot::plot("Inspections of each unit against use from now on",
                      {axis_heading(report, "From now"), false, 0.0, in_axis(report, report.until)},
                      units, std::move(marks),

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/prognosis/plural.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -93,9 +94,9 @@ Decisions decide(const KnownLives& lives, const Question& question) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!std::isfinite(each.points().back()))
         throw InputError(
-            fmt::format("{}: some {}s never fail, so an undetected failure has no long-run cost; "
+            fmt::format("{}: some {} never fail, so an undetected failure has no long-run cost; "
                         "leave out the cost of downtime",
-                        lives.title, lives.noun));
+                        lives.title, plural(lives.noun)));
     }
     decisions.inspection = cheapest_hidden_interval(lives.fresh, question.costs, *question.hidden);
   } else if (question.inspected) {

@@ -9,6 +9,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/prognosis/decisions_tables.h"
+#include "wearwell/prognosis/plural.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::prognosis {
@@ -64,13 +65,13 @@ std::string warranty_text(const DecisionsReport& report) {
   const Warranty& warranty = *report.decisions.warranty;
   const std::string share = percent(warranty.share);
   if (!std::isfinite(warranty.length))
-    return fmt::format("A warranty of any length has claims for less than {} of new {}s.", share,
-                       report.lives.noun);
+    return fmt::format("A warranty of any length has claims for less than {} of new {}.", share,
+                       plural(report.lives.noun));
   const auto length = [&](double si) {
     return std::isfinite(si) ? shown.age(si) : std::string("any length");
   };
-  std::string text = fmt::format("A warranty of {} has claims for {} of new {}s on average",
-                                 length(warranty.length), share, report.lives.noun);
+  std::string text = fmt::format("A warranty of {} has claims for {} of new {} on average",
+                                 length(warranty.length), share, plural(report.lives.noun));
   if (report.lives.fresh.lives.size() > 1)
     text += fmt::format("; {} has at most that share with probability 95 %", length(warranty.sure));
   return text + fmt::format(". At {} each, claims cost {} for each unit sold.",
@@ -131,10 +132,10 @@ std::string how_counted(const DecisionsReport& report) {
       "Each unit counts once: parts that fail again within that time are not counted. ";
   if (counting.populations > 0)
     return text + fmt::format(
-                      "The population of the {}s is uncertain: units are independent given each of "
+                      "The population of the {} is uncertain: units are independent given each of "
                       "{} possible populations, and these are averaged by their posterior weights "
                       "(effective number {:.0f}).",
-                      report.lives.noun, counting.populations, counting.effective);
+                      plural(report.lives.noun), counting.populations, counting.effective);
   return text + fmt::format(
                     "Units are counted as independent, since {}; uncertainty of their common "
                     "population would widen the intervals.",
@@ -167,11 +168,12 @@ std::vector<Check> decision_checks(const DecisionsReport& report) {
          "These points do not determine the probability of such early failures; use more points, "
          "or weighted ones in the tail."});
   if (report.decisions.counting.outgrown)
-    checks.push_back({"population", Verdict::warn,
-                      fmt::format("the counts of the fleet assume independent {}s: {}",
-                                  report.lives.noun, report.decisions.counting.why_independent),
-                      "Intervals and spare parts are too narrow. Fit with these readings in the "
-                      "data (wearwell update) to update the population."});
+    checks.push_back(
+        {"population", Verdict::warn,
+         fmt::format("the counts of the fleet assume independent {}: {}", plural(report.lives.noun),
+                     report.decisions.counting.why_independent),
+         "Intervals and spare parts are too narrow. Fit with these readings in the "
+         "data (wearwell update) to update the population."});
   if (report.worth && std::abs(report.worth->worth.error) > 0.02)
     checks.push_back({"inspection", Verdict::warn,
                       fmt::format("the possible outcomes of the reading do not average to the "
@@ -215,7 +217,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   policy.add(policies_table(report));
   std::vector<present::Section> sections = {policy};
   if (!report.decisions.units.empty()) {
-    present::Section units{"units", html::capital(report.lives.noun) + "s"};
+    present::Section units{"units", html::capital(plural(report.lives.noun))};
     units.add(
         present::Prose{"Replace after: the time of least cost, given the long-run cost of use in "
                        "the fleet. Waiting saves: compared with replacement now."});

@@ -7,18 +7,13 @@
 #include <limits>
 
 #include "wearwell/present/plot.h"
+#include "wearwell/prognosis/plural.h"
 
 namespace wearwell::prognosis {
 namespace {
 
 using present::Table;
 namespace colour = plot::colour;
-
-// "units with mode 1 alone" of "unit with mode 1 alone".
-std::string plural(const std::string& noun) {
-  const std::size_t end = std::min({noun.find(" with "), noun.find(" without "), noun.size()});
-  return noun.substr(0, end) + "s" + noun.substr(end);
-}
 
 const char* inspected_how(const DecisionsReport& report) {
   return report.question.hidden ? "inspected, failures hidden" : "inspected, wear fully observed";
@@ -96,8 +91,8 @@ Table months_table(const DecisionsReport& report) {
   const Shown shown{report};
   const std::string level = fmt::format("{:.4g} %", 100 * report.question.service);
   Table table{"fleet",
-              fmt::format("Numbers of {} {}s, from now until the end of each month",
-                          report.lives.units.size(), report.lives.noun),
+              fmt::format("Numbers of {} {}, from now until the end of each month",
+                          report.lives.units.size(), plural(report.lives.noun)),
               {{"month", "1", present::given},
                {"use by then", shown.unit()},
                {"reach the threshold", "1", present::digits(3)},
@@ -166,7 +161,7 @@ html::Figure months_figure(const DecisionsReport& report) {
           "spare parts that suffices if each is replaced in time.",
           plot::plot("Units that reach their failure threshold against months",
                      month_axis(report.decisions.months.size()),
-                     {fmt::format("{}s", html::capital(report.lives.noun)), false, 0.0},
+                     {html::capital(plural(report.lives.noun)), false, 0.0},
                      {plot::area({{"x", month}, {"y", high}, {"y2", low}},
                                  {colour::posterior, "90 % interval", 0.25}),
                       plot::line({{"x", month}, {"y", middle}}, {colour::posterior, "expected"}),
