@@ -24,17 +24,16 @@ using Eigen::Index;
 constexpr std::size_t most_ages = 120;
 
 prognosis::Costs costs_of(const NextQuestion& question, prognosis::Currency& currency) {
-  const auto needed = [&](const char* option, const std::string& text) {
+  const auto require = [](const char* option, const std::string& text) {
     if (text.empty())
       throw InputError(fmt::format(
           "{} is missing: --by loss needs --failure-cost and --replacement-cost", option));
-    return prognosis::amount(option, text, currency);
   };
+  require("--failure-cost", question.failure_cost);
+  require("--replacement-cost", question.replacement_cost);
   prognosis::Costs costs;
-  costs.failure = needed("--failure-cost", question.failure_cost);
-  costs.replacement = needed("--replacement-cost", question.replacement_cost);
-  if (!(costs.replacement > 0))
-    throw InputError("--replacement-cost: must be above 0; otherwise waiting saves nothing");
+  costs.failure = prognosis::amount("--failure-cost", question.failure_cost, currency);
+  costs.replacement = prognosis::replacement_amount(question.replacement_cost, currency);
   if (!(costs.failure > costs.replacement))
     throw InputError(
         "--failure-cost: must be above --replacement-cost; otherwise nothing is replaced before it "

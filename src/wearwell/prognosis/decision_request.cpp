@@ -17,9 +17,7 @@ Question question_of(const DecisionRequest& request, const Unit& axis) {
   Question question;
   Currency currency;
   question.costs.failure = amount("--failure-cost", request.failure_cost, currency);
-  question.costs.replacement = amount("--replacement-cost", request.replacement_cost, currency);
-  if (question.costs.replacement <= 0)
-    throw InputError("--replacement-cost: must be above 0; otherwise waiting saves nothing");
+  question.costs.replacement = replacement_amount(request.replacement_cost, currency);
   if (!request.inspection_cost.empty()) {
     question.costs.inspection = amount("--inspection-cost", request.inspection_cost, currency);
     question.inspected = true;

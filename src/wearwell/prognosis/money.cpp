@@ -23,6 +23,13 @@ double amount(const std::string& option, const std::string& text, Currency& curr
   return value;
 }
 
+double replacement_amount(const std::string& text, Currency& currency) {
+  const double value = amount("--replacement-cost", text, currency);
+  if (value <= 0)
+    throw InputError("--replacement-cost: must be above 0; otherwise waiting saves nothing");
+  return value;
+}
+
 double amount_per(const std::string& option, const std::string& text, const Unit& axis,
                   Currency& currency) {
   const std::size_t slash = text.find('/');

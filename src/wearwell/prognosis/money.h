@@ -16,6 +16,10 @@ struct Currency {
 /// negative, or is in another currency than the amounts before.
 double amount(const std::string& option, const std::string& text, Currency& currency);
 
+/// The amount of --replacement-cost, of a preventive replacement: above 0, otherwise waiting saves
+/// nothing. Throws InputError.
+double replacement_amount(const std::string& text, Currency& currency);
+
 /// "50 EUR/h": an amount per unit of use, in the currency per SI unit of `axis`.
 double amount_per(const std::string& option, const std::string& text, const Unit& axis,
                   Currency& currency);
