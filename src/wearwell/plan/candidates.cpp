@@ -109,8 +109,7 @@ class CandidateReader {
       for (const std::string& unit : study_.new_units)
         if (each.name == unit)
           throw InputError(fmt::format(
-              "{}: column '{}': each candidate is a test of a new one; remove the column (readings "
-              "of one in use: wearwell plan inspect, wearwell decide --inspect-after)",
+              "{}: column '{}': each candidate is a test of a new one; remove the column",
               table_.source, each.name));
       throw InputError(fmt::format(
           "{}: column '{}' is unknown; a table of candidates has {}{}, and a cost if --cost names "
@@ -144,7 +143,8 @@ class CandidateReader {
 
   void read_conditions(Candidates& found) {
     std::vector<std::string> needed;
-    for (const ConditionColumn& each : study_.conditions) needed.push_back(each.heading);
+    for (const ConditionColumn& each : study_.conditions)
+      if (!each.varies) needed.push_back(each.heading);
     Table fresh = table_;
     // Only conditions are matched with the study's table.
     std::erase_if(fresh.columns, [&](const Column& each) { return !is_condition(each); });
@@ -163,7 +163,7 @@ class CandidateReader {
       for (std::size_t row = 1; row < table_.rows && !varies; ++row)
         varies = cell_word(column, row) != cell_word(column, 0);
       varies_.push_back(varies);
-      if (!varies)
+      if (!varies && !(each.varies && cell_word(column, 0).empty()))
         shared.push_back(
             fmt::format("{} {}{}", each.name, cell_word(column, 0),
                         each.words || each.unit.text == "1" ? "" : " " + each.unit.text));
@@ -179,13 +179,15 @@ class CandidateReader {
         required_number(table, column, row, "a number");
         continue;
       }
+      if (condition.varies && cell_word(column, row).empty()) continue;
       const std::string word = label_word(table, column, row);
-      if (std::find(condition.labels.begin(), condition.labels.end(), word) ==
-          condition.labels.end())
-        throw InputError(fmt::format("{}: '{}' is not in the data of the study, which have {}{}",
-                                     place(table, condition.heading, row), printable(word),
-                                     fmt::join(condition.labels, ", "),
-                                     did_you_mean(word, condition.labels)));
+      if (condition.is_new(word))
+        throw InputError(fmt::format(
+            "{}: '{}' is not in the data of the study, which have {}{}{}",
+            place(table, condition.heading, row), printable(word),
+            fmt::join(condition.labels, ", "), did_you_mean(word, condition.labels),
+            condition.varies ? fmt::format("; leave the cell empty for a new {}", condition.name)
+                             : ""));
     }
   }
 
@@ -210,6 +212,10 @@ class CandidateReader {
     describe_conditions(row, found.conditions, candidate);
     if (name_ && !cell_word(*name_, row).empty()) candidate.name = cell_word(*name_, row);
     for (const int count : counts_of(row, specimens)) {
+      if (count > 1 && !candidate.unit.empty())
+        throw InputError(fmt::format(
+            "{}: {} readings of one {}; a candidate of a {} that the study has is one reading",
+            place(table_, study_.unit, row), count, study_.factor_noun, study_.factor_noun));
       candidate.specimens = count;
       found.all.push_back(candidate);
     }
@@ -231,13 +237,18 @@ class CandidateReader {
       const ConditionColumn& each = study_.conditions[c];
       const Column& column = condition_column(conditions, each.heading);
       if (each.words) {
-        if (varies_[c]) words.push_back(fmt::format("{} {}", each.name, cell_word(column, row)));
+        const std::string word = cell_word(column, row);
+        if (varies_[c])
+          words.push_back(word.empty() ? "new " + each.name
+                                       : fmt::format("{} {}", each.name, word));
+        if (!word.empty() && each.heading == study_.unit) candidate.unit = word;
         continue;
       }
       const double value = cell_number(conditions, column, row);
       const std::string unit = each.unit.text == "1" ? "" : " " + each.unit.text;
       if (varies_[c]) words.push_back(fmt::format("{} {:.6g}{}", each.name, value, unit));
       const double slack = 1e-9 * std::max(std::abs(each.low), std::abs(each.high));
+      if (each.heading == study_.trials) continue;  // more trials are no extrapolation
       if (value < each.low - slack || value > each.high + slack)
         candidate.outside.push_back(
             fmt::format("{} {:.6g}{} is outside the tested {:.6g} to {:.6g}{}", each.name, value,

@@ -15,7 +15,8 @@ struct Candidate {
   std::size_t row = 0;  ///< of `Candidates::conditions`
   std::optional<double> stop = {};  ///< unit of the measured column
   int specimens = 1;
-  std::optional<double> cost = {};        ///< of all its specimens
+  std::string unit = {};            ///< that the study has and the test is of; empty: a new one
+  std::optional<double> cost = {};  ///< of all its specimens
   std::vector<std::string> outside = {};  ///< conditions beyond the tested range, as clauses
 };
 
@@ -41,7 +42,7 @@ inline constexpr const char* stop_column = "stop";
 inline constexpr const char* name_column = "name";
 
 /// Reads candidates: a column for each condition of the study (by its heading, or its name with a
-/// unit), and optionally specimens, stop, name, and the column `cost`. `specimens` multiplies the
+/// unit; a label whose effects vary may be left out, or its cell empty, for a new level), and optionally specimens, stop, name, and the column `cost`. `specimens` multiplies the
 /// rows that do not have the column. Throws InputError that names row and column: columns that are
 /// missing or unknown, cells that are empty, not numbers, or not allowed, labels that the study
 /// does not know, equal candidates.

@@ -60,14 +60,39 @@ html::Figure posterior_figure(const NextPlan& plan) {
                      280)};
 }
 
+// What the ranking is about, of each of NextPlan::judged.
+struct Measure {
+  std::string name, unit, of_what;
+  std::vector<double> value;
+
+  std::string title() const { return fmt::format("{} [{}]", name, html::unit(unit)); }
+};
+
+Measure measure_of(const NextPlan& plan) {
+  Measure measure{"Expected narrowing", "%", "Expected narrowing of the interval", {}};
+  const bool money = plan.loss && plan.loss->fleet_use > 0;
+  if (money)
+    measure = {
+        "Expected saving", plan.currency.empty() ? "cost" : plan.currency, "Expected saving", {}};
+  else if (plan.loss)
+    measure = {"Expected saving", "%", "Expected share of the cost saved", {}};
+  for (const Judged& each : plan.judged)
+    measure.value.push_back(money       ? plan.loss->saved(each.gain.saved)
+                            : plan.loss ? 100 * each.gain.saved / plan.loss->now
+                                        : 100 * each.narrowing);
+  return measure;
+}
+
 // Gain against cost, with those that no other candidate beats in both.
-std::optional<html::Figure> pareto_figure(const NextPlan& plan) {
+std::optional<html::Figure> pareto_figure(const NextPlan& plan, const Measure& measure) {
   const bool costs = plan.judged.front().cost.has_value();
   if (!costs && plan.use_unit.empty()) return {};
   std::vector<std::pair<double, double>> points;
-  for (const Judged& each : plan.judged)
+  for (std::size_t i = 0; i < plan.judged.size(); ++i) {
+    const Judged& each = plan.judged[i];
     points.emplace_back(costs ? *each.cost : each.gain.use * each.candidate.specimens,
-                        100 * each.narrowing);
+                        measure.value[i]);
+  }
   if (points.size() < 2) return {};
   std::vector<double> x, y;
   bool positive = true;
@@ -94,9 +119,9 @@ std::optional<html::Figure> pareto_figure(const NextPlan& plan) {
                   "in both gain and {}.",
                   costs ? "cost" : "time"),
       plot::plot(
-          "Expected narrowing of the interval against cost",
+          measure.of_what + " against cost",
           {unit.empty() ? name : fmt::format("{} [{}]", name, html::unit(unit)), logarithmic},
-          {"Expected narrowing [%]", false, 0.0},
+          {measure.title(), false, 0.0},
           {plot::points({{"x", x}, {"y", y}}, {colour::posterior, "candidate", 0.6, 2, false, 40}),
            plot::line({{"x", front_x}, {"y", front_y}}, {colour::measured, "not beaten"})},
           280)};
@@ -166,13 +191,13 @@ std::vector<double> edges_of(const std::vector<double>& levels) {
   return edges;
 }
 
-html::Figure map_figure(const NextPlan& plan, const Varying& x, const Varying& y, int specimens) {
+html::Figure map_figure(const NextPlan& plan, const Measure& measure, const Varying& x,
+                        const Varying& y, int specimens) {
   std::map<std::pair<double, double>, double> gains;
   for (std::size_t i = 0; i < plan.judged.size(); ++i) {
     if (plan.judged[i].candidate.specimens != specimens) continue;
-    const auto [at, fresh] =
-        gains.emplace(std::pair{x.value[i], y.value[i]}, 100 * plan.judged[i].narrowing);
-    if (!fresh) at->second = std::max(at->second, 100 * plan.judged[i].narrowing);
+    const auto [at, fresh] = gains.emplace(std::pair{x.value[i], y.value[i]}, measure.value[i]);
+    if (!fresh) at->second = std::max(at->second, measure.value[i]);
   }
   const std::vector<double> edges_x = edges_of(x.levels), edges_y = edges_of(y.levels);
   const auto place = [](const std::vector<double>& levels, double value) {
@@ -189,36 +214,35 @@ html::Figure map_figure(const NextPlan& plan, const Varying& x, const Varying& y
   const double high = *std::max_element(gain.begin(), gain.end());
   return {
       "map", fmt::format("Gain over {} and {}", plain_name(x), plain_name(y)),
-      fmt::format("Expected narrowing of the interval by {}, where other conditions differ "
-                  "that of the best.",
+      fmt::format("{} by {}, where other conditions differ that of the best.", measure.of_what,
                   specimens == 1 ? "one specimen" : fmt::format("{} specimens", specimens)),
-      plot::plot(fmt::format("Expected narrowing over {} and {}", x.name, y.name),
+      plot::plot(fmt::format("{} over {} and {}", measure.of_what, x.name, y.name),
                  {axis_title(x), by_ratio(x.levels), edges_x.front(), edges_x.back()},
                  {axis_title(y), by_ratio(y.levels), edges_y.front(), edges_y.back()},
                  {plot::heat_map({{"x", x1}, {"x2", x2}, {"y", y1}, {"y2", y2}, {"density", gain}},
-                                 {colour::posterior}, {"Narrowing [%]", 0, std::max(high, 1e-3)})},
+                                 {colour::posterior}, {measure.title(), 0, std::max(high, 1e-3)})},
                  300)};
 }
 
-html::Figure curve_figure(const NextPlan& plan, const Varying& x) {
+html::Figure curve_figure(const NextPlan& plan, const Measure& measure, const Varying& x) {
   std::map<int, std::map<double, double>> gains;
   for (std::size_t i = 0; i < plan.judged.size(); ++i) {
     double& gain = gains[plan.judged[i].candidate.specimens][x.value[i]];
-    gain = std::max(gain, 100 * plan.judged[i].narrowing);
+    gain = std::max(gain, measure.value[i]);
   }
   std::vector<plot::Json> marks;
   std::size_t shade = 0;
   for (const auto& [specimens, by_x] : gains) {
     std::vector<double> at, gain;
-    for (const auto& [value, narrowing] : by_x) at.push_back(value), gain.push_back(narrowing);
+    for (const auto& [value, of_value] : by_x) at.push_back(value), gain.push_back(of_value);
     const std::string label =
         gains.size() == 1 ? "" : fmt::format("{} specimen{}", specimens, specimens == 1 ? "" : "s");
     marks.push_back(plot::line({{"x", at}, {"y", gain}}, {colour::chains[shade++ % 4], label}));
   }
   return {"gain", fmt::format("Gain over {}", plain_name(x)),
-          "Expected narrowing of the interval; where other conditions differ, that of the best.",
-          plot::plot(fmt::format("Expected narrowing against {}", x.name),
-                     {axis_title(x), by_ratio(x.levels)}, {"Expected narrowing [%]", false, 0.0},
+          measure.of_what + "; where other conditions differ, that of the best.",
+          plot::plot(fmt::format("{} against {}", measure.of_what, x.name),
+                     {axis_title(x), by_ratio(x.levels)}, {measure.title(), false, 0.0},
                      std::move(marks), 280)};
 }
 
@@ -226,12 +250,14 @@ html::Figure curve_figure(const NextPlan& plan, const Varying& x) {
 
 std::vector<html::Figure> next_figures(const NextPlan& plan) {
   std::vector<html::Figure> figures = {posterior_figure(plan)};
-  if (auto pareto = pareto_figure(plan)) figures.push_back(std::move(*pareto));
+  const Measure measure = measure_of(plan);
+  if (auto pareto = pareto_figure(plan, measure)) figures.push_back(std::move(*pareto));
   const std::vector<Varying> varying = varying_of(plan);
   int fewest = plan.judged.front().candidate.specimens;
   for (const Judged& each : plan.judged) fewest = std::min(fewest, each.candidate.specimens);
-  if (!varying.empty()) figures.push_back(curve_figure(plan, varying.front()));
-  if (varying.size() >= 2) figures.push_back(map_figure(plan, varying[0], varying.back(), fewest));
+  if (!varying.empty()) figures.push_back(curve_figure(plan, measure, varying.front()));
+  if (varying.size() >= 2)
+    figures.push_back(map_figure(plan, measure, varying[0], varying.back(), fewest));
   return figures;
 }
 

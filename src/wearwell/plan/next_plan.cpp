@@ -14,6 +14,7 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/plan/goal_target.h"
+#include "wearwell/plan/row_densities.h"
 #include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/reweighted.h"
@@ -24,7 +25,7 @@ namespace {
 
 using Eigen::Index;
 
-// Nodes of a slow likelihood (integrals within it) are fewer.
+// Nodes are fewer where each takes long: integrals within the likelihood, or over new levels.
 constexpr int nodes_of_slow = 150;
 
 // The posterior after the tests that were done since the fit.
@@ -156,6 +157,23 @@ Candidates candidates_of(const NextQuestion& question, const TestStudy& study) {
                          cost, specimens);
 }
 
+// Readings of one unit are dependent, so that what several add is not that of one by one.
+void refuse_together(const NextQuestion& question, const TestStudy& study,
+                     const Candidates& candidates) {
+  const bool together = question.batch > 1 || question.budget || !question.until.empty();
+  if (!together) return;
+  for (const Candidate& each : candidates.all)
+    if (!each.unit.empty())
+      throw InputError(fmt::format(
+          "{}: {} '{}' is in the data of the study, and its readings depend on each other; leave "
+          "out {}, or leave the cell empty for a new {}",
+          row_of(candidates.conditions, each.row), study.factor_noun, printable(each.unit),
+          question.batch > 1 ? "--batch"
+          : question.budget  ? "--budget"
+                             : "--until",
+          study.factor_noun));
+}
+
 NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const ReadStudy& read,
                  const NextQuestion& question) {
   check_question(question);
@@ -171,13 +189,20 @@ NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const
   plan.goal = goal_of(own, question.goal);
   const TestStudy study = test_study(state.source, read, question.measure);
   Candidates candidates = candidates_of(question, study);
+  refuse_together(question, study, candidates);
   plan.currency = candidates.currency;
   plan.notes.insert(plan.notes.end(), candidates.notes.begin(), candidates.notes.end());
   if (question.use_cost && !study.is_life)
     throw InputError("--use-cost: the tests of this study are not lives, and take no known time");
   if (study.is_life) plan.use_unit = study.measured_unit.text;
 
-  const int most = study.own->is_slow() ? std::min(question.nodes, nodes_of_slow) : question.nodes;
+  if (has_new_levels(study, candidates.conditions))
+    plan.notes.push_back(
+        "effects of levels that the table does not name are integrated over: each test is at a "
+        "level of its own");
+  const int most = study.own->is_slow() || has_new_levels(study, candidates.conditions)
+                       ? std::min(question.nodes, nodes_of_slow)
+                       : question.nodes;
   const ThinnedPosterior few(state.posterior, static_cast<std::size_t>(most));
   const GoalValues goal = goal_values(plan.goal, few.values, few.weights);
   plan.logarithmic = goal.logarithmic;

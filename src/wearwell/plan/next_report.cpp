@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "wearwell/base/printable.h"
 #include "wearwell/input/columns.h"
@@ -39,7 +40,9 @@ std::string present_text(const NextPlan& plan) {
       unit == "1" ? "" : " " + unit, width_text(plan, plan.now.width()));
 }
 
-std::string specimens_text(int count) {
+std::string specimens_text(const Candidate& candidate) {
+  const int count = candidate.specimens;
+  if (!candidate.unit.empty()) return "one reading";
   return count == 1 ? "one specimen" : fmt::format("{} specimens", count);
 }
 
@@ -53,7 +56,7 @@ std::string best_text(const NextPlan& plan) {
   const Judged& best = plan.judged.front();
   std::string text =
       fmt::format("Test next: {}, {}. Its expected narrowing of the interval is {}, to {}.",
-                  best.candidate.name, specimens_text(best.candidate.specimens),
+                  best.candidate.name, specimens_text(best.candidate),
                   with_error(100 * best.narrowing, 100 * best.narrowing_error),
                   width_text(plan, plan.expected_width(best.narrowing)));
   if (plan.loss)
@@ -109,55 +112,87 @@ std::string target_text(const NextPlan& plan) {
       target.text, *target.tests, *target.tests == 1 ? "" : "s");
 }
 
-present::Table candidates_table(const NextPlan& plan) {
-  const bool lives = !plan.use_unit.empty();
-  const bool costs = plan.judged.front().cost.has_value();
-  const bool stops = std::any_of(plan.judged.begin(), plan.judged.end(), [](const Judged& each) {
-    return each.candidate.stop.has_value();
-  });
-  const std::string currency = plan.currency.empty() ? "1" : plan.currency;
-  present::Table table{"candidates",
-                       "Candidates, best first",
-                       {{"candidate"},
-                        {"specimens", "1", present::given},
-                        {"narrowing", "%", present::digits(3)},
-                        {"error", "%", present::digits(1)},
-                        {plan.logarithmic ? "expected factor" : "expected width",
-                         plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
-                        {"variance left", "%", present::digits(3)},
-                        {"information", "nat", present::digits(3)}}};
-  const bool saving = plan.loss && plan.loss->fleet_use > 0;
-  if (plan.loss) table.columns.push_back({"cost saved", "%", present::digits(3)});
-  if (saving) table.columns.push_back({"saving", currency, present::digits(4)});
-  if (lives) table.columns.push_back({"expected test", plan.use_unit, present::digits(3)});
-  if (stops) table.columns.push_back({"run-outs", "%", present::digits(3)});
-  if (costs) {
-    table.columns.push_back({"cost", currency, present::digits(4)});
-    table.columns.push_back({"narrowing per cost", "1", present::digits(3)});
+// A column of the table of candidates.
+struct CandidateColumn {
+  present::Column column;
+  std::function<present::Cell(const Judged&)> cell;
+};
+
+CandidateColumn per_cost(const NextPlan& plan) {
+  if (plan.loss) {
+    const double factor = plan.loss->fleet_use > 0 ? plan.loss->fleet_use : 100 / plan.loss->now;
+    return {{"saving per cost", "1", present::digits(3)},
+            [factor](const Judged& each) { return factor * each.gain.saved / *each.cost; }};
   }
-  table.columns.push_back({"note"});
-  for (const Judged& each : plan.judged) {
-    const double width = plan.expected_width(each.narrowing);
-    std::vector<present::Cell> row = {
-        each.candidate.name,
-        static_cast<double>(each.candidate.specimens),
-        100 * each.narrowing,
-        each.narrowing_error > 5e-5 ? present::Cell(100 * each.narrowing_error) : present::Cell(),
-        plan.logarithmic ? std::exp(width) : width,
-        100 * each.variance_share,
-        each.gain.information};
-    if (plan.loss) row.emplace_back(100 * each.gain.saved / plan.loss->now);
-    if (saving) row.emplace_back(plan.loss->saved(each.gain.saved));
-    if (lives) row.emplace_back(each.gain.use);
-    if (stops)
-      row.emplace_back(each.candidate.stop ? present::Cell(100 * each.gain.runout)
-                                           : present::Cell());
-    if (costs) {
-      row.emplace_back(*each.cost);
-      row.emplace_back(100 * each.narrowing / *each.cost);
-    }
-    row.emplace_back(each.candidate.outside.empty() ? std::string() : std::string("extrapolation"));
-    table.rows.push_back(std::move(row));
+  return {{"narrowing per cost", "1", present::digits(3)},
+          [](const Judged& each) { return 100 * each.narrowing / *each.cost; }};
+}
+
+void add_narrowing(const NextPlan& plan, std::vector<CandidateColumn>& all) {
+  all.push_back({{"narrowing", "%", present::digits(3)},
+                 [](const Judged& each) { return 100 * each.narrowing; }});
+  const auto has_error = [](const Judged& each) { return each.narrowing_error > 5e-5; };
+  if (std::any_of(plan.judged.begin(), plan.judged.end(), has_error))
+    all.push_back({{"error", "%", present::digits(1)}, [has_error](const Judged& each) {
+                     return has_error(each) ? present::Cell(100 * each.narrowing_error)
+                                            : present::Cell();
+                   }});
+  all.push_back({{plan.logarithmic ? "expected factor" : "expected width",
+                  plan.logarithmic ? "1" : plan.goal.unit.text, present::digits(3)},
+                 [&plan](const Judged& each) {
+                   const double width = plan.expected_width(each.narrowing);
+                   return plan.logarithmic ? std::exp(width) : width;
+                 }});
+}
+
+// What the ranking goes by stands first.
+std::vector<CandidateColumn> candidate_columns(const NextPlan& plan) {
+  const bool costs = plan.judged.front().cost.has_value();
+  const std::string currency = plan.currency.empty() ? "1" : plan.currency;
+  std::vector<CandidateColumn> all = {
+      {{"candidate"}, [](const Judged& each) { return each.candidate.name; }},
+      {{"specimens", "1", present::given},
+       [](const Judged& each) { return static_cast<double>(each.candidate.specimens); }}};
+  if (plan.loss)
+    all.push_back({{"cost saved", "%", present::digits(3)},
+                   [&](const Judged& each) { return 100 * each.gain.saved / plan.loss->now; }});
+  if (plan.loss && plan.loss->fleet_use > 0)
+    all.push_back({{"saving", currency, present::digits(4)},
+                   [&](const Judged& each) { return plan.loss->saved(each.gain.saved); }});
+  if (!plan.loss) add_narrowing(plan, all);
+  if (costs) {
+    all.push_back(
+        {{"cost", currency, present::digits(4)}, [](const Judged& each) { return *each.cost; }});
+    all.push_back(per_cost(plan));
+  }
+  if (plan.loss) add_narrowing(plan, all);
+  if (!plan.loss)
+    all.push_back({{"variance left", "%", present::digits(3)},
+                   [](const Judged& each) { return 100 * each.variance_share; }});
+  all.push_back({{"information", "nat", present::digits(3)},
+                 [](const Judged& each) { return each.gain.information; }});
+  if (!plan.use_unit.empty())
+    all.push_back({{"expected test", plan.use_unit, present::digits(3)},
+                   [](const Judged& each) { return each.gain.use; }});
+  const auto stops = [](const Judged& each) { return each.candidate.stop.has_value(); };
+  if (std::any_of(plan.judged.begin(), plan.judged.end(), stops))
+    all.push_back({{"run-outs", "%", present::digits(3)}, [stops](const Judged& each) {
+                     return stops(each) ? present::Cell(100 * each.gain.runout) : present::Cell();
+                   }});
+  all.push_back({{"note"}, [](const Judged& each) {
+                   return each.candidate.outside.empty() ? std::string()
+                                                         : std::string("extrapolation");
+                 }});
+  return all;
+}
+
+present::Table candidates_table(const NextPlan& plan) {
+  present::Table table{"candidates", "Candidates, best first", {}};
+  const std::vector<CandidateColumn> columns = candidate_columns(plan);
+  for (const CandidateColumn& each : columns) table.columns.push_back(each.column);
+  for (const Judged& judged : plan.judged) {
+    table.rows.emplace_back();
+    for (const CandidateColumn& each : columns) table.rows.back().push_back(each.cell(judged));
   }
   return table;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wearwell/math/constants.h"
+#include "wearwell/plan/row_densities.h"
 
 namespace wearwell::plan {
 namespace {
@@ -88,9 +89,9 @@ std::vector<OutcomeRange> outcome_ranges(const TestStudy& study, const Table& co
         rows.outcomes.push_back({scale.value(t), false});
       }
     }
-    const Points log_density = log_densities(
+    const Points log_density = row_densities(
         study, rows_with_outcomes(study, conditions, rows.conditions, rows.outcomes, "planned"),
-        scouts);
+        scouts, EffectIntegral::rough);
     std::vector<std::size_t> still;
     for (std::size_t k = 0; k < open.size(); ++k) {
       OutcomeRange& range = ranges[open[k]];

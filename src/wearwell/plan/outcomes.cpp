@@ -9,40 +9,14 @@
 #include "wearwell/base/error.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
+#include "wearwell/plan/count_outcomes.h"
 #include "wearwell/plan/outcome_ranges.h"
-#include "wearwell/study/inference_data.h"
+#include "wearwell/plan/row_densities.h"
 
 namespace wearwell::plan {
 namespace {
 
 using Eigen::Index;
-
-std::vector<double> factors_at(const LogDensity& likelihood, const Points& nodes, Index j) {
-  return likelihood.pointwise({nodes.row(j).data(), static_cast<std::size_t>(nodes.cols())});
-}
-
-[[noreturn]] void refuse_dependent() {
-  throw InputError(
-      "plan: the rows of this study depend on each other, so that a row to come has no "
-      "distribution of its own (paths whose steps or sums continue from row to row). For units "
-      "in use see wearwell plan inspect and wearwell decide --inspect-after");
-}
-
-bool same_factor(double a, double b) {
-  if (!std::isfinite(a) || !std::isfinite(b)) return a == b || (std::isnan(a) && std::isnan(b));
-  return std::abs(a - b) <= 1e-7 * (1 + std::abs(a));
-}
-
-// Where the factors of `count` new rows stand among those of all: the study's own stay as they are
-// before and after them.
-std::size_t first_new(std::span<const double> own, std::span<const double> all, std::size_t count) {
-  if (all.size() != own.size() + count) refuse_dependent();
-  std::size_t first = 0;
-  while (first < own.size() && same_factor(own[first], all[first])) ++first;
-  for (std::size_t i = first; i < own.size(); ++i)
-    if (!same_factor(own[i], all[i + count])) refuse_dependent();
-  return first;
-}
 
 constexpr int panel_nodes = 6;
 constexpr double panel_widths = 2.4;  // in standard deviations of the narrowest distribution
@@ -79,30 +53,6 @@ struct Grid {
   std::size_t size() const { return quadrature.t.size() + (runout ? 1 : 0); }
 };
 
-// Nodes at which no value has a density count as impossible; their probabilities are then even.
-void scale_to_one(Outcomes& outcomes, std::span<const double> weights) {
-  Eigen::MatrixXf& p = outcomes.log_probability;
-  const Index last = outcomes.runout ? p.cols() - 1 : p.cols();
-  double defect = 0;
-  for (Index j = 0; j < p.rows(); ++j) {
-    double sum = 0;
-    for (Index m = 0; m < last; ++m) sum += std::exp(static_cast<double>(p(j, m)));
-    const double stopped = outcomes.runout_probability(j);
-    defect += weights[static_cast<std::size_t>(j)] * std::abs(sum + stopped - 1);
-    if (sum > 0 && stopped < 1) {
-      const auto shift = static_cast<float>(std::log1p(-stopped) - std::log(sum));
-      // Where almost all run out, the few that fail keep their own sum.
-      if (std::abs(shift) < 1) p.row(j).head(last).array() += shift;
-    }
-  }
-  outcomes.defect = defect;
-}
-
-std::string row_of(const Table& conditions, std::size_t row) {
-  return fmt::format("{}, {}", conditions.source,
-                     row_name(row + 1, conditions.lines.empty() ? 0 : conditions.lines[row]));
-}
-
 class Chunk {
  public:
   Chunk(const TestStudy& study, const Table& conditions, std::span<const PlannedTest> tests,
@@ -110,21 +60,10 @@ class Chunk {
       : study_(study), conditions_(conditions), tests_(tests), nodes_(nodes), weights_(weights) {}
 
   void find_ranges() {
-    constexpr Index most_scouts = 48;
-    const Index every = std::max<Index>(1, nodes_.rows() / most_scouts);
-    std::vector<Index> chosen;
-    for (Index j = 0; j < nodes_.rows(); j += every) chosen.push_back(j);
-    Points scouts(static_cast<Index>(chosen.size()), nodes_.cols());
-    std::vector<double> weights;
-    double sum = 0;
-    for (const Index j : chosen) {
-      scouts.row(static_cast<Index>(weights.size())) = nodes_.row(j);
-      weights.push_back(weights_[static_cast<std::size_t>(j)]);
-      sum += weights.back();
-    }
-    for (double& each : weights) each /= sum;
-    ranges_ = outcome_ranges(study_, conditions_, tests_, scouts, weights);
-    for (std::size_t i = 0; i < tests_.size(); ++i) refuse_impossible(i, ranges_[i].impossible);
+    const Scouts scouts = scouts_of(nodes_, weights_);
+    ranges_ = outcome_ranges(study_, conditions_, tests_, scouts.nodes, scouts.weights);
+    for (std::size_t i = 0; i < tests_.size(); ++i)
+      refuse_impossible(conditions_, tests_[i].row, ranges_[i].impossible);
   }
 
   std::vector<Outcomes> outcomes() const {
@@ -139,7 +78,7 @@ class Chunk {
       if (grids.back().runout) cells.push_back({*tests_[i].stop, true});
       rows.resize(cells.size(), tests_[i].row);
     }
-    const Points all = log_densities(
+    const Points all = row_densities(
         study_, rows_with_outcomes(study_, conditions_, rows, cells, "planned"), nodes_);
     require_independent(rows, cells, all);
     std::vector<Outcomes> found(tests_.size());
@@ -164,12 +103,21 @@ class Chunk {
       some_cells.push_back(cells[i]);
     }
     const Points one = nodes_.row(nodes_.rows() / 2);
-    const Points again = log_densities(
-        study_, rows_with_outcomes(study_, conditions_, some_rows, some_cells, "planned"), one);
+    const auto roughly = [&](const std::vector<std::size_t>& of_rows,
+                             const std::vector<TestOutcome>& with) {
+      return row_densities(study_,
+                           rows_with_outcomes(study_, conditions_, of_rows, with, "planned"), one,
+                           EffectIntegral::rough);
+    };
+    const Points again = roughly(some_rows, some_cells);
+    // Exact integrals over a new level differ by their tolerance.
+    const Points among_all = has_new_levels(study_, conditions_)
+                                 ? roughly(rows, cells)
+                                 : Points(all.row(nodes_.rows() / 2));
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const double before = all(nodes_.rows() / 2, static_cast<Index>(chosen[k]));
+      const double before = among_all(0, static_cast<Index>(chosen[k]));
       const double now = again(0, static_cast<Index>(k));
-      if (!same_factor(before, now)) refuse_dependent();
+      if (!same_factor(before, now)) refuse_dependent_rows();
     }
   }
 
@@ -216,15 +164,6 @@ class Chunk {
     return outcomes;
   }
 
-  void refuse_impossible(std::size_t i, double weight) const {
-    constexpr double most = 1e-3;
-    if (weight <= most) return;
-    throw InputError(fmt::format(
-        "{}: the model has no value under these conditions with a probability of {:.2g} %: they "
-        "lie outside the range of its formula",
-        row_of(conditions_, tests_[i].row), 100 * weight));
-  }
-
   void refuse_endless(std::size_t i, const Outcomes& outcomes) const {
     constexpr double most = 0.02;
     if (tests_[i].stop || outcomes.defect <= most) return;
@@ -260,7 +199,7 @@ std::vector<Outcomes> failure_or_runout(const TestStudy& study, const Table& con
     }
   }
   const Eigen::MatrixXd all =
-      log_densities(study, rows_with_outcomes(study, conditions, rows, cells, "planned"), nodes);
+      row_densities(study, rows_with_outcomes(study, conditions, rows, cells, "planned"), nodes);
   std::vector<Outcomes> found(tests.size());
   for (std::size_t i = 0; i < tests.size(); ++i) {
     found[i].value = {0, 1};
@@ -274,6 +213,52 @@ std::vector<Outcomes> failure_or_runout(const TestStudy& study, const Table& con
 
 }  // namespace
 
+void scale_to_one(Outcomes& outcomes, std::span<const double> weights) {
+  Eigen::MatrixXf& p = outcomes.log_probability;
+  const Index last = outcomes.runout ? p.cols() - 1 : p.cols();
+  double defect = 0;
+  for (Index j = 0; j < p.rows(); ++j) {
+    double sum = 0;
+    for (Index m = 0; m < last; ++m) sum += std::exp(static_cast<double>(p(j, m)));
+    const double stopped = outcomes.runout_probability(j);
+    defect += weights[static_cast<std::size_t>(j)] * std::abs(sum + stopped - 1);
+    if (sum > 0 && stopped < 1) {
+      const auto shift = static_cast<float>(std::log1p(-stopped) - std::log(sum));
+      // Where almost all run out, the few that fail keep their own sum.
+      if (std::abs(shift) < 1) p.row(j).head(last).array() += shift;
+    }
+  }
+  outcomes.defect = defect;
+}
+
+std::string row_of(const Table& conditions, std::size_t row) {
+  return fmt::format("{}, {}", conditions.source,
+                     row_name(row + 1, conditions.lines.empty() ? 0 : conditions.lines[row]));
+}
+
+void refuse_impossible(const Table& conditions, std::size_t row, double weight) {
+  constexpr double most = 1e-3;
+  if (weight <= most) return;
+  throw InputError(fmt::format(
+      "{}: the model has no value under these conditions with a probability of {:.2g} %: they "
+      "lie outside the range of its formula",
+      row_of(conditions, row), 100 * weight));
+}
+
+Scouts scouts_of(const Points& nodes, std::span<const double> weights) {
+  constexpr Index most = 48;
+  const Index every = std::max<Index>(1, nodes.rows() / most);
+  Scouts scouts{Points((nodes.rows() + every - 1) / every, nodes.cols()), {}};
+  double sum = 0;
+  for (Index j = 0; j < nodes.rows(); j += every) {
+    scouts.nodes.row(j / every) = nodes.row(j);
+    scouts.weights.push_back(weights[static_cast<std::size_t>(j)]);
+    sum += scouts.weights.back();
+  }
+  for (double& each : scouts.weights) each /= sum;
+  return scouts;
+}
+
 TestOutcome Outcomes::drawn(Index node, double u, bool positive) const {
   double below = 0;
   const std::size_t continuous = cell_begin.size();
@@ -282,6 +267,7 @@ TestOutcome Outcomes::drawn(Index node, double u, bool positive) const {
     if (u < below + p || (m + 1 == continuous && !runout)) {
       const double part = p > 0 ? std::clamp((u - below) / p, 0.0, 1.0) : 0.5;
       const double t = std::lerp(cell_begin[m], cell_end[m], part);
+      if (counted) return {std::round(t) + 0.0, false};  // no -0
       return {positive ? std::exp(t) : t, false};
     }
     below += p;
@@ -298,37 +284,18 @@ std::size_t Outcomes::drawn_index(Index node, double u) const {
   return size() - 1;
 }
 
-Points log_densities(const TestStudy& study, const Table& rows, const Points& nodes) {
-  const auto read = study.read(with_rows(study, rows));
-  const PosteriorStudy& joined = require_posterior_study(*read);
-  if (static_cast<Index>(joined.parameters.size()) != nodes.cols())
-    throw InputError(
-        "plan: the parameters of this study depend on its rows (each level of a second random "
-        "effect is one), so that a row of a new level has no distribution of its own");
-  const auto likelihood = joined.likelihood(joined.data_rows);
-  const std::vector<double> own = factors_at(*study.own, nodes, 0);
-  const std::size_t first = first_new(own, factors_at(*likelihood, nodes, 0), rows.rows);
-  Points all(nodes.rows(), static_cast<Index>(rows.rows));
-  tbb::parallel_for(Index{0}, nodes.rows(), [&](Index j) {
-    const std::vector<double> factors = factors_at(*likelihood, nodes, j);
-    for (std::size_t i = 0; i < rows.rows; ++i) {
-      const double factor = factors[first + i];
-      all(j, static_cast<Index>(i)) = std::isnan(factor) ? -infinity : factor;
-    }
-  });
-  return all;
-}
-
 std::vector<Outcomes> possible_outcomes(const TestStudy& study, const Table& conditions,
                                         std::span<const PlannedTest> tests, const Points& nodes,
                                         std::span<const double> weights) {
-  constexpr std::size_t together = 100;  // tests whose rows are read at once
+  const std::size_t together = has_new_levels(study, conditions) ? 10 : 100;  // read at once
   std::vector<Outcomes> all;
   for (std::size_t at = 0; at < tests.size(); at += together) {
     const auto some = tests.subspan(at, std::min(together, tests.size() - at));
     std::vector<Outcomes> found;
     if (study.measured.empty()) {
       found = failure_or_runout(study, conditions, some, nodes, weights);
+    } else if (study.counted) {
+      found = count_outcomes(study, conditions, some, nodes, weights);
     } else {
       Chunk chunk(study, conditions, some, nodes, weights);
       chunk.find_ranges();

@@ -179,6 +179,11 @@ PlanningStudy planning_study(const Source& source, const ReadStudy& read, const 
   planning.whole = read(stand_in);
   refuse_improper(planning.study());
   planning.tests = test_study(stand_in, read, measure);
+  // No unit and no level is there before the first test.
+  std::erase_if(planning.tests.conditions, [&](const ConditionColumn& each) {
+    if (each.varies) planning.tests.new_units.push_back(each.heading);
+    return each.varies;
+  });
   planning.conditions = read_candidates(planning.tests, with_whole_specimens(rows), {});
   double sum = 0;
   for (const Candidate& each : planning.conditions.all) sum += each.specimens;

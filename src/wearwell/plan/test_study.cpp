@@ -100,10 +100,10 @@ void find_measured(const TomlReader& root, const std::string& measure, TestStudy
   const std::string family = likelihood.required_text("family");
   const ResponseForm* const form = given_form(
       response_forms(), family, [&](std::string_view name) { return likelihood.has(name); });
-  if (form && form->counted)
-    throw InputError(fmt::format(
-        "plan: {} is a count (family \"{}\"), and tests that show counts cannot be planned yet",
-        study.measured_name, family));
+  study.counted = form && form->counted;
+  if (const auto trials = likelihood.text("trials"))
+    if (const DataRoles::Named* const named_trials = used_as(study.roles, *trials))
+      study.trials = named_trials->column;
   // Paths of these processes rise from 0; with errors of readings they may also be below it.
   const bool rising = family == "gamma-process" || family == "inverse-gaussian-process";
   study.positive = (form && form->positive) || (rising && !likelihood.has("noise"));
@@ -142,14 +142,34 @@ void find_conditions(const TomlReader& root, TestStudy& study) {
     if (each.column == study.measured || among(study.roles.measured, each.column)) continue;
     if (each.name == "count") study.ones.push_back(each.column);
     if (among(of_outcomes, each.name)) continue;
-    const bool unit = among(varying, each.name) || (study.roles.unit == each.column);
-    if (unit) study.new_units.push_back(each.column);
-    if (unit || (sn && among(of_specimens, each.name))) {
-      if (!unit) study.names.push_back(each.column);
-      continue;
+    if (sn && among(of_specimens, each.name)) {
+      study.names.push_back(each.column);
+    } else if (const bool varies = among(varying, each.name) || each.column == study.unit; varies) {
+      study.conditions.push_back(condition_of(study.table(), each, true));
+      study.conditions.back().varies = true;
+    } else if (study.roles.unit == each.column) {
+      study.new_units.push_back(each.column);
+    } else {
+      study.conditions.push_back(
+          condition_of(study.table(), each, among(study.roles.words, each.column)));
     }
-    study.conditions.push_back(
-        condition_of(study.table(), each, among(study.roles.words, each.column)));
+  }
+}
+
+// The label whose rows are one factor of the likelihood: the noun of the factors is its name.
+void find_unit(const PosteriorStudy& own, TestStudy& study) {
+  study.factor_noun = own.observation;
+  if (const DataRoles::Named* const named = used_as(study.roles, own.observation);
+      named && named->unit.empty() && named->column != study.measured)
+    study.unit = named->column;
+  // Drawn effects of units are parameters of each.
+  for (const Parameter& each : own.parameters) {
+    study.parameters.push_back(each.name);
+    if (!study.unit.empty() && each.name.ends_with(fmt::format("[new {}]", own.observation)))
+      throw InputError(fmt::format(
+          "plan: each {} has more than two random effects, so that its readings have no "
+          "distribution without a parameter for each {}; plan with at most two",
+          own.observation, own.observation));
   }
 }
 
@@ -169,26 +189,14 @@ void find_size(TestStudy& study) {
   if (!(study.spread > 0)) study.spread = 1;
 }
 
-std::string cell_as_text(const Column& column, std::size_t row) {
-  return column.is_number
-             ? (std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]))
-             : column.text[row];
-}
-
-void become_text(Column& column, std::size_t rows) {
-  if (!column.is_number) return;
-  for (std::size_t i = 0; i < rows; ++i) column.text.push_back(cell_as_text(column, i));
-  column.numbers.clear();
-  column.is_number = false;
-  column.marks = NumberMarks{'.', 0};
-}
-
-void push(Column& column, double value) {
-  column.is_number ? column.numbers.push_back(value)
-                   : column.text.push_back(std::isnan(value) ? "" : fmt::format("{}", value));
-}
-
 }  // namespace
+
+const ConditionColumn* TestStudy::condition(const std::string& heading) const {
+  const auto at =
+      std::find_if(conditions.begin(), conditions.end(),
+                   [&](const ConditionColumn& each) { return each.heading == heading; });
+  return at == conditions.end() ? nullptr : &*at;
+}
 
 TestStudy test_study(const Source& source, const ReadStudy& read, const std::string& measure) {
   TestStudy study{source, read};
@@ -199,18 +207,18 @@ TestStudy test_study(const Source& source, const ReadStudy& read, const std::str
     study.source.tables[study.key] = read_table(data, source);
   study.roles = prognosis::data_roles(root, study.table());
   find_measured(root, measure, study);
+  const auto whole = read(study.source);
+  const PosteriorStudy& own = require_posterior_study(*whole);
+  find_unit(own, study);
   find_conditions(root, study);
   if (used_as(study.roles, "status"))
     study.status = read_life_status(data.required_table("columns"), study.table());
   find_size(study);
-  const auto whole = read(study.source);
-  const PosteriorStudy& own = require_posterior_study(*whole);
   for (const DataColumn& each : own.data_columns) {
     if (each.name != study.measured_name) continue;
     study.measured_unit = each.unit;
     study.measured_si = each.si;
   }
-  study.factor_noun = own.observation;
   if (root.required_text("model") == "sn") {
     study.source.study = without_predict(study.source.study);
     study.own = require_posterior_study(*read(study.source)).likelihood(own.data_rows);
@@ -218,75 +226,6 @@ TestStudy test_study(const Source& source, const ReadStudy& read, const std::str
     study.own = own.likelihood(own.data_rows);
   }
   return study;
-}
-
-Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
-                         std::span<const std::size_t> rows, std::span<const TestOutcome> outcomes,
-                         const std::string& prefix) {
-  const Table& like = study.table();
-  Table table{conditions.source, {}, rows.size()};
-  const bool by_limit = !study.status;  // a run-out is a limit: ">1e6"
-  const bool any_runout =
-      std::any_of(outcomes.begin(), outcomes.end(), [](const auto& each) { return each.runout; });
-  for (const Column& of : like.columns) {
-    Column column{of.name, of.is_number, {}, {}, of.unit, of.marks};
-    const bool measured = of.name == study.measured;
-    const bool status = study.status && of.name == study.status->column;
-    if (status || (measured && by_limit && any_runout)) column.is_number = false;
-    if (measured && !column.is_number) column.marks = NumberMarks{'.', 0};
-    const bool condition =
-        std::any_of(study.conditions.begin(), study.conditions.end(),
-                    [&](const ConditionColumn& each) { return each.heading == of.name; });
-    const bool unit = among(study.new_units, of.name), name = among(study.names, of.name);
-    if (unit || name) column.is_number = false;
-    const Column* const from = condition ? &conditions.column(of.name) : nullptr;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const TestOutcome& outcome = outcomes[i];
-      if (measured) {
-        column.is_number ? column.numbers.push_back(outcome.value)
-                         : column.text.push_back(fmt::format(
-                               "{}{}", by_limit && outcome.runout ? ">" : "", outcome.value));
-      } else if (status) {
-        column.text.push_back(outcome.runout ? "runout" : "failure");
-      } else if (unit || name) {
-        column.text.push_back(fmt::format("{} {}", prefix, i + 1));
-      } else if (among(study.ones, of.name)) {
-        push(column, 1);
-      } else if (from && column.is_number) {
-        column.numbers.push_back(cell_value(conditions, *from, rows[i]).number);
-      } else if (from) {
-        column.text.push_back(cell_as_text(*from, rows[i]));
-      } else {
-        push(column, NAN);
-      }
-    }
-    table.columns.push_back(std::move(column));
-  }
-  for (const std::size_t row : rows) table.origins.push_back(row + 1);
-  return table;
-}
-
-Source with_rows(const TestStudy& study, const Table& rows) {
-  Source source = study.source;
-  Table& table = source.tables[study.key];
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    Column& column = table.columns[c];
-    Column more = rows.columns[c];
-    if (column.is_number != more.is_number) {
-      become_text(column, table.rows);
-      become_text(more, rows.rows);
-    }
-    column.numbers.insert(column.numbers.end(), more.numbers.begin(), more.numbers.end());
-    column.text.insert(column.text.end(), more.text.begin(), more.text.end());
-  }
-  // Messages name the row of the tests.
-  table.origins.clear();
-  for (std::size_t i = 0; i < table.rows; ++i) table.origins.push_back(i + 1);
-  table.origins.insert(table.origins.end(), rows.origins.begin(), rows.origins.end());
-  table.rows += rows.rows;
-  table.lines.clear();
-  table.source = rows.source;
-  return source;
 }
 
 }  // namespace wearwell::plan

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +28,11 @@ struct ConditionColumn {
   bool words = false;        ///< a label
   double low = 0, high = 0;  ///< tested range, in the unit of the table
   std::vector<std::string> labels = {};  ///< of words: those in the data
+  bool varies = false;  ///< has random effects: a test is at a level of the data, or at a new one
+
+  bool is_new(const std::string& label) const {
+    return std::find(labels.begin(), labels.end(), label) == labels.end();
+  }
 };
 
 /// A study to which rows of tests not yet done are added. Values are in the units of its table.
@@ -43,39 +48,27 @@ struct TestStudy {
   std::string measured_si = "1";     ///< its dimension
   bool is_life = false;              ///< the measured column is a life: tests can be stopped
   bool positive = false;             ///< its distribution has positive values only
+  bool counted = false;              ///< it is a count: a whole number
+  std::string trials = {};           ///< heading of the numbers of trials of a binomial count
   std::optional<LifeStatus> status =
-      {};  ///< the column of outcomes; without one a run-out is a limit, ">1e6"
-  std::vector<std::string> new_units =
-      {};  ///< headings of labels whose units vary; each test is of a new one
-  std::vector<std::string> names = {};  ///< headings of labels that the likelihood does not use
-  std::vector<std::string> ones = {};   ///< headings of counts of equal tests
-  std::string factor_noun = "row";      ///< what one factor of the likelihood is of
+      {};                 ///< the column of outcomes; without one a run-out is a limit, ">1e6"
+  std::string unit = {};  ///< heading of the label whose rows are one factor of the likelihood
+  std::vector<std::string> new_units = {};  ///< headings of labels of which each test is a new one
+  std::vector<std::string> names = {};      ///< headings of labels that the likelihood does not use
+  std::vector<std::string> ones = {};       ///< headings of counts of equal tests
+  std::string factor_noun = "row";          ///< what one factor of the likelihood is of
   std::shared_ptr<const LogDensity> own = {};  ///< the likelihood of the study's own rows
+  std::vector<std::string> parameters = {};    ///< names, in the order of the posterior's nodes
   double typical = 1, spread = 1;  ///< of the measured column: median; half of its range
 
   const Table& table() const { return source.tables.at(key); }
+  /// The condition with this heading, or null.
+  const ConditionColumn* condition(const std::string& heading) const;
 };
 
 /// `measure` is the study's name of the measured column where there are several; else empty. The
 /// table is read if the source does not hold it. Throws InputError for a study whose tests are not
 /// rows of one table with one measured value.
 TestStudy test_study(const Source& source, const ReadStudy& read, const std::string& measure = "");
-
-/// Cells of a finished test: its value, in the unit of the table, or a run-out at that value.
-struct TestOutcome {
-  double value = 0;
-  bool runout = false;
-};
-
-/// Rows of the study's table for tests with these outcomes: test i has the conditions of row
-/// `rows[i]` of `conditions`, a table with at least the headings of `study.conditions` in the units
-/// of the study's table (candidates.h). Units that vary are new ones, "PREFIX 1", "PREFIX 2", ...;
-/// columns that the study does not use are empty.
-Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
-                         std::span<const std::size_t> rows, std::span<const TestOutcome> outcomes,
-                         const std::string& prefix);
-
-/// The study's source with these rows after its own; messages name the rows of `rows.source`.
-Source with_rows(const TestStudy& study, const Table& rows);
 
 }  // namespace wearwell::plan
