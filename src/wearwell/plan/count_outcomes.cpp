@@ -19,7 +19,7 @@ constexpr int grid_counts = 41;
 constexpr int rounds = 12;
 constexpr double no_count = 17;   // a log probability so far below the highest does not count
 constexpr double highest = 1e12;  // count
-constexpr std::size_t most_values = 3000;
+constexpr std::size_t most_values = 6000;
 
 // The counts of a test: where they lie, and the least of sd / sqrt(1 + count) over the nodes; that
 // of a Poisson distribution is about 1 everywhere.

@@ -237,7 +237,9 @@ html::Figure curve_figure(const NextPlan& plan, const Measure& measure, const Va
     for (const auto& [value, of_value] : by_x) at.push_back(value), gain.push_back(of_value);
     const std::string label =
         gains.size() == 1 ? "" : fmt::format("{} specimen{}", specimens, specimens == 1 ? "" : "s");
-    marks.push_back(plot::line({{"x", at}, {"y", gain}}, {colour::chains[shade++ % 4], label}));
+    const plot::Look look{colour::chains[shade++ % 4], label};
+    marks.push_back(at.size() > 1 ? plot::line({{"x", at}, {"y", gain}}, look)
+                                  : plot::points({{"x", at}, {"y", gain}}, look));
   }
   return {"gain", fmt::format("Gain over {}", plain_name(x)),
           measure.of_what + "; where other conditions differ, that of the best.",

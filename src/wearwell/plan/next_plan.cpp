@@ -174,6 +174,25 @@ void refuse_together(const NextQuestion& question, const TestStudy& study,
           study.factor_noun));
 }
 
+// Whether a name speaks of this unit: "B10 of machine 3".
+bool is_of(const std::string& name, const std::string& unit) {
+  const std::size_t at = name.find(unit);
+  const std::size_t end = at + unit.size();
+  return at != name.npos && (end == name.size() || name[end] == ' ' || name[end] == ',');
+}
+
+// A goal is a number at each node. That of a unit changes at each node with a reading of the unit.
+void refuse_goal_of_unit(const Goal& goal, const TestStudy& study, const Candidates& candidates) {
+  for (const Candidate& each : candidates.all) {
+    const std::string unit = fmt::format("{} {}", study.roles.noun, each.unit);
+    if (each.unit.empty() || !is_of(goal.name, unit)) continue;
+    throw InputError(fmt::format(
+        "{}: a reading of {} changes what is known of its own life beyond the population; choose a "
+        "goal of the population (B10 of a new {}), or see wearwell decide --inspect-after",
+        row_of(candidates.conditions, each.row), printable(unit), study.roles.noun));
+  }
+}
+
 NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const ReadStudy& read,
                  const NextQuestion& question) {
   check_question(question);
@@ -190,6 +209,7 @@ NextPlan plan_of(prognosis::CarriedState state, const std::string& result, const
   const TestStudy study = test_study(state.source, read, question.measure);
   Candidates candidates = candidates_of(question, study);
   refuse_together(question, study, candidates);
+  refuse_goal_of_unit(plan.goal, study, candidates);
   plan.currency = candidates.currency;
   plan.notes.insert(plan.notes.end(), candidates.notes.begin(), candidates.notes.end());
   if (question.use_cost && !study.is_life)

@@ -128,9 +128,13 @@ CandidateColumn per_cost(const NextPlan& plan) {
           [](const Judged& each) { return 100 * each.narrowing / *each.cost; }};
 }
 
-void add_narrowing(const NextPlan& plan, std::vector<CandidateColumn>& all) {
-  all.push_back({{"narrowing", "%", present::digits(3)},
-                 [](const Judged& each) { return 100 * each.narrowing; }});
+CandidateColumn narrowing_column() {
+  return {{"narrowing", "%", present::digits(3)},
+          [](const Judged& each) { return 100 * each.narrowing; }};
+}
+
+// What the interval of the goal is expected to be.
+void add_interval(const NextPlan& plan, std::vector<CandidateColumn>& all) {
   const auto has_error = [](const Judged& each) { return each.narrowing_error > 5e-5; };
   if (std::any_of(plan.judged.begin(), plan.judged.end(), has_error))
     all.push_back({{"error", "%", present::digits(1)}, [has_error](const Judged& each) {
@@ -159,14 +163,18 @@ std::vector<CandidateColumn> candidate_columns(const NextPlan& plan) {
   if (plan.loss && plan.loss->fleet_use > 0)
     all.push_back({{"saving", currency, present::digits(4)},
                    [&](const Judged& each) { return plan.loss->saved(each.gain.saved); }});
-  if (!plan.loss) add_narrowing(plan, all);
+  if (!plan.loss) {
+    all.push_back(narrowing_column());
+    add_interval(plan, all);
+  }
   if (costs) {
     all.push_back(
         {{"cost", currency, present::digits(4)}, [](const Judged& each) { return *each.cost; }});
     all.push_back(per_cost(plan));
   }
-  if (plan.loss) add_narrowing(plan, all);
-  if (!plan.loss)
+  if (plan.loss)
+    all.push_back(narrowing_column());
+  else
     all.push_back({{"variance left", "%", present::digits(3)},
                    [](const Judged& each) { return 100 * each.variance_share; }});
   all.push_back({{"information", "nat", present::digits(3)},

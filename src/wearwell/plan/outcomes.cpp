@@ -287,7 +287,9 @@ std::size_t Outcomes::drawn_index(Index node, double u) const {
 std::vector<Outcomes> possible_outcomes(const TestStudy& study, const Table& conditions,
                                         std::span<const PlannedTest> tests, const Points& nodes,
                                         std::span<const double> weights) {
-  const std::size_t together = has_new_levels(study, conditions) ? 10 : 100;  // read at once
+  // Tests whose rows are read at once: fewer where each has many rows or integrals.
+  const bool few = study.counted || has_new_levels(study, conditions);
+  const std::size_t together = few ? 10 : 100;
   std::vector<Outcomes> all;
   for (std::size_t at = 0; at < tests.size(); at += together) {
     const auto some = tests.subspan(at, std::min(together, tests.size() - at));

@@ -69,13 +69,21 @@ class JoinedStudy {
     return likelihood_->pointwise(x);
   }
 
-  // Where the factors of the tests stand: the study's own stay as they are before and after them.
-  std::size_t first_new() const {
+  // Where the factors of the tests stand, by unit or by row: the study's own stay as they are
+  // before and after them.
+  std::size_t first_new() {
     const std::vector<double> own =
         study_.own->pointwise({nodes_.row(0).data(), static_cast<std::size_t>(nodes_.cols())});
     const std::vector<double> all = factors(0, 0);
-    const std::size_t count = tests_ + histories_.units.size();
-    if (all.size() != own.size() + count) refuse_dependent_rows();
+    if (all.size() < own.size()) refuse_dependent_rows();
+    const std::size_t count = all.size() - own.size();
+    if (count == histories_.blocks.size()) {
+      blocks_.assign(count, 1);
+    } else if (count == histories_.rows.rows && study_.roles.measured.size() <= 1) {
+      blocks_ = histories_.blocks;
+    } else {
+      refuse_dependent_rows();
+    }
     std::size_t first = 0;
     while (first < own.size() && same_factor(own[first], all[first])) ++first;
     for (std::size_t i = first; i < own.size(); ++i)
@@ -83,11 +91,16 @@ class JoinedStudy {
     return first;
   }
 
-  // Factors of the tests and of the copies alone.
+  // Of the tests and of the copies alone: the sum of the log factors of each.
   std::vector<double> new_factors(Index j, double effect) const {
     const std::vector<double> all = factors(j, effect);
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(first_);
-    return {first, first + static_cast<std::ptrdiff_t>(tests_ + histories_.units.size())};
+    std::vector<double> sums;
+    std::size_t at = first_;
+    for (const std::size_t size : blocks_) {
+      sums.push_back(0);
+      for (std::size_t i = 0; i < size; ++i) sums.back() += all[at++];
+    }
+    return sums;
   }
 
   // Of the tests at one node. Units that the study has are given their own rows.
@@ -108,8 +121,7 @@ class JoinedStudy {
   // The logarithms of the factors at the nodes of an integral; those known are every second one.
   Eigen::MatrixXd at_levels(Index j, const NewLevelIntegral& level,
                             const Eigen::MatrixXd& known = {}) const {
-    Eigen::MatrixXd log_density(std::ssize(level.z()),
-                                static_cast<Index>(tests_ + histories_.units.size()));
+    Eigen::MatrixXd log_density(std::ssize(level.z()), std::ssize(blocks_));
     for (Index k = 0; k < log_density.rows(); ++k) {
       if (known.rows() > 0 && k % 2 == 0) {
         log_density.row(k) = known.row(k / 2);
@@ -157,6 +169,7 @@ class JoinedStudy {
   std::vector<Index> place_;
   int effects_ = 0;
   std::size_t tests_ = 0, first_ = 0;
+  std::vector<std::size_t> blocks_;  // numbers of factors of each test, then of each copy alone
 };
 
 }  // namespace

@@ -157,9 +157,12 @@ Histories with_histories(const TestStudy& study, const Table& rows) {
     if (all.units.size() > first_row.size()) first_row.push_back(i);
     if (seen) copy_history(name, rows.origins[i], i);
     copies.push_back({false, i, rows.origins[i], i});
+    all.blocks.push_back(1 + (seen ? of_unit.at(name).size() : 0));
   }
-  for (std::size_t k = 0; k < all.units.size(); ++k)
+  for (std::size_t k = 0; k < all.units.size(); ++k) {
     copy_history(all.units[k], rows.origins[first_row[k]], rows.rows + k);
+    all.blocks.push_back(of_unit.at(all.units[k]).size());
+  }
   all.rows = copied_rows(study, rows, copies);
   return all;
 }

@@ -24,14 +24,15 @@ Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
                          const std::string& prefix);
 
 /// Tests of units that the study has, as rows of new units that begin with a copy of the unit's own
-/// rows. So each test is a factor of the likelihood of its own, whatever the others show, and the
-/// density of its outcome is that factor over the one of the copy alone.
+/// rows. So each test has its own factors of the likelihood, whatever the others show, and the
+/// density of its outcome is their product over that of the copy alone.
 struct Histories {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  Table rows;                      ///< a unit for each test, then one for each of `units`
-  std::vector<std::size_t> unit;   ///< of each test: index into `units`, or `none` for a new unit
-  std::vector<std::string> units;  ///< that the study has
+  Table rows;                       ///< a unit for each test, then one for each of `units`
+  std::vector<std::size_t> unit;    ///< of each test: index into `units`, or `none` for a new unit
+  std::vector<std::string> units;   ///< that the study has
+  std::vector<std::size_t> blocks;  ///< numbers of rows of the units of `rows`
 
   std::size_t index_of(const std::string& name);  ///< adds it to `units` if it is not there
 };

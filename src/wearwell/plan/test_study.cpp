@@ -144,11 +144,9 @@ void find_conditions(const TomlReader& root, TestStudy& study) {
     if (among(of_outcomes, each.name)) continue;
     if (sn && among(of_specimens, each.name)) {
       study.names.push_back(each.column);
-    } else if (const bool varies = among(varying, each.name) || each.column == study.unit; varies) {
+    } else if (among(varying, each.name) || each.column == study.unit) {
       study.conditions.push_back(condition_of(study.table(), each, true));
       study.conditions.back().varies = true;
-    } else if (study.roles.unit == each.column) {
-      study.new_units.push_back(each.column);
     } else {
       study.conditions.push_back(
           condition_of(study.table(), each, among(study.roles.words, each.column)));
@@ -156,16 +154,18 @@ void find_conditions(const TomlReader& root, TestStudy& study) {
   }
 }
 
-// The label whose rows are one factor of the likelihood: the noun of the factors is its name.
+// The label of units: the noun of the factors of the likelihood is its name if they are of units.
 void find_unit(const PosteriorStudy& own, TestStudy& study) {
   study.factor_noun = own.observation;
-  if (const DataRoles::Named* const named = used_as(study.roles, own.observation);
-      named && named->unit.empty() && named->column != study.measured)
+  const DataRoles::Named* const named = used_as(study.roles, own.observation);
+  if (named && named->unit.empty() && named->column != study.measured)
     study.unit = named->column;
+  else
+    study.unit = study.roles.unit.value_or("");
   // Drawn effects of units are parameters of each.
   for (const Parameter& each : own.parameters) {
     study.parameters.push_back(each.name);
-    if (!study.unit.empty() && each.name.ends_with(fmt::format("[new {}]", own.observation)))
+    if (named && each.name.ends_with(fmt::format("[new {}]", own.observation)))
       throw InputError(fmt::format(
           "plan: each {} has more than two random effects, so that its readings have no "
           "distribution without a parameter for each {}; plan with at most two",

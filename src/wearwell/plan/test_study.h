@@ -52,7 +52,7 @@ struct TestStudy {
   std::string trials = {};           ///< heading of the numbers of trials of a binomial count
   std::optional<LifeStatus> status =
       {};                 ///< the column of outcomes; without one a run-out is a limit, ">1e6"
-  std::string unit = {};  ///< heading of the label whose rows are one factor of the likelihood
+  std::string unit = {};  ///< heading of the label of units, whose rows may depend on each other
   std::vector<std::string> new_units = {};  ///< headings of labels of which each test is a new one
   std::vector<std::string> names = {};      ///< headings of labels that the likelihood does not use
   std::vector<std::string> ones = {};       ///< headings of counts of equal tests

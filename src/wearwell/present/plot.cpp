@@ -202,7 +202,7 @@ Json heat_map(const Columns& data, const Look& look, const Shade& shade) {
       {"domain", {shade.low, shade.high}}, {"range", {palest, 1}}, {"clamp", true}};
   json["encoding"]["opacity"]["legend"] = {{"title", shade.title},
                                            {"values", shown},
-                                           {"format", ".3~g"},
+                                           {"format", ",.3~r"},
                                            {"symbolType", "square"},
                                            {"symbolFillColor", look.colour},
                                            {"symbolStrokeWidth", 0}};
