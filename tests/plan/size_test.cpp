@@ -151,6 +151,42 @@ TEST(Size, OfAWeibullLifeWithKnownShapeIsThatOfTheConjugatePrior) {
   }
 }
 
+// Counts of a Poisson distribution with a gamma prior of the rate: the posterior after Y counts in n
+// areas is gamma(2 + Y, ...), whose ratio of quantiles depends on Y only, and Y is a Poisson count
+// of a gamma rate.
+TEST(Size, OfCountsIsTheConjugatePrior) {
+  const std::string counts = R"toml(
+title = "Counts"
+model = "formula"
+[data]
+file = "there-is-none.csv"
+[data.columns]
+pits = "pits"
+area = "area"
+[likelihood.pits]
+family = "poisson"
+mean = "rate*area"
+[prior]
+rate = { distribution = "gamma", shape = 2, scale = 0.5 }
+)toml";
+  SizeQuestion question{"rate", "factor 3"};
+  question.simulations = 30;
+  const Answer answer = asked(counts, table({{"area", 5}}), question);
+  const auto narrow = [](double y) {
+    const boost::math::gamma_distribution<> posterior(2 + y, 1);
+    return quantile(posterior, 0.95) / quantile(posterior, 0.05) <= 3;
+  };
+  for (const auto& each : answer.json["sizes"]) {
+    const double area = 5 * each["specimens"].get<double>();
+    double wide = 0;
+    for (double y = 0; !narrow(y); ++y)
+      wide += std::exp(std::lgamma(2 + y) - std::lgamma(y + 1) + 2 * std::log(2 / (2 + area)) +
+                       y * std::log(area / (2 + area)));
+    EXPECT_NEAR(each["assurance"].get<double>(), 1 - wide, 4 * std::sqrt(wide * (1 - wide) / 30))
+        << area;
+  }
+}
+
 TEST(Size, RefusesWhatItCannotPlan) {
   const auto refusal = [](const std::string& text, const Table& tests,
                           const SizeQuestion& question) -> std::string {

@@ -30,8 +30,13 @@ const Column* column_for(const Table& rows, const DataRoles::Named& named) {
   return nullptr;
 }
 
-Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, bool positive_only,
-                bool label) {
+// Two values of a measured column, in turn.
+struct MeasuredPair {
+  double even = 1, odd = 10;
+};
+
+Column stand_in(const DataRoles::Named& named, std::size_t rows,
+                const std::optional<MeasuredPair>& measured, bool label) {
   Column column{named.column, !label && named.name != "status", {}, {}};
   for (std::size_t i = 0; i < rows; ++i) {
     if (named.name == "status") {
@@ -41,8 +46,7 @@ Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, 
     } else if (named.name == "count") {
       column.numbers.push_back(1);
     } else if (measured) {
-      // Far apart: the search for the range of outcomes begins from their spread.
-      column.numbers.push_back(positive_only ? (i % 2 ? 10 : 1) : (i % 2 ? 1e6 : -1e6));
+      column.numbers.push_back(i % 2 ? measured->odd : measured->even);
     } else {
       // A value that any model reads; if the likelihood uses the column, `read_candidates` asks for it.
       column.numbers.push_back(0.5);
@@ -51,14 +55,21 @@ Column stand_in(const DataRoles::Named& named, std::size_t rows, bool measured, 
   return column;
 }
 
-bool is_positive_family(const TomlReader& root, const std::string& name) {
-  if (root.required_text("model") != "formula") return true;
+// Values that the family allows, far apart: the search for the range of outcomes begins from their
+// spread.
+MeasuredPair values_of_family(const TomlReader& root, const std::string& name) {
+  if (root.required_text("model") != "formula") return {};
   const std::string family =
       root.required_table("likelihood").required_table(name).required_text("family");
-  const auto forms = response_forms();
-  return std::none_of(forms.begin(), forms.end(), [&](const ResponseForm& form) {
-    return form.name == family && !form.positive;
-  });
+  bool any = false, positive = false, counted = false;
+  for (const ResponseForm& form : response_forms()) {
+    if (form.name != family) continue;
+    positive = any ? positive && form.positive : form.positive;
+    counted = counted || form.counted;
+    any = true;
+  }
+  if (counted) return {0, 1};
+  return any && !positive ? MeasuredPair{-1e6, 1e6} : MeasuredPair{};
 }
 
 // Rows that let the study be read before there are data: the conditions are those of the tests.
@@ -89,8 +100,9 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
     if (!given) {
       // A column of words has no unit in the study.
       const bool label = among(random, name) || (!is_measured && named.unit.empty());
-      table.columns.push_back(stand_in(named, table.rows, is_measured,
-                                       is_measured && is_positive_family(root, name), label));
+      table.columns.push_back(stand_in(
+          named, table.rows,
+          is_measured ? std::optional(values_of_family(root, name)) : std::nullopt, label));
       continue;
     }
     Column column = *given;
