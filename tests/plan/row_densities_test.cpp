@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "plan/grid_posterior.h"
 #include "wearwell/base/error.h"
@@ -142,6 +143,41 @@ along = "t"
   EXPECT_NEAR(found(0, 0), log_normal_density(3.5, 1.9 + 1.2 * 2, variance * 2), 1e-9);
   EXPECT_NEAR(found(0, 1), log_normal_density(3.5, 0.8 + 1.2 * 3, variance * 3), 1e-9);
   EXPECT_NEAR(found(0, 2), log_normal_density(3.5, 1.2 * 4, variance * 4), 1e-9);
+}
+
+// What is asked of units that the data have.
+TEST(NextTest, RefusesWhatAUnitCannotShow) {
+  Source source = crossed_source();
+  source.study.text += "[predict.quantities]\nmiddle = \"a\"\n";
+  WeightedDraws draws;
+  draws.values = Points::Random(60, 4);
+  draws.weights = Eigen::VectorXd::Constant(60, 1.0 / 60);
+  const prognosis::CarriedState state = state_of(source, draws);
+  const auto refusal = [&](const std::string& machine, const std::string& who,
+                           const std::function<void(NextQuestion&)>& change) -> std::string {
+    NextQuestion question;
+    question.goal = "middle";
+    question.candidates =
+        table_of("asked", {words_column("machine", {machine}), words_column("operator", {who})});
+    change(question);
+    try {
+      next_test(state, "crossed", reading(), question);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto nothing = [](NextQuestion&) {};
+  EXPECT_EQ(refusal("M1", "Ada", nothing), "");
+  EXPECT_EQ(refusal("", "", nothing), "");
+  EXPECT_THAT(refusal("M3", "Ada", nothing),
+              testing::AllOf(testing::HasSubstr("asked, row 1, column 'machine': 'M3'"),
+                             testing::HasSubstr("leave the cell empty for a new machine")));
+  EXPECT_THAT(refusal("M1", "Eve", nothing), testing::HasSubstr("column 'operator': 'Eve'"));
+  EXPECT_THAT(refusal("M1", "Ada", [](NextQuestion& question) { question.batch = 2; }),
+              testing::HasSubstr("leave out --batch"));
+  EXPECT_THAT(refusal("M1", "Ada", [](NextQuestion& question) { question.specimens = "2"; }),
+              testing::HasSubstr("2 readings of one machine"));
 }
 
 TEST(NewLevelIntegral, IsTheMeanOfNarrowAndWideDensities) {
