@@ -1,0 +1,42 @@
+#include "wearwell/models/recurrence/recurrence_keys.h"
+
+#include "wearwell/study/posterior_keys.h"
+
+namespace wearwell::recurrence {
+
+StudyKeys study_keys() {
+  StudyKeys keys = posterior_keys();
+  add_keys(keys,
+           {needed_key("process", "\"power_law\"",
+                       "power_law (minimal repair, as bad as old) or renewal (as good as new)"),
+            needed_key("data.columns.unit", "\"engine\"", "unit of the event"),
+            needed_key("data.columns.age", "{ column = \"age\", unit = \"day\" }",
+                       "age of the unit at the event: time, distance or cycles"),
+            needed_key("data.columns.event", "\"event\"", "failure, or end of observation"),
+            {"data.columns.event.failure", "\"repaired\"",
+             "your word for a failure, or its code 1 or 0"},
+            {"data.columns.event.end", "\"retired\"", "your word for the end of observation"},
+            {"data.columns.start", "{ column = \"start\", unit = \"day\" }",
+             "age at which observation of the unit began (0)"},
+            {"data.end", "\"last failure\"",
+             "units without a row of their end were observed until their last failure (row)"},
+            {"data.rounding", "\"1 day\"",
+             "step to which ages are rounded; needed for two failures at one age"},
+            {"conditions.reference_age", "\"600 day\"",
+             "age T of M_T; by default the largest age at an end of observation"},
+            {"prior.beta", "{ distribution = \"lognormal\", median = 1, log_sd = 0.7 }",
+             "shape: above 1 failures become more frequent with age (power law) or with the time "
+             "since a repair (renewal)"},
+            {"prior.M_T", "{ distribution = \"lognormal\", median = 1, log_sd = 3 }",
+             "of a power law: expected failures of one unit until the age T"},
+            {"prior.eta", "{ distribution = \"lognormal\", median = \"500 day\", log_sd = 1 }",
+             "of renewals: characteristic life between failures"},
+            {"predict.age", "[\"600 day\"]",
+             "of a power law: adds MTBF and time to the next failure at this age (that of the "
+             "oldest unit)"},
+            {"predict.next", "[\"100 day\"]",
+             "adds the number of failures in this time, of all units and of each"}});
+  return keys;
+}
+
+}  // namespace wearwell::recurrence
