@@ -43,11 +43,19 @@ struct NamedTest {
   TrendTest test;
 };
 
-std::vector<NamedTest> classical_tests(const Asked& asked) {
+std::vector<NamedTest> classical_tests(const Asked& asked, const WeightedDraws& draws) {
+  const std::vector<UnitHistory>& units = asked.data.units;
   std::vector<NamedTest> tests = {
-      {"laplace", "Laplace", "is the intensity constant?", laplace_test(asked.data.units)}};
-  tests.push_back({"cramer_von_mises", "Cramer-von Mises", "is it a power law?",
-                   cramer_von_mises_test(asked.data.units)});
+      {"laplace", "Laplace", "is the intensity constant?", laplace_test(units)},
+      {"cramer_von_mises", "Cramer-von Mises", "is it a power law?", cramer_von_mises_test(units)}};
+  if (!asked.process.minimal_repair()) return tests;
+  const double x[] = {
+      QuantityDistribution(draws, [](const double* p) { return p[0]; }).quantile(0.5), 1};
+  std::vector<double> weights;
+  for (const UnitHistory& unit : units)
+    weights.push_back(asked.process.mean_by(x, unit.end) - asked.process.mean_by(x, unit.start));
+  tests.push_back(
+      {"dispersion", "Dispersion", "are the units alike?", dispersion_test(units, weights)});
   return tests;
 }
 
@@ -250,7 +258,7 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
 
 PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
   PresetAddition added;
-  const std::vector<NamedTest> tests = classical_tests(asked);
+  const std::vector<NamedTest> tests = classical_tests(asked, draws);
   const present::Table mcf = mcf_table(asked);
   Json json = {{"process", asked.process.minimal_repair() ? "power_law" : "renewal"},
                {"units", asked.data.units.size()},

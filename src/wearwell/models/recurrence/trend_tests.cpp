@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "wearwell/base/rng.h"
 #include "wearwell/bayes/normal_score.h"
@@ -31,6 +32,19 @@ double crow_statistic(std::vector<double> u) {
     sum += off * off;
   }
   return sum;
+}
+
+// The share of samples, each from its own random stream, that are `as_large` as the data, which count as one of them. `size`
+// is the cost of one sample.
+double share_as_large(std::size_t size, const std::function<bool(Rng& rng)>& as_large) {
+  const std::size_t samples = std::clamp(most_evaluations / size, fewest_samples, most_samples);
+  std::vector<char> large(samples);
+  tbb::parallel_for(std::size_t{0}, samples, [&](std::size_t s) {
+    Rng rng(seed_of_samples, s);
+    large[s] = as_large(rng);
+  });
+  const auto count = static_cast<double>(std::count(large.begin(), large.end(), 1));
+  return (count + 1) / (static_cast<double>(samples) + 1);
 }
 
 }  // namespace
@@ -74,17 +88,54 @@ TrendTest cramer_von_mises_test(const std::vector<UnitHistory>& units) {
     return test;
   }
   test.statistic = crow_statistic(shares);
-  const std::size_t samples =
-      std::clamp(most_evaluations / shares.size(), fewest_samples, most_samples);
-  std::vector<char> large(samples);
-  tbb::parallel_for(std::size_t{0}, samples, [&](std::size_t s) {
-    Rng rng(seed_of_samples, s);
-    std::vector<double> u(shares.size());
+  test.p = crow_p_value(test.statistic, shares.size());
+  return test;
+}
+
+double crow_p_value(double statistic, std::size_t failures) {
+  return share_as_large(failures, [&](Rng& rng) {
+    std::vector<double> u(failures);
     for (double& each : u) each = rng.uniform();
-    large[s] = crow_statistic(std::move(u)) >= test.statistic;
+    return crow_statistic(std::move(u)) >= statistic;
   });
-  const auto count = static_cast<double>(std::count(large.begin(), large.end(), 1));
-  test.p = (count + 1) / (static_cast<double>(samples) + 1);
+}
+
+TrendTest dispersion_test(const std::vector<UnitHistory>& units,
+                          const std::vector<double>& weights) {
+  TrendTest test;
+  std::vector<double> cumulated, counts;
+  double sum = 0;
+  bool truncated = false;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    cumulated.push_back(sum += weights[i]);
+    counts.push_back(static_cast<double>(units[i].failures.size()));
+    test.failures += units[i].failures.size();
+    truncated = truncated || units[i].ends_at_failure;
+  }
+  if (units.size() < 2 || test.failures < 2 || truncated) {
+    test.problem = truncated ? "observations that end at a failure fix the number of failures"
+                             : "it needs two units and two failures";
+    return test;
+  }
+  const auto statistic = [&](const std::vector<double>& of) {
+    double squares = 0;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const double expected = static_cast<double>(test.failures) * weights[i] / sum;
+      squares += (of[i] - expected) * (of[i] - expected) / expected;
+    }
+    return squares;
+  };
+  test.statistic = statistic(counts);
+  const double least = test.statistic * (1 - 1e-9);  // equal counts are as large
+  test.p = share_as_large(std::max(units.size(), test.failures), [&](Rng& rng) {
+    std::vector<double> drawn(units.size());
+    for (std::size_t k = 0; k < test.failures; ++k) {
+      const auto at = std::upper_bound(cumulated.begin(), cumulated.end(), sum * rng.uniform());
+      drawn[std::min<std::size_t>(static_cast<std::size_t>(at - cumulated.begin()),
+                                  units.size() - 1)] += 1;
+    }
+    return statistic(drawn) >= least;
+  });
   return test;
 }
 

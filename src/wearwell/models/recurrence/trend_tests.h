@@ -25,4 +25,13 @@ TrendTest laplace_test(const std::vector<UnitHistory>& units);
 /// from 10 000 samples (fewer beyond 1000 failures); the published critical values are quantiles of the same distribution.
 TrendTest cramer_von_mises_test(const std::vector<UnitHistory>& units);
 
+/// The probability of a statistic as large as this one among this number of failures, if the power law holds.
+double crow_p_value(double statistic, std::size_t failures);
+
+/// Tests whether units have the same intensity, by the numbers of their failures: the sum of (number - expected)^2/expected,
+/// where the failures are shared out in proportion to `weights`, the expected numbers of a fitted Poisson process. p is the
+/// share of simulated shares-out (multinomial) with as large a sum, from 10 000 (fewer beyond 1000 failures).
+TrendTest dispersion_test(const std::vector<UnitHistory>& units,
+                          const std::vector<double>& weights);
+
 }  // namespace wearwell::recurrence
