@@ -88,7 +88,7 @@ present::Table test_table(const std::vector<NamedTest>& tests) {
 present::Table crow_table(const Asked& asked, const WeightedDraws& draws) {
   present::Table table{
       "crow-amsaa",
-      "Crow-AMSAA: expected failures of one unit until age t = lambda t^beta, t in " +
+      "Crow-AMSAA: lambda t^beta expected failures of one unit until age t, t in " +
           asked.data.unit.text,
       {{"quantity", "1"}, {"median", "1"}, {"90 %", "1", {}, true}}};
   const double reference = from_si(asked.data.unit, asked.process.reference);

@@ -148,8 +148,8 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   asked.rows.push_back(all);
   if (process.minimal_repair()) {
     for (const double age : read_ages(predict, asked, study)) {
-      QuantityRequest mtbf =
-          quantity("MTBF", "one unit", "at age " + age_text(data, age), data.unit);
+      QuantityRequest mtbf = quantity("mean time between failures", "one unit",
+                                      "at age " + age_text(data, age), data.unit);
       mtbf.headline = true;
       add_quantity(study, mtbf,
                    [process, age](const double* x) { return 1 / process.intensity(x, age); });
@@ -161,7 +161,7 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
         [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
   } else {
     static_cast<void>(read_ages(predict, asked, study));
-    QuantityRequest mtbf = quantity("MTBF", "one unit", "", data.unit);
+    QuantityRequest mtbf = quantity("mean time between failures", "one unit", "", data.unit);
     mtbf.headline = true;
     add_quantity(study, mtbf, [](const double* x) { return x[1] * std::tgamma(1 + 1 / x[0]); });
     mtbf.at = "after a repair";
