@@ -77,8 +77,11 @@ Judged replicate(const Kind& kind, std::uint64_t index) {
       {{"beta", "1", plain, "", beta, 1, 0.3, 0, INFINITY},
        {"second", "1", plain, "", second, quantile(second, 0.5), 0.3 * x[1], 0, INFINITY}},
       process_likelihood(process, data));
-  const WeightedDraws nodes =
-      integrate(posterior, whitening_at(find_mode(posterior, posterior.start())), {}).nodes;
+  const ExactPosterior exact =
+      integrate(posterior, whitening_at(find_mode(posterior, posterior.start())));
+  const WeightedDraws& nodes = exact.nodes;
+  constexpr int draws = 400;
+  const Draws drawn = independent_draws(posterior, exact, 1, draws, seed + 1, index);
   Judged judged;
   judged.beta = QuantityDistribution(nodes, [](const double* p) { return p[0]; }).cdf(x[0]);
   judged.second = QuantityDistribution(nodes, [](const double* p) { return p[1]; }).cdf(x[1]);
@@ -91,7 +94,9 @@ Judged replicate(const Kind& kind, std::uint64_t index) {
     fit.drivers[0].value.push_back(gap.from);
     fit.unit.push_back(gap.unit);
   }
-  judged.p = judge_fit(fit, nodes, {}).p;
+  judged.p =
+      judge_fit(fit, {drawn[0].values, Eigen::VectorXd::Constant(draws, 1.0 / draws), {}, {}}, {})
+          .p;
   return judged;
 }
 
@@ -108,7 +113,7 @@ void expect_uniform_cdf(const std::vector<double>& all, const std::string& what)
 }
 
 void calibrate(const Kind& kind) {
-  std::vector<Judged> all(static_cast<std::size_t>(replications(1000)));
+  std::vector<Judged> all(static_cast<std::size_t>(replications(200)));
   tbb::parallel_for(std::size_t{0}, all.size(),
                     [&](std::size_t i) { all[i] = replicate(kind, i); });
   std::vector<double> beta, second;

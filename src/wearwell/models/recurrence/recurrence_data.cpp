@@ -30,7 +30,10 @@ ColumnChoice read_age(const TomlReader& columns, const Table& table, std::string
       if (!first) first = error;
     }
   }
-  throw *first;
+  const std::string message = first->what();
+  if (message.find("wrong dimension") == message.npos) throw *first;
+  throw InputError(
+      message + "; an age is a time, a distance, a number of cycles or revolutions, or an energy");
 }
 
 // What the cells of the event column mean.
