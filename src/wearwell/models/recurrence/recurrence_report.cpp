@@ -175,11 +175,13 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
 std::string tests_text(const std::vector<NamedTest>& tests) {
   std::string text;
   for (const NamedTest& each : tests)
-    text += each.test.problem.empty()
-                ? fmt::format("  {} ({}): {}, p = {}\n", each.name, each.question,
-                              plain_number(each.test.statistic, 4), plain_number(each.test.p, 2))
-                : fmt::format("  {} ({}): does not apply: {}\n", each.name, each.question,
-                              each.test.problem);
+    text += wrapped(
+        each.test.problem.empty()
+            ? fmt::format("{} ({}): {}, p = {}", each.name, each.question,
+                          plain_number(each.test.statistic, 4), plain_number(each.test.p, 2))
+            : fmt::format("{} ({}): does not apply: {}", each.name, each.question,
+                          each.test.problem),
+        2, 4);
   return text;
 }
 

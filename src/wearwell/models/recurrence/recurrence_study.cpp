@@ -154,7 +154,8 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
       add_quantity(study, mtbf,
                    [process, age](const double* x) { return 1 / process.intensity(x, age); });
       add_next_failure(study, mtbf, process, {age, age});
-      asked.rows.push_back({"one unit", "from age " + age_text(data, age) + " on", {{age, age}}});
+      if (data.units.size() > 1 || age != data.units[0].end)
+        asked.rows.push_back({"one unit", "from age " + age_text(data, age) + " on", {{age, age}}});
     }
     add_quantity(
         study, quantity("age of the first expected failure (eta)", "new unit", "", data.unit),
