@@ -46,7 +46,7 @@ double next_failure(const Kind& kind, const double* x, double at, double last, R
 
 Judged replicate(const Kind& kind, std::uint64_t index) {
   Rng rng(seed, index);
-  const Process process{kind.process, 1, 0};
+  const Process process{kind.process, 1, 0, {}};
   const bool minimal = process.minimal_repair();
   const Distribution beta = make_distribution(Lognormal{1, 0.4}, 0, INFINITY),
                      second = make_distribution(

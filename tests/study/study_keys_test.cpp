@@ -453,6 +453,20 @@ M_T = { distribution = "default" }
 next = ["100 day"]
 )toml"},
       {"repairable", R"toml(model = "repairable"
+process = "phases"
+[data]
+file = "growth.csv"
+end = "last failure"
+[data.columns]
+unit = "system"
+age = "test time"
+event = "event"
+[conditions]
+phase_ends = ["500 h"]
+[prior]
+MTBF_2 = { distribution = "default" }
+)toml"},
+      {"repairable", R"toml(model = "repairable"
 process = "renewal"
 [data]
 file = "valve_seats.csv"

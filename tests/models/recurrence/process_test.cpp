@@ -14,7 +14,8 @@
 namespace wearwell::recurrence {
 namespace {
 
-const Process power{ProcessKind::power_law, 200, 0}, renewal{ProcessKind::renewal, 200, 0.5};
+const Process power{ProcessKind::power_law, 200, 0, {}},
+    renewal{ProcessKind::renewal, 200, 0.5, {}};
 
 // Published for Crow's three systems: beta = 0.615, lambda = 0.461; there the gradient is zero.
 TEST(PowerLaw, MaximumIsCrowsEstimate) {
@@ -49,6 +50,34 @@ TEST(Process, FactorsSumToTheLikelihoodAndGradientIsOfDifferences) {
       EXPECT_NEAR(gradient[i], (likelihood->value(up) - likelihood->value(down)) / 2e-6, 1e-6);
     }
   }
+}
+
+// By hand: 2 failures in 2 x 50 units of age of the first phase, 1 in 100 of the second.
+TEST(Phases, CountFailuresAndTimeOfEachPhase) {
+  Process phases{ProcessKind::phases, 1, 0, {50}};
+  const RecurrenceData data =
+      observed({{20, 50, 70}, {}}, {150, 50});  // a failure at the end of a phase belongs to it
+  const double x[] = {40, 80};
+  const auto likelihood = process_likelihood(phases, data);
+  EXPECT_NEAR(likelihood->value(x), -2 * std::log(40) - 100.0 / 40 - std::log(80) - 100.0 / 80,
+              1e-12);
+  double sum = 0, gradient[2];
+  for (const double each : likelihood->pointwise(x)) sum += each;
+  EXPECT_NEAR(sum, likelihood->value(x), 1e-12);
+  likelihood->value_and_gradient(x, gradient);
+  EXPECT_NEAR(gradient[0], -2.0 / 40 + 100.0 / 1600, 1e-12);
+  EXPECT_NEAR(gradient[1], -1.0 / 80 + 100.0 / 6400, 1e-12);
+  EXPECT_NEAR(phases.mean_by(x, 90), 50.0 / 40 + 40.0 / 80, 1e-12);
+  EXPECT_NEAR(phases.intensity(x, 50), 1.0 / 40, 1e-15);
+  EXPECT_NEAR(phases.intensity(x, 51), 1.0 / 80, 1e-15);
+}
+
+// One phase is the power law with beta = 1.
+TEST(Phases, OneIsAConstantIntensity) {
+  const RecurrenceData data = three_systems();
+  const double by_number[] = {1, 10}, by_mtbf[] = {20};
+  EXPECT_NEAR(process_likelihood({ProcessKind::phases, 1, 0, {}}, data)->value(by_mtbf),
+              process_likelihood(power, data)->value(by_number), 1e-10);
 }
 
 // With beta = 1 both processes are the same Poisson process, factor by factor.

@@ -64,6 +64,21 @@ TEST_F(RecurrenceStudyTest, QuadratureHasTheClosedForm) {
               7 * (std::pow(1 - std::log(1.5) / logs, -7) - 1), 0.02);
 }
 
+// With the prior 1/MTBF the intensity of a phase is gamma distributed, with the number of its failures and its time.
+TEST_F(RecurrenceStudyTest, PhasesHaveTheClosedForm) {
+  const Result result = run("phases",
+                            "[conditions]\nphase_ends = [\"50 h\"]\n[prior]\nMTBF_1 = { "
+                            "distribution = \"jeffreys\", unit = "
+                            "\"h\" }\nMTBF_2 = { distribution = \"jeffreys\", unit = \"h\" }\n");
+  const boost::math::gamma_distribution<> first(4, 1 / 50.0), second(3, 1 / 150.0);
+  const auto& parameters = result.posterior->parameters;
+  ASSERT_EQ(parameters.size(), 2U);
+  EXPECT_NEAR(parameters[0].exact->q95 * quantile(first, 0.05), 1, 2e-3);
+  EXPECT_NEAR(parameters[0].exact->q05 * quantile(first, 0.95), 1, 2e-3);
+  EXPECT_NEAR(parameters[1].exact->q50 * quantile(second, 0.5), 1, 2e-3);
+  EXPECT_FALSE(result.body["repairable"].contains("probability_beta_above_1"));
+}
+
 // Both processes have the same data and comparable factors.
 TEST_F(RecurrenceStudyTest, ProcessesAreComparable) {
   const Result power = run("power_law", ""),
@@ -80,6 +95,12 @@ TEST_F(RecurrenceStudyTest, Refusals) {
   EXPECT_THAT(refusal("renewal", "[predict]\nage = [\"100 h\"]\n"), HasSubstr("does not matter"));
   EXPECT_THAT(refusal("renewal", "[conditions]\nreference_age = \"100 h\"\n"),
               HasSubstr("renewal process has none"));
+  EXPECT_THAT(refusal("power_law", "[conditions]\nphase_ends = [\"100 h\"]\n"),
+              HasSubstr("belongs to process"));
+  EXPECT_THAT(refusal("phases", "[conditions]\nphase_ends = [\"100 h\", \"90 h\"]\n"),
+              HasSubstr("ascending"));
+  EXPECT_THAT(refusal("phases", "[conditions]\nphase_ends = [\"200 h\"]\n"),
+              HasSubstr("no unit was observed beyond 200 h"));
   EXPECT_THAT(refusal("power_law", "[predict]\nnext = [\"0 h\"]\n"), HasSubstr("must be positive"));
   EXPECT_THAT(refusal("power_law", "[predict]\nnext = [\"5 km\"]\n"), HasSubstr("next"));
   EXPECT_THAT(refusal("power_law", "[update]\nstages = \"row\"\n"), HasSubstr("not possible"));

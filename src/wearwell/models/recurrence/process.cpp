@@ -38,11 +38,54 @@ T log_factor(const Process& process, const Gap& gap, const T* x) {
     return log_failed(weibull_hazard(x, process.rounding)) - std::log(process.rounding);
   const T hazard = cumulative_hazard(process, gap, x);
   if (!gap.failed) return -hazard;
+  if (process.kind == ProcessKind::phases) return -log(x[process.phase_at(gap.to)]) - hazard;
   if (process.minimal_repair())
     return log(x[0] * x[1] / gap.to) + x[0] * std::log(gap.to / process.reference) - hazard;
   const double length = gap.to - gap.from;
   return log(x[0] / length) + x[0] * (std::log(length) - log(x[1])) - hazard;
 }
+
+// By the failures and the time of observation of each phase.
+class PhaseLikelihood final : public LogDensity {
+ public:
+  PhaseLikelihood(const Process& process, const RecurrenceData& data)
+      : process_(process),
+        gaps_(data.gaps),
+        failures_(process.parameters()),
+        time_(process.parameters()) {
+    for (const Gap& gap : gaps_) {
+      if (gap.failed) failures_[process.phase_at(gap.to)] += 1;
+      for (std::size_t k = 0; k < time_.size(); ++k)
+        time_[k] += process.time_in_phase(k, gap.to) - process.time_in_phase(k, gap.from);
+    }
+  }
+
+  int dimension() const override { return static_cast<int>(time_.size()); }
+  double value(std::span<const double> x) const override {
+    double sum = 0;
+    for (std::size_t k = 0; k < time_.size(); ++k) {
+      sum -= time_[k] / x[k];
+      if (failures_[k] > 0) sum -= failures_[k] * std::log(x[k]);
+    }
+    return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+  }
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    for (std::size_t k = 0; k < time_.size(); ++k)
+      gradient[k] = (time_[k] / x[k] - failures_[k]) / x[k];
+    return value(x);
+  }
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    std::vector<double> terms;
+    terms.reserve(gaps_.size());
+    for (const Gap& gap : gaps_) terms.push_back(log_factor(process_, gap, x.data()));
+    return terms;
+  }
+
+ private:
+  Process process_;
+  std::vector<Gap> gaps_;
+  std::vector<double> failures_, time_;
+};
 
 class ProcessLikelihood final : public LogDensity {
  public:
@@ -114,6 +157,7 @@ double score_at(double hazard) {
 
 std::shared_ptr<const LogDensity> process_likelihood(const Process& process,
                                                      const RecurrenceData& data) {
+  if (process.kind == ProcessKind::phases) return std::make_shared<PhaseLikelihood>(process, data);
   return std::make_shared<ProcessLikelihood>(process, data);
 }
 

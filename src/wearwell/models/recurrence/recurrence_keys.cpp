@@ -8,7 +8,8 @@ StudyKeys study_keys() {
   StudyKeys keys = posterior_keys();
   add_keys(keys,
            {needed_key("process", "\"power_law\"",
-                       "power_law (minimal repair, as bad as old) or renewal (as good as new)"),
+                       "power_law (minimal repair, as bad as old), renewal (as good as new) or "
+                       "phases (of a growth test)"),
             needed_key("data.columns.unit", "\"engine\"", "unit of the event"),
             needed_key("data.columns.age", "{ column = \"age\", unit = \"day\" }",
                        "age of the unit at the event: time, distance or cycles"),
@@ -24,6 +25,10 @@ StudyKeys study_keys() {
              "step to which ages are rounded; needed for two failures at one age"},
             {"conditions.reference_age", "\"600 day\"",
              "age T of M_T; by default the largest age at an end of observation"},
+            {"conditions.phase_ends", "[\"500 h\", \"1000 h\"]",
+             "of phases: the ages at which all phases but the last end"},
+            {"prior.MTBF_*", "{ distribution = \"lognormal\", median = \"100 h\", log_sd = 1 }",
+             "of phases: mean time between failures in phase 1, 2, ..."},
             {"prior.beta", "{ distribution = \"lognormal\", median = 1, log_sd = 0.7 }",
              "shape: above 1 failures become more frequent with age (power law) or with the time "
              "since a repair (renewal)"},

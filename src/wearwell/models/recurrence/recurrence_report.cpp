@@ -21,6 +21,18 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_units = 1000;  // with a forecast of their own
 constexpr Eigen::Index draws_of_figure = 400;
 
+const char* process_name(ProcessKind kind) {
+  switch (kind) {
+    case ProcessKind::power_law:
+      return "power_law";
+    case ProcessKind::renewal:
+      return "renewal";
+    case ProcessKind::phases:
+      return "phases";
+  }
+  return "";
+}
+
 present::Table mcf_table(const Asked& asked) {
   present::Table table{"mcf",
                        "Mean cumulative function: failures per unit until each age (Nelson), "
@@ -49,11 +61,13 @@ std::vector<NamedTest> classical_tests(const Asked& asked, const WeightedDraws& 
       {"laplace", "Laplace", "is the intensity constant?", laplace_test(units)},
       {"cramer_von_mises", "Cramer-von Mises", "is it a power law?", cramer_von_mises_test(units)}};
   if (!asked.process.minimal_repair()) return tests;
-  const double x[] = {
-      QuantityDistribution(draws, [](const double* p) { return p[0]; }).quantile(0.5), 1};
+  std::vector<double> x;  // posterior medians
+  for (Eigen::Index k = 0; k < draws.values.cols(); ++k)
+    x.push_back(QuantityDistribution(draws, [k](const double* p) { return p[k]; }).quantile(0.5));
   std::vector<double> weights;
   for (const UnitHistory& unit : units)
-    weights.push_back(asked.process.mean_by(x, unit.end) - asked.process.mean_by(x, unit.start));
+    weights.push_back(asked.process.mean_by(x.data(), unit.end) -
+                      asked.process.mean_by(x.data(), unit.start));
   tests.push_back(
       {"dispersion", "Dispersion", "are the units alike?", dispersion_test(units, weights)});
   return tests;
@@ -262,14 +276,15 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
   PresetAddition added;
   const std::vector<NamedTest> tests = classical_tests(asked, draws);
   const present::Table mcf = mcf_table(asked);
-  Json json = {{"process", asked.process.minimal_repair() ? "power_law" : "renewal"},
+  Json json = {{"process", process_name(asked.process.kind)},
                {"units", asked.data.units.size()},
                {"failures", asked.data.failures()},
                {"age_unit", asked.data.unit.text}};
-  if (asked.process.minimal_repair())
+  if (asked.process.kind == ProcessKind::power_law)
     json["reference_age"] = from_si(asked.data.unit, asked.process.reference);
-  const QuantityDistribution beta(draws, [](const double* x) { return x[0]; });
-  json["probability_beta_above_1"] = 1 - beta.cdf(1);
+  if (asked.process.kind != ProcessKind::phases)
+    json["probability_beta_above_1"] =
+        1 - QuantityDistribution(draws, [](const double* x) { return x[0]; }).cdf(1);
   json["tests"] = tests_json(tests);
   json["mcf"] = Json::array();
   for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level))
@@ -280,7 +295,7 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
                            {"se", step.se},
                            {"low", step.low},
                            {"high", step.high}});
-  if (asked.process.minimal_repair())
+  if (asked.process.kind == ProcessKind::power_law)
     added.blocks["parameters"].push_back({crow_table(asked, draws)});
   added.blocks["fit"].push_back({test_table(tests)});
   added.blocks["fit"].push_back({mcf});

@@ -8,29 +8,62 @@
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/recurrence/recurrence_report.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/study/posterior_summary.h"
 
 namespace wearwell::recurrence {
 namespace {
 
+std::string age_text(const RecurrenceData& data, double si) {
+  return fmt::format("{:.6g} {}", from_si(data.unit, si), data.unit.text);
+}
+
+void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceData& data,
+                 Process& process) {
+  const bool stated = conditions && conditions->has("phase_ends");
+  if (process.kind != ProcessKind::phases) {
+    if (stated) conditions->fail("phase_ends", "belongs to process = \"phases\"");
+    return;
+  }
+  constexpr std::size_t most_phases = 20;
+  if (!stated) return;
+  for (const Quantity& end : conditions->quantities("phase_ends", data.si)) {
+    const double last = process.phase_ends.empty() ? 0 : process.phase_ends.back();
+    if (!(end.si() > last)) conditions->fail("phase_ends", "must be positive and ascending");
+    if (!(end.si() < data.longest()))
+      conditions->fail(
+          "phase_ends",
+          fmt::format("has a phase that begins at {:.6g} {}, but no unit was observed beyond {}",
+                      end.value, end.unit.text, age_text(data, data.longest())));
+    process.phase_ends.push_back(end.si());
+  }
+  if (process.phase_ends.size() >= most_phases)
+    conditions->fail("phase_ends", fmt::format("allows at most {} phases", most_phases));
+}
+
 Process read_process(const TomlReader& root, const RecurrenceData& data) {
   Process process;
-  const auto kind = root.choice("process", {"power_law", "renewal"});
+  const auto kind = root.choice("process", {"power_law", "renewal", "phases"});
   if (!kind)
     root.fail("process",
-              "is missing: \"power_law\" (minimal repair, as bad as old) or \"renewal\" (as good "
-              "as new)");
-  process.kind = *kind == "renewal" ? ProcessKind::renewal : ProcessKind::power_law;
+              "is missing: \"power_law\" (minimal repair, as bad as old), \"renewal\" (as good as "
+              "new) or "
+              "\"phases\" (of a growth test)");
+  process.kind = *kind == "renewal"  ? ProcessKind::renewal
+                 : *kind == "phases" ? ProcessKind::phases
+                                     : ProcessKind::power_law;
   process.reference = data.longest();
   process.rounding = data.rounding;
   const auto conditions = root.table("conditions");
   if (const auto age = conditions ? conditions->quantity("reference_age", data.si) : std::nullopt) {
-    if (!process.minimal_repair())
-      conditions->fail("reference_age",
-                       "belongs to process = \"power_law\": a renewal process has none");
+    if (process.kind != ProcessKind::power_law)
+      conditions->fail(
+          "reference_age",
+          "belongs to process = \"power_law\": a renewal process has none, nor have phases");
     if (!(age->si() > 0)) conditions->fail("reference_age", "must be positive");
     process.reference = age->si();
   }
+  read_phases(conditions, data, process);
   if (process.minimal_repair()) return process;
   for (const UnitHistory& unit : data.units) {
     if (unit.start > 0)
@@ -45,10 +78,6 @@ Process read_process(const TomlReader& root, const RecurrenceData& data) {
   return process;
 }
 
-std::string age_text(const RecurrenceData& data, double si) {
-  return fmt::format("{:.6g} {}", from_si(data.unit, si), data.unit.text);
-}
-
 // Defaults: beta of machines lies between 0.3 and 3 (Rigdon and Basu 2000); the number of failures and the time between them
 // are only known to some powers of ten.
 void read_parameters(const TomlReader& root, const Asked& asked, PosteriorStudy& study) {
@@ -61,6 +90,25 @@ void read_parameters(const TomlReader& root, const Asked& asked, PosteriorStudy&
     spec.fallback = std::move(fallback);
     study.parameters.push_back(read_prior(root, priors, spec));
   };
+  const double size = rounded_up(from_si(data.unit, data.longest()));
+  const auto of_size = [&](double share) {
+    return DefaultPrior{"lognormal", Lognormal{to_si(data.unit, share * size), 3}, data.unit.text};
+  };
+  if (asked.process.kind == ProcessKind::phases) {
+    const std::size_t phases = asked.process.parameters();
+    for (std::size_t k = 0; k < phases; ++k) {
+      read({fmt::format("MTBF_{}", k + 1), data.si, 0, INFINITY, exposure / failures},
+           of_size(0.1));
+      study.meanings.push_back(fmt::format(
+          "mean time between failures in phase {}{}", k + 1,
+          k + 1 < phases ? ", until " + age_text(data, asked.process.phase_ends[k]) : ""));
+    }
+    study.equation = fmt::format(
+        "failures are a Poisson process (minimal repair) with a constant intensity, one over its "
+        "MTBF, in each of {} phase{}",
+        phases, phases == 1 ? "" : "s");
+    return;
+  }
   read({"beta", "1", 0, INFINITY, 1}, {"lognormal", Lognormal{1, 0.7}, "1"});
   if (asked.process.minimal_repair()) {
     read({"M_T", "1", 0, INFINITY, failures * asked.process.reference / exposure},
@@ -73,9 +121,7 @@ void read_parameters(const TomlReader& root, const Asked& asked, PosteriorStudy&
         "Poisson process",
         age);
   } else {
-    const double size = rounded_up(from_si(data.unit, data.longest()));
-    read({"eta", data.si, 0, INFINITY, exposure / failures},
-         {"lognormal", Lognormal{to_si(data.unit, size), 3}, data.unit.text});
+    read({"eta", data.si, 0, INFINITY, exposure / failures}, of_size(1));
     study.meanings = {"shape of the distribution between failures",
                       "characteristic life between failures"};
     study.equation =
@@ -157,9 +203,10 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
       if (data.units.size() > 1 || age != data.units[0].end)
         asked.rows.push_back({"one unit", "from age " + age_text(data, age) + " on", {{age, age}}});
     }
-    add_quantity(
-        study, quantity("age of the first expected failure (eta)", "new unit", "", data.unit),
-        [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
+    if (process.kind == ProcessKind::power_law)
+      add_quantity(
+          study, quantity("age of the first expected failure (eta)", "new unit", "", data.unit),
+          [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
   } else {
     static_cast<void>(read_ages(predict, asked, study));
     QuantityRequest mtbf = quantity("mean time between failures", "one unit", "", data.unit);
@@ -180,8 +227,23 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   }
 }
 
+// The growth from the first phase to the last, for the verdict.
+std::string growth_clause(const Process& process, const WeightedDraws& draws) {
+  const std::size_t last = process.parameters() - 1;
+  if (last == 0) return "";
+  const QuantityDistribution ratio(draws, [last](const double* x) { return x[last] / x[0]; });
+  const double longer = 1 - ratio.cdf(1);
+  return fmt::format(
+      "with a probability of {} the mean time between failures is {} in the last phase than in the "
+      "first; the ratio is {} "
+      "(median)",
+      probability_text(longer >= 0.5 ? longer : 1 - longer), longer >= 0.5 ? "longer" : "shorter",
+      plain_number(ratio.quantile(0.5), 3));
+}
+
 // The trend, for the verdict.
 std::string trend_clause(const Process& process, const WeightedDraws& draws) {
+  if (process.kind == ProcessKind::phases) return growth_clause(process, draws);
   const QuantityDistribution beta(draws, [](const double* x) { return x[0]; });
   const double rising = 1 - beta.cdf(1);
   const std::string probability = probability_text(rising >= 0.5 ? rising : 1 - rising);
