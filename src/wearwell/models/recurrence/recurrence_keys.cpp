@@ -27,8 +27,8 @@ StudyKeys study_keys() {
              "age T of M_T; by default the largest age at an end of observation"},
             {"conditions.phase_ends", "[\"500 h\", \"1000 h\"]",
              "of phases: the ages at which all phases but the last end"},
-            {"prior.MTBF_*", "{ distribution = \"lognormal\", median = \"100 h\", log_sd = 1 }",
-             "of phases: mean time between failures in phase 1, 2, ..."},
+            {"prior.*", "{ distribution = \"lognormal\", median = \"100 h\", log_sd = 1 }",
+             "of phases: MTBF_1, MTBF_2, ..., the mean time between failures in each phase"},
             {"prior.beta", "{ distribution = \"lognormal\", median = 1, log_sd = 0.7 }",
              "shape: above 1 failures become more frequent with age (power law) or with the time "
              "since a repair (renewal)"},
