@@ -33,7 +33,7 @@ const std::vector<std::set<std::string>> order = {
     {"study"},
     {"selection", "prognosis", "fleet"},
     {"plan"},
-    {"joint", "bearing", "clutch", "fatigue", "formula_model"},
+    {"joint", "bearing", "clutch", "fatigue", "formula_model", "recurrence"},
     {"models", "monitor"},
     {"cli"},
     {"embed"}};

@@ -68,7 +68,7 @@ TEST_F(Door, SlipsInAStudy) {
       // the model
       {"joint", "archard-joint", "joint",
        "slip.toml:4:9: model: 'joint' is not allowed; use one of archard-joint, bearing-wear, "
-       "clutch-wear, sn, staircase, formula (nearest: 'archard-joint')"},
+       "clutch-wear, sn, staircase, formula, repairable (nearest: 'archard-joint')"},
       {"joint", "^model", "modle", "slip.toml:4:9: modle: unknown key; did you mean 'model'?"},
       {"joint", "^model.*", "",
        "model: is missing: it is one of archard-joint, bearing-wear, clutch-wear, sn"},
@@ -262,7 +262,8 @@ TEST_F(Door, SlipsInACommandLine) {
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
        "PRESET: 'jiont' is not allowed; use one of joint, bearing, clutch, fatigue, spectrum, "
-       "strain-life, staircase, formula, life, accelerated, degradation, fleet; did you mean "
+       "strain-life, staircase, formula, life, accelerated, degradation, fleet, repairable; did "
+       "you mean "
        "'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},

@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(, Processors,
                                          "bearing/study.toml", "fatigue/study.toml",
                                          "spring/case1.toml", "staircase/study.toml",
                                          "clutch/study.toml", "formula/study.toml",
-                                         "life/study.toml", "accelerated/study.toml",
-                                         "degradation/steps.toml"),
+                                         "repairable/study.toml", "life/study.toml",
+                                         "accelerated/study.toml", "degradation/steps.toml"),
                          [](const auto& each) {
                            std::string name = each.param.substr(0, each.param.rfind('.'));
                            for (char& c : name) {

@@ -188,9 +188,10 @@ TEST_P(EveryExample, ReadsBackFromItsStateAlone) {
 INSTANTIATE_TEST_SUITE_P(, EveryExample,
                          testing::Values("joint/study", "joint/pointwise", "bearing/study",
                                          "fatigue/study", "staircase/study", "spring/case1",
-                                         "degradation/study", "degradation/lines", "life/study",
-                                         "accelerated/study", "formula/study", "messy/german_excel",
-                                         "messy/logger", "messy/workbook", "messy/rig"),
+                                         "repairable/study", "degradation/study",
+                                         "degradation/lines", "life/study", "accelerated/study",
+                                         "formula/study", "messy/german_excel", "messy/logger",
+                                         "messy/workbook", "messy/rig"),
                          [](const auto& each) {
                            std::string name = each.param;
                            for (char& c : name) c = c == '/' ? '_' : c;

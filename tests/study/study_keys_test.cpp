@@ -72,12 +72,14 @@ class StudyKeysTest : public ScratchTest {
           "failure,2,B,9\n"
           "9000,40,70,60,540,60,B,10,25,stationary,1,20,9000,60,9,200,-1,10,200,-200,3,10,9900,"
           "failure,1,B,9\n");
+    write("events.csv",
+          "unit,age [day],start [day],event\nA,100,50,broke\nA,200,50,sold\nB,90,0,broke\n");
     write("cycle.csv", "force,ds\n60,1\n61,1\n60,1\n61,1\n");
     write("positions.csv",
           "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
           "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
-    for (const char* name :
-         {"joint", "bearing", "fatigue", "clutch", "spring", "formula", "life", "accelerated"}) {
+    for (const char* name : {"joint", "bearing", "fatigue", "clutch", "spring", "formula", "life",
+                             "accelerated", "repairable"}) {
       for (const auto& entry :
            fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
         if (!fs::exists(folder() / entry.path().filename()))
@@ -198,6 +200,7 @@ const std::vector<Start>& starts() {
         {"prior.sigma_limit", "{ distribution = \"default\" }"},
         {"predict.reliability", "\"90 %\""},
         {"predict.credible_level", "0.9"}}},
+      {"repairable", {{"data.file", "\"valve_seats.csv\""}, {"data.rounding", "\"1 day\""}}},
       {"sn",
        {{"conditions.S_ut", "\"1200 MPa\""},
         {"predict.reliability", "\"90 %\""},
@@ -431,6 +434,50 @@ scatter = { distribution = "lognormal", median = 0.5, log_sd = 0.5 }
 eta = { distribution = "lognormal", median = "30000 km", log_sd = 1 }
 beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
 )toml"},
+      {"repairable", R"toml(model = "repairable"
+process = "power_law"
+[data]
+file = "events.csv"
+end = "last failure"
+rounding = "1 day"
+[data.columns]
+unit = "unit"
+age = "age"
+start = "start"
+event = { column = "event", failure = "broke", end = "sold" }
+[conditions]
+reference_age = "600 day"
+[prior]
+M_T = { distribution = "default" }
+[predict]
+next = ["100 day"]
+)toml"},
+      {"repairable", R"toml(model = "repairable"
+process = "phases"
+[data]
+file = "growth.csv"
+end = "last failure"
+[data.columns]
+unit = "system"
+age = "test time"
+event = "event"
+[conditions]
+phase_ends = ["500 h"]
+[prior]
+MTBF_2 = { distribution = "default" }
+)toml"},
+      {"repairable", R"toml(model = "repairable"
+process = "renewal"
+[data]
+file = "valve_seats.csv"
+rounding = "1 day"
+[data.columns]
+unit = "engine"
+age = "age"
+event = { column = "event", failure = 1 }
+[prior]
+eta = { distribution = "default" }
+)toml"},
   };
   return all;
 }
@@ -439,7 +486,7 @@ void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
   const std::map<std::string, std::string> folders = {
       {"joint", "archard-joint"}, {"bearing", "bearing-wear"}, {"fatigue", "sn"},
       {"spring", "sn"},           {"clutch", "clutch-wear"},   {"formula", "formula"},
-      {"life", "formula"},        {"accelerated", "formula"}};
+      {"life", "formula"},        {"accelerated", "formula"},  {"repairable", "repairable"}};
   for (const auto& [folder, model] : folders) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {

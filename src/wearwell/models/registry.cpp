@@ -5,6 +5,7 @@
 #include "wearwell/models/fatigue/model.h"
 #include "wearwell/models/formula_model/model.h"
 #include "wearwell/models/joint/model.h"
+#include "wearwell/models/recurrence/model.h"
 
 namespace wearwell {
 
@@ -22,6 +23,7 @@ Models all_models() {
       formula_model::accelerated(),
       formula_model::degradation(),
       formula_model::fleet(),
+      recurrence::model(),
   };
   return models;
 }

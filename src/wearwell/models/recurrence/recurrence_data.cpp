@@ -1,0 +1,246 @@
+#include "wearwell/models/recurrence/recurrence_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/life_status.h"
+#include "wearwell/input/status_words.h"
+
+namespace wearwell::recurrence {
+namespace {
+
+constexpr const char* last_failure = "last failure";
+
+// An age is a time, a distance, a number of cycles or revolutions, or an energy.
+ColumnChoice read_age(const TomlReader& columns, const Table& table, std::string& si) {
+  std::optional<InputError> first;
+  for (const char* candidate : {"s", "m", "cycle", "rev", "J"}) {
+    try {
+      const ColumnChoice age = required_column(columns, "age", candidate, table);
+      if (age.unit.text == "1" || age.unit.text.empty()) continue;  // a count that names no unit
+      si = candidate;
+      return age;
+    } catch (const InputError& error) {
+      if (!first) first = error;
+    }
+  }
+  const std::string message = first->what();
+  if (message.find("wrong dimension") == message.npos) throw *first;
+  throw InputError(
+      message + "; an age is a time, a distance, a number of cycles or revolutions, or an energy");
+}
+
+// What the cells of the event column mean.
+struct EventWords {
+  std::string column;
+  std::optional<int> failure_code = {};
+  std::vector<std::string> failures = {}, ends = {};  // the study's own words, folded
+};
+
+EventWords read_event_words(const TomlReader& columns, const Table& table) {
+  const auto chosen = read_word_column(columns, "event", table);
+  if (!chosen) columns.fail("event", "is missing: the column of failures and ends of observation");
+  EventWords words{chosen->column, failure_code_of(chosen->column)};
+  if (columns.is_text("event")) return words;
+  const TomlReader choice = columns.required_table("event");
+  if (choice.is_integer("failure"))
+    words.failure_code = static_cast<int>(*choice.integer("failure", 0, 1));
+  else
+    for (const std::string& each : choice.texts("failure"))
+      words.failures.push_back(folded_word(each));
+  for (const std::string& each : choice.texts("end")) words.ends.push_back(folded_word(each));
+  return words;
+}
+
+bool holds(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Nelson (1995) and SAS code a failure as 1 and the end as -1; R's Surv codes the end as 0.
+std::optional<bool> is_failure(const EventWords& words, const std::string& word) {
+  const std::string folded = folded_word(word);
+  if (holds(words.failures, folded)) return true;
+  if (holds(words.ends, folded)) return false;
+  if (word == "-1") return false;
+  if (const auto truth = truth_in(word)) {
+    if (!words.failure_code) return {};
+    return *truth == (*words.failure_code == 1);
+  }
+  for (const char* each : {"end", "ende", "fin", "endofobservation", "endofhistory", "now"}) {
+    if (folded == each) return false;
+  }
+  for (const char* each : {"repair", "repaired", "reparatur", "replacement"}) {
+    if (folded == each) return true;
+  }
+  const auto seen = censoring_by_word(word);
+  if (seen == Censoring::none) return true;
+  if (seen == Censoring::right) return false;
+  return {};
+}
+
+bool read_event(const Table& table, const EventWords& words, std::size_t row) {
+  const std::string word = cell_word(table.column(words.column), row);
+  if (const auto failed = is_failure(words, word)) return *failed;
+  const std::string where = place(table, words.column, row);
+  if (word.empty())
+    throw InputError(
+        fmt::format("{}: no value; write failure, or end for the end of observation", where));
+  if (truth_in(word))
+    throw InputError(
+        fmt::format("{}: {} is ambiguous: either 1 is a failure and 0 the end of observation, or 0 "
+                    "is a failure; write event = "
+                    "{{ column = \"{}\", failure = 1 }} or failure = 0",
+                    where, word, words.column));
+  throw InputError(
+      fmt::format("{}: '{}' is not an event; use failure, or end for the end of observation; or "
+                  "define your own word in "
+                  "the study: event = {{ column = \"{}\", failure = \"{}\" }}, or end = \"{}\"",
+                  where, word, words.column, word, word));
+}
+
+// The state of reading a unit's rows.
+struct Reading {
+  std::size_t unit = 0;
+  double last = 0;
+  std::size_t last_row = 0;
+  bool begun = false, ended = false;
+};
+
+void check_age(const Table& table, const ColumnChoice& age, double value, const Reading& unit,
+               const UnitHistory& history, std::size_t row) {
+  const std::string cell = cell_word(table.column(age.column), row);
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: {} {}", place(table, age.column, row), cell, why));
+  };
+  if (!(value >= 0)) refuse("must be 0 or more");
+  if (unit.ended)
+    refuse(fmt::format("follows the end of observation of unit '{}' in row {}", history.name,
+                       unit.last_row + 1));
+  if (unit.begun && value < unit.last)
+    refuse(fmt::format(
+        "is less than {}, the age of unit '{}' in row {}: ages of a unit must not go back",
+        cell_word(table.column(age.column), unit.last_row), history.name, unit.last_row + 1));
+  if (value < history.start)
+    refuse(fmt::format("lies before the start of observation of unit '{}'", history.name));
+}
+
+void check_failure(const Table& table, const ColumnChoice& age, const Gap& gap, double rounding,
+                   const UnitHistory& history, std::size_t row) {
+  const std::string where = place(table, age.column, row),
+                    cell = cell_word(table.column(age.column), row);
+  if (gap.to == 0)
+    throw InputError(
+        fmt::format("{}: a failure at age 0; the age of a failure must be positive", where));
+  if (gap.to > gap.from) return;
+  if (gap.first)
+    throw InputError(fmt::format("{}: unit '{}' fails at the very start of its observation, {}",
+                                 where, history.name, cell));
+  if (rounding > 0) return;
+  throw InputError(
+      fmt::format("{}: unit '{}' fails again at {}: either the row is a copy, then remove it; or "
+                  "two failures fell into one "
+                  "rounded age, then state the rounding, for example data.rounding = \"1 {}\"",
+                  where, history.name, cell, age.unit.text));
+}
+
+std::vector<double> read_starts(const TomlReader& columns, const Table& table,
+                                const std::string& si, std::optional<ColumnChoice>& start) {
+  start = read_column(columns, "start", si, table);
+  std::vector<double> starts(table.rows);
+  if (!start) return starts;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const double value = cell_number(table, table.column(start->column), i);
+    starts[i] = std::isnan(value) ? 0 : to_si(start->unit, value);
+    require(starts[i] >= 0, table, *start, i, "0 or more");
+  }
+  return starts;
+}
+
+void close_units(const TomlReader& section, const Table& table, const std::string& unit_column,
+                 const std::map<std::string, Reading>& read, RecurrenceData& data) {
+  const bool at_failure = section.choice("end", {"row", last_failure}) == last_failure;
+  for (const auto& [name, state] : read) {
+    UnitHistory& unit = data.units[state.unit];
+    if (state.ended) continue;
+    if (!at_failure)
+      throw InputError(
+          fmt::format("{}: unit '{}' has no row of its end of observation; add one with its age "
+                      "now and the event end, or, if each "
+                      "unit was observed until its last failure and not longer, state data.end = "
+                      "\"last failure\"",
+                      place(table, unit_column, state.last_row), name));
+    unit.end = state.last;
+    unit.ends_at_failure = true;
+  }
+}
+
+}  // namespace
+
+std::size_t RecurrenceData::failures() const {
+  std::size_t sum = 0;
+  for (const UnitHistory& unit : units) sum += unit.failures.size();
+  return sum;
+}
+
+double RecurrenceData::longest() const {
+  double most = 0;
+  for (const UnitHistory& unit : units) most = std::max(most, unit.end);
+  return most;
+}
+
+RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source) {
+  const TomlReader section = root.required_table("data");
+  const TomlReader columns = section.required_table("columns");
+  const Table table = read_table(section, source);
+  RecurrenceData data;
+  const auto unit_column = read_word_column(columns, "unit", table);
+  if (!unit_column)
+    columns.fail("unit", "is missing: the column that names the unit of each event");
+  const ColumnChoice age = read_age(columns, table, data.si);
+  const EventWords words = read_event_words(columns, table);
+  std::optional<ColumnChoice> start;
+  const std::vector<double> starts = read_starts(columns, table, data.si, start);
+  if (const auto rounding = section.quantity("rounding", data.si)) {
+    if (!(rounding->si() > 0)) section.fail("rounding", "must be positive");
+    data.rounding = rounding->si();
+  }
+  const std::vector<double> ages = si_numbers(table, age);
+  data.unit = age.unit;
+  std::map<std::string, Reading> read;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const std::string name = label_word(table, table.column(unit_column->column), i);
+    const auto [at, is_new] = read.try_emplace(name, Reading{data.units.size()});
+    if (is_new) data.units.push_back({name, starts[i]});
+    Reading& state = at->second;
+    UnitHistory& unit = data.units[state.unit];
+    if (starts[i] != unit.start)
+      throw InputError(fmt::format("{}: the start of unit '{}' differs from that in its first row",
+                                   place(table, start->column, i), name));
+    check_age(table, age, ages[i], state, unit, i);
+    const bool failed = read_event(table, words, i);
+    const Gap gap{state.unit, state.begun ? state.last : unit.start, ages[i], failed, !state.begun};
+    if (failed) {
+      check_failure(table, age, gap, data.rounding, unit, i);
+      unit.failures.push_back(ages[i]);
+    } else if (gap.first && !(ages[i] > unit.start)) {
+      throw InputError(fmt::format("{}: the observation of unit '{}' ends where it starts",
+                                   place(table, age.column, i), name));
+    } else {
+      unit.end = ages[i];
+    }
+    data.gaps.push_back(gap);
+    state = {state.unit, ages[i], i, true, !failed};
+  }
+  close_units(section, table, unit_column->column, read, data);
+  data.columns.push_back({"age", data.si, age.unit, ages});
+  data.layout = table.layout;
+  return data;
+}
+
+}  // namespace wearwell::recurrence

@@ -1,0 +1,47 @@
+#include "wearwell/models/recurrence/recurrence_keys.h"
+
+#include "wearwell/study/posterior_keys.h"
+
+namespace wearwell::recurrence {
+
+StudyKeys study_keys() {
+  StudyKeys keys = posterior_keys();
+  add_keys(keys,
+           {needed_key("process", "\"power_law\"",
+                       "power_law (minimal repair, as bad as old), renewal (as good as new) or "
+                       "phases (of a growth test)"),
+            needed_key("data.columns.unit", "\"engine\"", "unit of the event"),
+            needed_key("data.columns.age", "{ column = \"age\", unit = \"day\" }",
+                       "age of the unit at the event: time, distance or cycles"),
+            needed_key("data.columns.event", "\"event\"", "failure, or end of observation"),
+            {"data.columns.event.failure", "\"repaired\"",
+             "your word for a failure, or its code 1 or 0"},
+            {"data.columns.event.end", "\"retired\"", "your word for the end of observation"},
+            {"data.columns.start", "{ column = \"start\", unit = \"day\" }",
+             "age at which observation of the unit began (0)"},
+            {"data.end", "\"last failure\"",
+             "units without a row of their end were observed until their last failure (row)"},
+            {"data.rounding", "\"1 day\"",
+             "step to which ages are rounded; needed for two failures at one age"},
+            {"conditions.reference_age", "\"600 day\"",
+             "age T of M_T; by default the largest age at an end of observation"},
+            {"conditions.phase_ends", "[\"500 h\", \"1000 h\"]",
+             "of phases: the ages at which all phases but the last end"},
+            {"prior.*", "{ distribution = \"lognormal\", median = \"100 h\", log_sd = 1 }",
+             "of phases: MTBF_1, MTBF_2, ..., the mean time between failures in each phase"},
+            {"prior.beta", "{ distribution = \"lognormal\", median = 1, log_sd = 0.7 }",
+             "shape: above 1 failures become more frequent with age (power law) or with the time "
+             "since a repair (renewal)"},
+            {"prior.M_T", "{ distribution = \"lognormal\", median = 1, log_sd = 3 }",
+             "of a power law: expected failures of one unit until the age T"},
+            {"prior.eta", "{ distribution = \"lognormal\", median = \"500 day\", log_sd = 1 }",
+             "of renewals: characteristic life between failures"},
+            {"predict.age", "[\"600 day\"]",
+             "of a power law: adds MTBF and time to the next failure at this age (that of the "
+             "oldest unit)"},
+            {"predict.next", "[\"100 day\"]",
+             "adds the number of failures in this time, of all units and of each"}});
+  return keys;
+}
+
+}  // namespace wearwell::recurrence

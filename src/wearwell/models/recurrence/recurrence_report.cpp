@@ -1,0 +1,323 @@
+#include "wearwell/models/recurrence/recurrence_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/math/quantile.h"
+#include "wearwell/models/recurrence/mean_cumulative.h"
+#include "wearwell/models/recurrence/trend_tests.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/plot.h"
+#include "wearwell/present/text_table.h"
+#include "wearwell/study/plot_study.h"
+
+namespace wearwell::recurrence {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_units = 1000;  // with a forecast of their own
+constexpr Eigen::Index draws_of_figure = 400;
+
+const char* process_name(ProcessKind kind) {
+  switch (kind) {
+    case ProcessKind::power_law:
+      return "power_law";
+    case ProcessKind::renewal:
+      return "renewal";
+    case ProcessKind::phases:
+      return "phases";
+  }
+  return "";
+}
+
+present::Table mcf_table(const Asked& asked) {
+  present::Table table{"mcf",
+                       "Mean cumulative function: failures per unit until each age (Nelson), "
+                       "bounds hold 90 % pointwise",
+                       {{"age", asked.data.unit.text, present::given},
+                        {"failures", "1", present::given},
+                        {"units at risk", "1", present::given},
+                        {"failures per unit", "1"},
+                        {"standard error", "1"},
+                        {"90 %", "1", {}, true}}};
+  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level))
+    table.rows.push_back({from_si(asked.data.unit, step.age), present::count(step.failures),
+                          present::count(step.at_risk), step.mean, step.se,
+                          present::Range{step.low, step.high}});
+  return table;
+}
+
+struct NamedTest {
+  std::string key, name, question;
+  TrendTest test;
+};
+
+std::vector<NamedTest> classical_tests(const Asked& asked, const WeightedDraws& draws) {
+  const std::vector<UnitHistory>& units = asked.data.units;
+  std::vector<NamedTest> tests = {
+      {"laplace", "Laplace", "is the intensity constant?", laplace_test(units)},
+      {"cramer_von_mises", "Cramer-von Mises", "is it a power law?", cramer_von_mises_test(units)}};
+  if (!asked.process.minimal_repair()) return tests;
+  std::vector<double> x;  // posterior medians
+  for (Eigen::Index k = 0; k < draws.values.cols(); ++k)
+    x.push_back(QuantityDistribution(draws, [k](const double* p) { return p[k]; }).quantile(0.5));
+  std::vector<double> weights;
+  for (const UnitHistory& unit : units)
+    weights.push_back(asked.process.mean_by(x.data(), unit.end) -
+                      asked.process.mean_by(x.data(), unit.start));
+  tests.push_back(
+      {"dispersion", "Dispersion", "are the units alike?", dispersion_test(units, weights)});
+  return tests;
+}
+
+present::Table test_table(const std::vector<NamedTest>& tests) {
+  present::Table table{"trend-tests",
+                       "Classical tests; a small p speaks against what is asked",
+                       {{"test", "1"},
+                        {"question", "1"},
+                        {"statistic", "1", present::digits(4)},
+                        {"p", "1", present::digits(2)},
+                        {"failures", "1", present::given},
+                        {"remark", "1"}}};
+  for (const NamedTest& each : tests) {
+    if (!each.test.problem.empty()) {
+      table.rows.push_back(
+          {each.name, each.question, {}, {}, {}, "does not apply: " + each.test.problem});
+    } else {
+      table.rows.push_back({each.name,
+                            each.question,
+                            each.test.statistic,
+                            each.test.p,
+                            present::count(each.test.failures),
+                            {}});
+    }
+  }
+  return table;
+}
+
+// Crow's parameters in the unit of the data; lambda has the unit age^-beta.
+present::Table crow_table(const Asked& asked, const WeightedDraws& draws) {
+  present::Table table{
+      "crow-amsaa",
+      "Crow-AMSAA: lambda t^beta expected failures of one unit until age t, t in " +
+          asked.data.unit.text,
+      {{"quantity", "1"}, {"median", "1"}, {"90 %", "1", {}, true}}};
+  const double reference = from_si(asked.data.unit, asked.process.reference);
+  const auto add = [&](const char* name, const Function& value) {
+    const QuantityDistribution known(draws, value);
+    table.rows.push_back(
+        {name, known.quantile(0.5), present::Range{known.quantile(0.05), known.quantile(0.95)}});
+  };
+  add("lambda", [=](const double* x) { return x[1] * std::pow(reference, -x[0]); });
+  add("growth rate, 1 - beta", [](const double* x) { return 1 - x[0]; });
+  return table;
+}
+
+std::vector<present::Column> forecast_columns() {
+  return {{"of", "1"},
+          {"from", "1"},
+          {"next", "1"},
+          {"expected failures", "1"},
+          {"90 % of the expected", "1", {}, true},
+          {"90 % of the number", "1", present::given, true},
+          {"at least one", "%", present::digits(3)}};
+}
+
+std::vector<present::Cell> forecast_cells(const std::string& of, const std::string& from,
+                                          const Quantity& ahead, const Forecast& f) {
+  return {of,
+          from,
+          fmt::format("{:.6g} {}", ahead.value, ahead.unit.text),
+          f.expected,
+          present::Range{f.low, f.high},
+          present::Range{f.count_low, f.count_high},
+          100 * f.any};
+}
+
+Json forecast_json(const std::string& of, const std::string& from, const Quantity& ahead,
+                   const Forecast& f) {
+  return {{"of", of},
+          {"from", from},
+          {"next", ahead.value},
+          {"unit", ahead.unit.text},
+          {"expected", f.expected},
+          {"expected_q05", f.low},
+          {"expected_q95", f.high},
+          {"number_q05", f.count_low},
+          {"number_q95", f.count_high},
+          {"at_least_one", f.any}};
+}
+
+struct Forecasts {
+  present::Table table, units;
+  Json json = Json::array();
+  std::vector<std::vector<std::string>> lines;  // for a terminal
+};
+
+Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
+  Forecasts all;
+  all.table = {"forecast", "Failures to come; the number is a whole number", forecast_columns()};
+  all.units = {"unit-forecasts", "Failures to come of each unit", forecast_columns()};
+  all.lines = {{"  of", "from", "next", "expected", "90 % of the number", "at least one [%]"}};
+  const WeightedDraws few = thinned(draws, draws_of_figure);
+  for (const Quantity& ahead : asked.ahead) {
+    for (const ForecastRow& row : asked.rows) {
+      const Forecast f = forecast(asked.process, draws, row.units, ahead.si());
+      all.table.rows.push_back(forecast_cells(row.of, row.from, ahead, f));
+      all.json.push_back(forecast_json(row.of, row.from, ahead, f));
+      all.lines.push_back(
+          {"  " + row.of, row.from, fmt::format("{} {}", plain_given(ahead.value), ahead.unit.text),
+           plain_number(f.expected, 4),
+           fmt::format("{} to {}", plain_given(f.count_low), plain_given(f.count_high)),
+           plain_number(100 * f.any, 3)});
+    }
+    const std::vector<UnitHistory>& units = asked.data.units;
+    for (std::size_t i = 0; i < std::min(units.size(), most_units) && units.size() > 1; ++i) {
+      const Forecast f = forecast(asked.process, few, {state_at_end(units[i])}, ahead.si());
+      const std::string from = fmt::format(
+          "age {:.6g} {}, {} failure{} so far", from_si(asked.data.unit, units[i].end),
+          asked.data.unit.text, units[i].failures.size(), units[i].failures.size() == 1 ? "" : "s");
+      all.units.rows.push_back(forecast_cells(units[i].name, from, ahead, f));
+    }
+  }
+  return all;
+}
+
+std::string tests_text(const std::vector<NamedTest>& tests) {
+  std::string text;
+  for (const NamedTest& each : tests)
+    text += wrapped(
+        each.test.problem.empty()
+            ? fmt::format("{} ({}): {}, p = {}", each.name, each.question,
+                          plain_number(each.test.statistic, 4), plain_number(each.test.p, 2))
+            : fmt::format("{} ({}): does not apply: {}", each.name, each.question,
+                          each.test.problem),
+        2, 4);
+  return text;
+}
+
+Json tests_json(const std::vector<NamedTest>& tests) {
+  Json json;
+  for (const NamedTest& each : tests) {
+    if (!each.test.problem.empty()) {
+      json[each.key] = {{"problem", each.test.problem}};
+    } else {
+      json[each.key] = {
+          {"statistic", each.test.statistic}, {"p", each.test.p}, {"failures", each.test.failures}};
+    }
+  }
+  return json;
+}
+
+html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
+  namespace colour = plot::colour;
+  constexpr int points = 60;
+  const Unit& unit = asked.data.unit;
+  const WeightedDraws draws = thinned(all, draws_of_figure);
+  std::vector<double> ages;
+  for (int i = 1; i <= points; ++i) ages.push_back(asked.data.longest() * i / points);
+  std::vector<std::vector<double>> means;  // of each draw
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i)
+    means.push_back(expected_failures(asked.process, draws.values.row(i).data(), ages));
+  std::vector<double> x = {0}, low = {0}, middle = {0}, high = {0};
+  for (std::size_t k = 0; k < ages.size(); ++k) {
+    std::vector<double> at;
+    for (const auto& each : means) at.push_back(each[k]);
+    std::sort(at.begin(), at.end());
+    x.push_back(from_si(unit, ages[k]));
+    low.push_back(quantile(at, 0.05));
+    middle.push_back(quantile(at, 0.5));
+    high.push_back(quantile(at, 0.95));
+  }
+  // Each step twice, so that lines and areas are steps.
+  std::vector<double> at, mean, below, above;
+  double last_mean = 0, last_low = 0, last_high = 0;
+  const auto add = [&](double age, double m, double l, double h) {
+    at.push_back(age);
+    mean.push_back(m);
+    below.push_back(l);
+    above.push_back(h);
+  };
+  add(0, 0, 0, 0);
+  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level)) {
+    const double age = from_si(unit, step.age);
+    add(age, last_mean, last_low, last_high);
+    add(age, last_mean = step.mean, last_low = step.low, last_high = step.high);
+  }
+  add(from_si(unit, asked.data.longest()), last_mean, last_low, last_high);
+  const std::string shown = html::unit(unit.text);
+  return {"mean-cumulative-function",
+          "Failures per unit until each age",
+          "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
+          "assume no model. The line is "
+          "the fitted process, posterior median with its 90 % band.",
+          plot::plot(
+              "Mean cumulative number of failures per unit against age, from the data and fitted",
+              {"Age [" + shown + "]", false, 0, x.back()}, {"Failures per unit", false, 0, {}},
+              {plot::area({{"x", at}, {"y", above}, {"y2", below}},
+                          {colour::measured, "90 % bounds of the data", 0.15}),
+               plot::area({{"x", x}, {"y", high}, {"y2", low}},
+                          {colour::posterior, "90 % of the fitted mean", 0.28}),
+               plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
+                          {colour::measured, "data", 1, 2}),
+               plot::line({{"x", x}, {"y", middle}, {"failures per unit", middle}},
+                          {colour::posterior, "fitted", 1, 2})},
+              320, true),
+          {},
+          true};
+}
+
+}  // namespace
+
+PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
+  PresetAddition added;
+  const std::vector<NamedTest> tests = classical_tests(asked, draws);
+  const present::Table mcf = mcf_table(asked);
+  Json json = {{"process", process_name(asked.process.kind)},
+               {"units", asked.data.units.size()},
+               {"failures", asked.data.failures()},
+               {"age_unit", asked.data.unit.text}};
+  if (asked.process.kind == ProcessKind::power_law)
+    json["reference_age"] = from_si(asked.data.unit, asked.process.reference);
+  if (asked.process.kind != ProcessKind::phases)
+    json["probability_beta_above_1"] =
+        1 - QuantityDistribution(draws, [](const double* x) { return x[0]; }).cdf(1);
+  json["tests"] = tests_json(tests);
+  json["mcf"] = Json::array();
+  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level))
+    json["mcf"].push_back({{"age", from_si(asked.data.unit, step.age)},
+                           {"failures", step.failures},
+                           {"at_risk", step.at_risk},
+                           {"mean", step.mean},
+                           {"se", step.se},
+                           {"low", step.low},
+                           {"high", step.high}});
+  if (asked.process.kind == ProcessKind::power_law)
+    added.blocks["parameters"].push_back({crow_table(asked, draws)});
+  added.blocks["fit"].push_back({test_table(tests)});
+  added.blocks["fit"].push_back({mcf});
+  if (!asked.ahead.empty()) {
+    const Forecasts all = forecasts_of(asked, draws);
+    added.blocks["predictions"].push_back({all.table});
+    if (!all.units.rows.empty()) added.blocks["predictions"].push_back({all.units});
+    if (asked.data.units.size() > most_units)
+      added.blocks["predictions"].push_back(
+          {present::Prose{fmt::format("The table of units has the first {} of {} units.",
+                                      most_units, asked.data.units.size())}});
+    json["forecast"] = all.json;
+    added.text += "Failures to come\n" + text_table(all.lines) + "\n";
+  }
+  added.text += "Classical tests\n" + tests_text(tests);
+  added.body["repairable"] = std::move(json);
+  return added;
+}
+
+std::map<std::string, std::vector<html::Figure>> recurrence_figures(const Asked& asked,
+                                                                    const WeightedDraws& draws) {
+  return {{"verdict", {mcf_figure(asked, draws)}}};
+}
+
+}  // namespace wearwell::recurrence

@@ -1,0 +1,130 @@
+#include "wearwell/models/recurrence/recurrence_data.h"
+
+#include <gmock/gmock.h>
+
+#include "support/messages.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+
+namespace wearwell::recurrence {
+namespace {
+
+using testing::HasSubstr;
+
+class RecurrenceDataTest : public ScratchTest {
+ protected:
+  RecurrenceData read(const std::string& rows, const std::string& data = {},
+                      const std::string& columns = {},
+                      const std::string& heading = "unit,age [h],event") {
+    write("d.csv", heading + "\n" + rows);
+    const Source source =
+        source_of(write("study.toml", "[data]\nfile = \"d.csv\"\n" + data +
+                                          "\n[data.columns]\nunit = \"unit\"\nage = \"age\"\n" +
+                                          (columns.empty() ? "event = \"event\"\n" : columns)));
+    return read_recurrence_data(TomlReader::parse(source.study), source);
+  }
+  std::string refusal(const std::string& rows, const std::string& data = {},
+                      const std::string& columns = {},
+                      const std::string& heading = "unit,age [h],event") {
+    return message_of<InputError>([&] { read(rows, data, columns, heading); });
+  }
+};
+
+TEST_F(RecurrenceDataTest, UnitsWithTheirEvents) {
+  const RecurrenceData data = read("a,10,failure\nb,30,end\na,15,failure\na,40,end\n");
+  ASSERT_EQ(data.units.size(), 2U);
+  EXPECT_EQ(data.units[0].failures, (std::vector<double>{36000, 54000}));
+  EXPECT_EQ(data.units[0].end, 144000);
+  EXPECT_TRUE(data.units[1].failures.empty());
+  ASSERT_EQ(data.gaps.size(), 4U);  // in the order of the rows
+  EXPECT_EQ(data.gaps[1].unit, 1U);
+  EXPECT_FALSE(data.gaps[1].failed);
+  EXPECT_EQ(data.gaps[2].from, 36000);
+  EXPECT_EQ(data.failures(), 2U);
+  EXPECT_EQ(data.longest(), 144000);
+}
+
+// Nelson's 1 and -1, R's 1 and 0, codes of censoring, words of other languages, words of the study.
+TEST_F(RecurrenceDataTest, WordsOfEvents) {
+  const auto failures = [&](const char* failure, const char* end, const std::string& columns = {},
+                            const std::string& heading = "unit,age [h],event") {
+    return read(fmt::format("a,10,{}\na,15,{}\na,40,{}\n", failure, failure, end), "", columns,
+                heading)
+        .failures();
+  };
+  EXPECT_EQ(failures("1", "-1"), 2U);
+  EXPECT_EQ(failures("1", "0"), 2U);
+  EXPECT_EQ(failures("Ausfall", "Ende"), 2U);
+  EXPECT_EQ(failures("repair", "censored"), 2U);
+  EXPECT_EQ(failures("0", "1", "event = \"censored\"\n", "unit,age [h],censored"), 2U);
+  EXPECT_EQ(failures("0", "1", "event = { column = \"x\", failure = 0 }\n", "unit,age [h],x"), 2U);
+  EXPECT_EQ(failures("new seat", "sold",
+                     "event = { column = \"event\", failure = \"new seat\", end = \"sold\" }\n"),
+            2U);
+  EXPECT_THAT(refusal("a,10,1\na,40,0\n", "", "event = \"x\"\n", "unit,age [h],x"),
+              AllOf(HasSubstr("row 1, column 'x': 1 is ambiguous"), HasSubstr("failure = 0")));
+  EXPECT_THAT(refusal("a,10,perhaps\na,40,end\n"),
+              HasSubstr("row 1, column 'event': 'perhaps' is not an event"));
+  EXPECT_THAT(refusal("a,10,\na,40,end\n"), HasSubstr("no value; write failure"));
+}
+
+TEST_F(RecurrenceDataTest, RefusesWhatCannotBe) {
+  EXPECT_THAT(
+      refusal("a,10,failure\na,9,failure\na,40,end\n"),
+      AllOf(HasSubstr("d.csv, row 2, column 'age [h]': 9 is less than 10"), HasSubstr("row 1")));
+  EXPECT_THAT(
+      refusal("a,10,failure\na,40,end\na,50,failure\n"),
+      HasSubstr("row 3, column 'age [h]': 50 follows the end of observation of unit 'a' in row 2"));
+  EXPECT_THAT(refusal("a,40,end\na,40,end\n"),
+              HasSubstr("row 2, column 'age [h]': 40 follows the end"));
+  EXPECT_THAT(refusal("a,-1,failure\na,40,end\n"),
+              HasSubstr("row 1, column 'age [h]': -1 must be 0 or more"));
+  EXPECT_THAT(refusal("a,0,failure\na,40,end\n"), HasSubstr("a failure at age 0"));
+  EXPECT_THAT(refusal("a,0,end\n"), HasSubstr("ends where it starts"));
+  EXPECT_THAT(refusal("a,10,failure\nb,40,end\n"),
+              AllOf(HasSubstr("row 1, column 'unit': unit 'a' has no row of its end"),
+                    HasSubstr("last failure")));
+  EXPECT_THAT(refusal(",10,failure\n"), HasSubstr("row 1, column 'unit': no value"));
+  EXPECT_THAT(refusal("a,10,failure\na,40,end\n", "", "", "unit,age,event"),
+              HasSubstr("needs a unit"));
+}
+
+TEST_F(RecurrenceDataTest, TwoFailuresAtOneAge) {
+  const std::string rows = "a,10,failure\na,10,failure\na,40,end\n";
+  EXPECT_THAT(refusal(rows),
+              AllOf(HasSubstr("row 2, column 'age [h]'"), HasSubstr("either the row is a copy"),
+                    HasSubstr("data.rounding = \"1 h\"")));
+  EXPECT_EQ(read(rows, "rounding = \"1 h\"").failures(), 2U);
+  EXPECT_THAT(refusal(rows, "rounding = \"0 h\""), HasSubstr("must be positive"));
+}
+
+TEST_F(RecurrenceDataTest, EndsAtTheLastFailure) {
+  const RecurrenceData data =
+      read("a,10,failure\na,15,failure\nb,30,end\n", "end = \"last failure\"");
+  EXPECT_TRUE(data.units[0].ends_at_failure);
+  EXPECT_EQ(data.units[0].end, 54000);
+  EXPECT_FALSE(data.units[1].ends_at_failure);
+}
+
+TEST_F(RecurrenceDataTest, LateStarts) {
+  const std::string columns = "event = \"event\"\nstart = \"start\"\n",
+                    heading = "unit,age [h],event,start [h]";
+  const RecurrenceData data = read("a,10,failure,5\na,15,end,5\nb,30,end,\n", "", columns, heading);
+  EXPECT_EQ(data.units[0].start, 18000);
+  EXPECT_EQ(data.gaps[0].from, 18000);
+  EXPECT_EQ(data.units[1].start, 0);
+  EXPECT_THAT(refusal("a,10,failure,5\na,15,end,6\n", "", columns, heading),
+              HasSubstr("row 2, column 'start [h]'"));
+  EXPECT_THAT(refusal("a,4,failure,5\na,15,end,5\n", "", columns, heading),
+              HasSubstr("before the start"));
+  EXPECT_THAT(refusal("a,5,failure,5\na,15,end,5\n", "", columns, heading),
+              HasSubstr("very start"));
+}
+
+TEST_F(RecurrenceDataTest, AgesOfAnyKind) {
+  EXPECT_EQ(read("a,10,failure\na,40,end\n", "", "", "unit,age [km],event").si, "m");
+  EXPECT_EQ(read("a,10,failure\na,40,end\n", "", "", "unit,age [cycles],event").si, "cycle");
+}
+
+}  // namespace
+}  // namespace wearwell::recurrence
