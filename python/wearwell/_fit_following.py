@@ -39,10 +39,10 @@ class FitFollowing:
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/joint/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> june = fit.update({"cycles": [20000], "volume": [95.0]}, report=False)
-        >>> july = june.update({"cycles": [24000], "volume": [113.0]}, report=False)
+        >>> june = fit.update({"cycles": [18000], "volume_mm3": [83.0]}, report=False)
+        >>> july = june.update({"cycles": [20000], "volume_mm3": [92.0]}, report=False)
         >>> july.results["update"]["rows_before"], july.results["update"]["counted"]
-        (6, 1)
+        (13, 1)
         """
         from ._update import update
 
