@@ -13,6 +13,7 @@ void add_errors(py::module_& module);
 void add_tables(py::module_& module);
 void add_studies(py::module_& module);
 void add_plans(py::module_& module);
+void add_followed(py::module_& module);
 void add_tools(py::module_& module);
 
 }  // namespace wearwell::python

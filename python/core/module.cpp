@@ -39,5 +39,6 @@ PYBIND11_MODULE(_core, module) {
   add_tables(module);
   add_studies(module);
   add_plans(module);
+  add_followed(module);
   add_tools(module);
 }

@@ -3,6 +3,7 @@
 #include "attended.h"
 #include "core.h"
 #include "wearwell/base/staged_file.h"
+#include "wearwell/embed/fitted.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/run.h"
 #include "wearwell/study/posterior_summary.h"
@@ -113,6 +114,7 @@ void add_studies(py::module_& module) {
       .def("draws", &draws_of)
       .def("sample_stats", &sample_stats)
       .def("files", &files_of)
+      .def("state", [](const Run& run) { return py::bytes(embed::saved_state(run)); })
       .def("write_netcdf", &write_netcdf)
       .def("asked", [](const Run& run, const ReadStudy& other, double level) {
         const py::gil_scoped_release release;

@@ -13,7 +13,8 @@ from public_names import docstrings, public_names, sections
 names = public_names()
 texts = docstrings()
 return_nothing = {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Plan.report", "Plan.write", "Selection.report"}
-raise_nothing = {"Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
+raise_nothing = {"Backtest", "Backtest.coverage", "Backtest.forecasts", "Quantiles", "UnitTracker", "UnitTracker.doubt", "UnitTracker.level",
+                 "UnitTracker.outcomes", "UnitTracker.path", "UnitTracker.rul", "UnitTracker.summary", "Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
                  "Selection", "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
 
 

@@ -13,6 +13,7 @@ import pytest
 
 import wearwell as ww
 from conftest import binary, source
+from monitored import monitored
 from public_names import docstrings
 
 parser = doctest.DocTestParser()
@@ -49,12 +50,46 @@ def campaign(folder):
     shutil.copy(design, folder / "campaign")
 
 
+@pytest.fixture(scope="module")
+def fits():
+    """Fits of study files by their arguments: many examples begin with the same one, and a fit does not change."""
+    fitted = {}
+
+    def fit(study, seed=None, **options):
+        key = (study, seed, *sorted(options.items()))
+        if key not in fitted:
+            fitted[key] = original(study, seed, **options)
+        return fitted[key]
+
+    original = ww.fit
+    return fit
+
+
+@pytest.fixture(scope="module")
+def monitor(folder, fits):
+    """The address of a monitor that follows two machines."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        fits("examples/fleet/study.toml", seed=1, method="exact", draws=100, report=False).write(folder / "fleet-results")
+    (folder / "monitor").mkdir()
+    lines = [{"time": f"2026-01-{day:02}T12:00:00Z", "machine": machine, "use_h": day * 20.0, "wear_um": day * rate}
+             for machine, rate in (("M042", 0.4), ("M067", 0.5)) for day in (5, 10, 15)]
+    with monitored(folder / "monitor", folder / "fleet-results", lines) as url:
+        while sum(ww.Monitor(url).units()["readings"]) < len(lines):
+            pass
+        yield url
+
+
 @pytest.mark.parametrize("name", [name for name, test in examples.items() if test.examples])
 def test_examples_run(name, folder, monkeypatch, request):
     if name.startswith("clutch."):
         request.getfixturevalue("clutch_results")
     if name == "clutch":
         request.getfixturevalue("campaign")
+    if name.startswith("Monitor"):
+        examples[name].globs["url"] = request.getfixturevalue("monitor")
+    if name not in ("CheckWarning", "MissingFileError", "fit"):
+        monkeypatch.setattr(ww, "fit", request.getfixturevalue("fits"))
     monkeypatch.chdir(folder)
     said = []
     with warnings.catch_warnings():

@@ -13,8 +13,8 @@ One line for a table, with default priors that ``fit.study.toml`` states:
 All lead to a ``Fit``: ``trusted`` and ``checks``, ``summary``, ``lives``, ``plot("life")``, ``predict``, ``percentile``,
 ``survival_function``, ``report``. ``Study`` makes a study of your own formula, data and priors, and ``fit`` fits it or a
 study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` counts cycles, ``plan`` plans tests, ``decide``
-replacements;
-``bearing`` and ``clutch`` have the formulas of these parts too. Numbers are those of the program ``wearwell``, to the bit.
+replacements; ``update`` adds rows to a fit, ``track`` follows one unit by its readings, ``backtest`` checks forecasts, ``export_c`` and
+``export_sql`` write a formula as code, ``Monitor`` asks a running monitor; ``bearing`` and ``clutch`` have the formulas of these parts too. Numbers are those of the program ``wearwell``, to the bit.
 
 Examples
 --------
@@ -32,6 +32,7 @@ from ._errors import CheckWarning, InputError, MachineError, MissingFileError, N
 from . import _core
 from . import bearing, clutch, plan
 from ._arrow import ArrowTable, arrow
+from ._backtest import Backtest, backtest
 from ._bearing_study import bearing as _fit_bearings
 from ._callable_module import make_callable as _make_callable
 from ._check import Check
@@ -39,16 +40,20 @@ from ._clutch_study import clutch as _fit_clutch
 from ._data import table
 from ._decide import decide
 from ._degradation_study import degradation
+from ._export import export_c, export_sql
 from ._fatigue_study import sn, staircase
 from ._fit import Fit
 from ._joint_study import joint
 from ._life_study import life
+from ._monitor import Monitor
 from ._plan import Plan
 from ._plots import Plot
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
 from ._study import Study, fit
 from ._tools import Comparison, Selection, compare, rainflow, select
+from ._track import Quantiles, UnitTracker, track
+from ._update import update
 
 __version__ = _core.version
 
@@ -57,6 +62,7 @@ _make_callable(clutch.__name__, _fit_clutch)
 
 __all__ = [
     "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
+    "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "export_c", "export_sql", "Monitor",
     "select", "Selection", "rainflow", "decide", "plan", "Plan", "table", "arrow", "ArrowTable",
     "flat", "uniform", "normal", "lognormal", "half_normal", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
     "jeffreys", "prior", "default",

@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeVar
 
 import pandas
@@ -87,6 +87,31 @@ class Fit:
         self, survived: _Quantity, b: _Percentages = ..., given: _Given = ..., confidence: float = ...
     ) -> pandas.DataFrame: ...
     def compare(self, *others: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
+    def update(
+        self,
+        data: Any,
+        repeated: Literal["once", "another"] | None = ...,
+        *,
+        threads: int = ...,
+        report: bool = ...,
+        progress: _Progress = ...,
+    ) -> Fit: ...
+    def track(self, unit: str | None = ..., *, new: bool = ...) -> UnitTracker: ...
+    def backtest(self, readings: Any, lives: Any) -> Backtest: ...
+    def export_c(self, folder: _Path, *, name: str = ..., unit: str | None = ..., lines: int | None = ...) -> str: ...
+    def export_sql(
+        self,
+        dialect: Literal["duckdb", "postgresql", "clickhouse"],
+        table: str,
+        *,
+        value: str | None = ...,
+        unit: str | None = ...,
+        columns: Mapping[str, str] | str | Sequence[str] | None = ...,
+        keep: str | Sequence[str] | None = ...,
+        prefix: str = ...,
+        draws: int = ...,
+        part: Literal["all", "setup", "query"] = ...,
+    ) -> str: ...
     @property
     def plots(self) -> list[str]: ...
     def plot(self, name: str | None = ..., ax: Any = ...) -> Any: ...
@@ -445,6 +470,77 @@ def decide(
     given: Mapping[str, Any] | Sequence[str] | None = ...,
     progress: _Progress = ...,
 ) -> Plan: ...
+
+def update(
+    fit: Fit | _Path,
+    data: Any,
+    repeated: Literal["once", "another"] | None = ...,
+    *,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def track(fit: Fit | _Path, unit: str | None = ..., *, new: bool = ...) -> UnitTracker: ...
+
+class Quantiles(NamedTuple):
+    q05: float
+    q50: float
+    q95: float
+    unit: str
+
+class UnitTracker:
+    unit: str
+    is_new: bool
+    def update(self, rows: Any) -> UnitTracker: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    @property
+    def rul(self) -> Quantiles: ...
+    @property
+    def level(self) -> Quantiles: ...
+    @property
+    def doubt(self) -> str | None: ...
+    def risk(self, within: _Quantity) -> float: ...
+    def path(self) -> pandas.DataFrame: ...
+    @property
+    def outcomes(self) -> pandas.DataFrame: ...
+
+def backtest(fit: Fit | _Path, readings: Any, lives: Any) -> Backtest: ...
+
+class Backtest:
+    summary: dict[str, Any]
+    trusted: bool
+    @property
+    def forecasts(self) -> pandas.DataFrame: ...
+    @property
+    def coverage(self) -> pandas.DataFrame: ...
+    def _repr_html_(self) -> str: ...
+
+def export_c(fit: Fit | _Path, folder: _Path, *, name: str = ..., unit: str | None = ..., lines: int | None = ...) -> str: ...
+def export_sql(
+    fit: Fit | _Path,
+    dialect: Literal["duckdb", "postgresql", "clickhouse"],
+    table: str,
+    *,
+    value: str | None = ...,
+    unit: str | None = ...,
+    columns: Mapping[str, str] | str | Sequence[str] | None = ...,
+    keep: str | Sequence[str] | None = ...,
+    prefix: str = ...,
+    draws: int = ...,
+    part: Literal["all", "setup", "query"] = ...,
+) -> str: ...
+
+class Monitor:
+    url: str
+    def __init__(
+        self, url: str = ..., *, token: str | None = ..., certificate: _Path | None = ..., timeout: float = ...
+    ) -> None: ...
+    def fleet(self) -> dict[str, Any]: ...
+    def units(self, search: str = ...) -> pandas.DataFrame: ...
+    def unit(self, name: str) -> dict[str, Any]: ...
+    def send(self, readings: Mapping[str, Any] | Sequence[Mapping[str, Any]] | pandas.DataFrame) -> dict[str, Any]: ...
+    def events(self) -> Iterator[dict[str, Any]]: ...
 
 class Plan:
     title: str

@@ -7,12 +7,13 @@ from ._check import checks_of
 from ._errors import InputError, NotTrusted, warn_of
 from ._fit_answers import FitAnswers
 from ._fit_files import FitFiles
+from ._fit_following import FitFollowing
 from ._fit_lives import FitLives
 from ._fit_tables import FitTables
 from ._notebook import html_of
 
 
-class Fit(FitTables, FitAnswers, FitLives, FitFiles):
+class Fit(FitTables, FitAnswers, FitLives, FitFollowing, FitFiles):
     """A fitted study: the posterior, what follows from it, and the checks that decide whether to trust it.
 
     ``Study.fit`` and ``wearwell.fit`` make it. It does not change; threads may share it, and it can be copied and
@@ -55,6 +56,14 @@ class Fit(FitTables, FitAnswers, FitLives, FitFiles):
         self.seed = self.results["seed"]
         warn_of(self.checks)
         return self
+
+    @classmethod
+    def _of_update(cls, run, study):
+        used = json.loads(run.summary()).get("sampler", {})
+        choice = {key: used.get(key) for key in ("method", "chains", "warmup", "draws", "seed")}
+        if choice["method"] == "exact":
+            choice["warmup"] = None
+        return cls._of(study, run, choice)
 
     def require_trusted(self):
         """Refuse to go on with a fit that is not trusted.
@@ -112,7 +121,7 @@ class Fit(FitTables, FitAnswers, FitLives, FitFiles):
 
     def __getstate__(self):
         self._files(), self._terminal, self._array, self._stats
-        state = {k: v for k, v in self.__dict__.items() if k != "_run"}
+        state = {k: v for k, v in self.__dict__.items() if k not in ("_run", "_population")}
         state["_run"] = None
         return state
 

@@ -26,6 +26,13 @@ json_value <- function(item, what) {
 
 json_text <- function(x) core(C_written, enc2utf8(as.character(x)))
 
+# Arguments as a JSON object, without those that are NULL.
+json_arguments <- function(arguments) {
+  arguments <- arguments[!vapply(arguments, is.null, NA)]
+  inside <- vapply(names(arguments), function(name) paste0(json_text(name), ": ", json_value(arguments[[name]], name)), "")
+  paste0("{", paste(inside, collapse = ", "), "}")
+}
+
 # The tables that an argument holds: one, or a list of them.
 plan_tables <- function(data, name) {
   if (is.null(data)) return(list())
@@ -36,9 +43,7 @@ plan_tables <- function(data, name) {
 
 # `run`, `study`, `path`: what the plan is about. `tables`: by argument.
 plan_of <- function(kind, arguments, run = NULL, study = NULL, path = "", tables = list(), threads = 0, progress = FALSE) {
-  arguments <- arguments[!vapply(arguments, is.null, NA)]
-  inside <- vapply(names(arguments), function(name) paste0(json_text(name), ": ", json_value(arguments[[name]], name)), "")
-  text <- paste0("{", paste(inside, collapse = ", "), "}")
+  text <- json_arguments(arguments)
   threads <- whole(threads, "threads", 0, 1024)
   found <- with_progress(progress, function(report) core(C_plan, kind, text, run, study, path, tables, threads, report))
   found$name <- if (kind == "decide") "decisions" else "plan"

@@ -240,6 +240,10 @@ new_study <- function(text, path, given) {
 }
 
 read_again <- function(study, text) {
+  if (!is.null(study$state)) {  # of ww_update
+    of_state <- core(C_study_of_state, study$state)
+    return(if (nzchar(text)) core(C_study_with_text, of_state, text) else of_state)
+  }
   core(C_read_text, text, study$path, lapply(stats::setNames(names(study$given), names(study$given)), function(name) {
     each <- study$given[[name]]
     table_of(each$data, name, each$units, each$only)

@@ -86,6 +86,7 @@ using Doors = std::vector<R_CallMethodDef>;
 void add_tables(Doors& doors);
 void add_studies(Doors& doors);
 void add_plans(Doors& doors);
+void add_followed(Doors& doors);
 void add_tools(Doors& doors);
 
 }  // namespace wearwell::r

@@ -6,6 +6,7 @@ extern "C" __attribute__((visibility("default"))) void R_init_wearwell(DllInfo* 
     wearwell::r::add_tables(all);
     wearwell::r::add_studies(all);
     wearwell::r::add_plans(all);
+    wearwell::r::add_followed(all);
     wearwell::r::add_tools(all);
     all.push_back({nullptr, nullptr, 0});
     return all;

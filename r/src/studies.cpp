@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "core.h"
+#include "hexadecimal.h"
 #include "look.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/embed/residuals.h"
@@ -118,29 +119,9 @@ SEXP sample_stats(SEXP run) {
   return stats;
 }
 
-// Texts of R hold no zeros: files that end in .bin are told in hexadecimal digits.
+// Files that end in .bin go over in hexadecimal digits.
 bool is_bytes(const std::string& name) {
   return name.ends_with(".bin");
-}
-
-std::string in_digits(const std::string& bytes) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const char each : bytes) {
-    const auto value = static_cast<unsigned char>(each);
-    text += {digits[value >> 4], digits[value & 15]};
-  }
-  return text;
-}
-
-std::string of_digits(const std::string& text) {
-  const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
-  std::string bytes;
-  bytes.reserve(text.size() / 2);
-  for (std::size_t i = 0; i + 1 < text.size(); i += 2)
-    bytes.push_back(static_cast<char>(digit(text[i]) * 16 + digit(text[i + 1])));
-  return bytes;
 }
 
 SEXP files_of(SEXP run) {

@@ -6,7 +6,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/option_rules.h"
 #include "wearwell/input/json_reader.h"
-#include "wearwell/study/posterior_study.h"
+#include "wearwell/prognosis/update.h"
 
 namespace wearwell {
 namespace {
@@ -48,18 +48,9 @@ prognosis::CarriedState read_carried(const std::filesystem::path& result) {
 }
 
 SamplerChoice sampler_of(const std::filesystem::path& result) {
-  SamplerChoice choice;
-  const auto json = summary_of(result);
-  if (!json) return choice;
-  const auto sampler = JsonReader(*json, result / "summary.json").find("sampler");
-  if (!sampler) return choice;
-  const std::string method = sampler->at("method").one_of({"exact", "nuts", "metropolis"});
-  choice.method = method == "exact"  ? Method::exact
-                  : method == "nuts" ? Method::nuts
-                                     : Method::metropolis;
-  choice.chains = static_cast<int>(sampler->at("chains").integer(1, max_chains));
-  choice.seed = sampler->at("seed").natural();
-  return choice;
+  const auto summary = summary_of(result);
+  return summary ? prognosis::sampler_of_summary(*summary, result / "summary.json")
+                 : SamplerChoice{};
 }
 
 }  // namespace wearwell

@@ -14,8 +14,7 @@ prognosis::CarriedState read_carried_data(const std::filesystem::path& result);
 /// The same for results with a posterior; a clutch campaign has none.
 prognosis::CarriedState read_carried(const std::filesystem::path& result);
 
-/// How the result was fitted, by its summary.json: method, chains and seed. Empty where there is
-/// none.
+/// How the result was fitted, by its summary.json (prognosis/update.h). Empty where there is none.
 SamplerChoice sampler_of(const std::filesystem::path& result);
 
 }  // namespace wearwell

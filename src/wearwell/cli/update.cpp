@@ -1,7 +1,6 @@
 #include "wearwell/cli/update.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -10,15 +9,11 @@
 #include <string>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/option_rules.h"
 #include "wearwell/present/progress_line.h"
-#include "wearwell/prognosis/carry.h"
-#include "wearwell/prognosis/joined_campaign.h"
-#include "wearwell/prognosis/updated_study.h"
-#include "wearwell/study/inference_data.h"
+#include "wearwell/prognosis/update.h"
 #include "wearwell/study/result_writer.h"
 
 namespace wearwell {
@@ -31,24 +26,6 @@ struct UpdateOptions {
   int threads = 0;
   bool json = false, quiet = false, no_report = false;
 };
-
-prognosis::Repeated repeated_named(const std::string& name) {
-  return name == "once"      ? prognosis::Repeated::once
-         : name == "another" ? prognosis::Repeated::another
-                             : prognosis::Repeated::ask;
-}
-
-prognosis::JoinedData joined_files(const Source& source, const UpdateOptions& options) {
-  std::vector<Table> tables;
-  for (const auto& file : options.data) tables.push_back(prognosis::read_new_data(source, file));
-  return prognosis::joined_data(source, tables, repeated_named(options.repeated));
-}
-
-std::string names_of(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::string> names;
-  for (const auto& each : files) names.push_back(valid_utf8(each.filename().string()));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 Result run_shown(const Study& study, const RunOptions& run, const UpdateOptions& options) {
   ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
@@ -68,37 +45,20 @@ void write_updated(const UpdateOptions& options, const Result& result, const std
   }
 }
 
-// A study without a posterior: all its tables, old and new rows, are fitted.
-int update_campaign(const UpdateOptions& options, const Source& source, Models models) {
-  if (!options.repeated.empty())
-    throw InputError("--repeated: a repeated row of a campaign counts once");
-  const prognosis::JoinedData joined = prognosis::joined_campaign(source, options.data);
-  const auto study = read_study(joined.source, models);
-  ResultFolder folder(options.output);
-  Result result = run_shown(*study, {{}, !options.no_report}, options);
-  prognosis::add_new_data(joined, names_of(options.data), result);
-  write_updated(options, result, source.study.text, folder);
-  return result.header.trusted ? 0 : 1;
-}
-
 int run_update(const UpdateOptions& options, Models models) {
   std::vector<NamedFile> inputs;
   for (const auto& file : options.data) inputs.push_back({"the new data", file});
   refuse_overwriting(inputs, {{"--output", options.output}});
-  prognosis::CarriedState state = read_carried_data(options.result);
-  if (state.parameters.empty()) return update_campaign(options, state.source, models);
-  prognosis::JoinedData joined = joined_files(state.source, options);
-  Source source = joined.source;
-  const auto read = read_study(source, models);
-  const PosteriorStudy& of_all = require_posterior_study(*read);
-  prognosis::judge_new_data(of_all, state.posterior, joined);
-  const PosteriorStudy study =
-      prognosis::updated_study(of_all, std::move(joined), names_of(options.data));
+  const prognosis::CarriedState state = read_carried_data(options.result);
+  prognosis::StudyOfAllRows all = prognosis::study_of_all_rows(
+      state, {options.data.begin(), options.data.end()},
+      prognosis::repeated_named(options.repeated),
+      [&](const Source& source) { return read_study(source, models); });
   ResultFolder folder(options.output);
-  Result result = run_shown(study, {sampler_of(options.result), !options.no_report}, options);
-  const std::string text = source.study.text;
-  result.files.emplace_back(
-      "state.bin", prognosis::state_bytes(prognosis::state_of_result(std::move(source), result)));
+  Result result = run_shown(*all.study, {sampler_of(options.result), !options.no_report}, options);
+  const std::string text = all.source.study.text;
+  std::string bytes = prognosis::state_of_all_rows(std::move(all.source), result);
+  if (!bytes.empty()) result.files.emplace_back("state.bin", std::move(bytes));
   write_updated(options, result, text, folder);
   return result.header.trusted ? 0 : 1;
 }
@@ -134,7 +94,7 @@ void add_update_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell update june july.csv august.csv -o august --json | jq .update\n\n"
       "A repeated reading counts once; order does not matter; a reading that contradicts the "
       "posterior is counted,\n"
-      "and reported by the check new-data. Method and seed are those of RESULT.\n\n"
+      "and reported by the check new-data. Method, chains, draws and seed are those of RESULT.\n\n"
       "Exit codes: as for fit.");
   update->callback([options, models, &exit_code] { exit_code = run_update(*options, models); });
 }

@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/embed/fitted.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/plan_arguments.h"
 #include "wearwell/input/option_value.h"
@@ -50,18 +51,8 @@ const Table* table_of(const PlanSubject& subject, const std::string& argument) {
   return nullptr;
 }
 
-// The state that a fit leaves, of a run or a folder of results.
-prognosis::CarriedState carried(const PlanSubject& subject) {
-  if (!subject.run) return prognosis::read_state(subject.path);
-  if (subject.run->state.empty())
-    throw InputError(
-        "the fit holds no state to plan with: its study has no posterior, or its data have changed "
-        "since they were read");
-  return prognosis::state_of_bytes(subject.run->state, "fit");
-}
-
 prognosis::CarriedState carried_posterior(const PlanSubject& subject) {
-  prognosis::CarriedState state = carried(subject);
+  prognosis::CarriedState state = state_of({subject.run, subject.path});
   if (state.parameters.empty())
     throw InputError("the fit has no posterior to plan with: a clutch campaign has none");
   return state;

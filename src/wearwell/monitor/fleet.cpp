@@ -170,9 +170,7 @@ void Fleet::forecast(Unit& unit) {
                              : record.last_received_ms;
   if (known) view.level = reported_.level(forecast);
   view.remaining = reported_.remaining(forecast);
-  constexpr double tenth = 0.1;
-  view.b10 =
-      forecast.remaining.points().empty() ? 0 : reported_.along(forecast.remaining.quantile(tenth));
+  view.b10 = reported_.b10(forecast);
   view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
   view.risk = risk;
   if (known) view.passed = std::clamp(forecast.passed, 0.0, 1.0);

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/prognosis/tracker_units.h"
+
 namespace wearwell::monitor {
 
 /// `doubt`: the readings do not follow the forecast, so its risk says nothing.
 enum class Alarm { ok, watch, act, doubt, unknown };
 const char* name(Alarm alarm);
 
-/// Three quantiles, in the units that `FleetView` names; infinite if a threshold is never reached.
-struct Interval {
-  double q05 = 0, q50 = 0, q95 = 0;
-};
+/// In the units that `FleetView` names.
+using prognosis::Interval;
 
 /// Outcomes of a unit's messages.
 struct Quality {

@@ -44,35 +44,6 @@ UnitMoment moment_of(const Json& json) {
 
 }  // namespace
 
-TrackerUnits::TrackerUnits(const prognosis::Tracker& tracker)
-    : tracker_(tracker),
-      axis_(tracker.axis().unit),
-      level_(tracker.limit().unit),
-      watched_(prognosis::watched_columns(tracker)) {}
-
-Interval TrackerUnits::level(const prognosis::Forecast& forecast) const {
-  return {level(forecast.level05), level(forecast.level50), level(forecast.level95)};
-}
-
-Interval TrackerUnits::remaining(const prognosis::Forecast& forecast) const {
-  if (forecast.remaining.points().empty()) return {0, 0, 0};
-  return {along(forecast.remaining.quantile(0.05)), along(forecast.remaining.quantile(0.5)),
-          along(forecast.remaining.quantile(0.95))};
-}
-
-std::optional<double> TrackerUnits::measured(const std::vector<double>& numbers) const {
-  const auto& column = watched_.level;
-  if (!column || *column >= numbers.size() || std::isnan(numbers[*column])) return {};
-  return level(numbers[*column]);
-}
-
-double risk_within(const prognosis::Forecast& forecast, double horizon) {
-  if (forecast.remaining.points().empty()) return std::min(forecast.passed, 1.0);
-  // Sums of weights are 1 up to rounding.
-  return std::clamp(forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(horizon), 0.0,
-                    1.0);
-}
-
 std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLives& lives,
                                                    const TrackerUnits& reported) {
   std::vector<UnitDetail::CurvePoint> curve;

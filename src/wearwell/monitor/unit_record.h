@@ -10,6 +10,7 @@
 #include "wearwell/monitor/store.h"
 #include "wearwell/prognosis/change_watch.h"
 #include "wearwell/prognosis/tracker.h"
+#include "wearwell/prognosis/tracker_units.h"
 
 namespace wearwell::monitor {
 
@@ -28,32 +29,8 @@ struct UnitRecord {
   prognosis::ChangeWatch watch = {};
 };
 
-/// Conversion of a tracker's values to the units of its study.
-class TrackerUnits {
- public:
-  /// The tracker must outlive it.
-  explicit TrackerUnits(const prognosis::Tracker& tracker);
-
-  const prognosis::Tracker& tracker() const { return tracker_; }
-  const prognosis::WatchedColumns& watched() const { return watched_; }
-
-  double at(double si) const { return from_si(axis_, si); }
-  double along(double si) const { return si / axis_.scale; }  ///< a length of the axis
-  double level(double si) const { return from_si(level_, si); }
-  Interval level(const prognosis::Forecast& forecast) const;
-  /// From now on; infinite if it may never be.
-  Interval remaining(const prognosis::Forecast& forecast) const;
-  /// Of a reading: the measured value of the quantity with the threshold, if it is measured.
-  std::optional<double> measured(const std::vector<double>& numbers) const;
-
- private:
-  const prognosis::Tracker& tracker_;
-  Unit axis_, level_;
-  prognosis::WatchedColumns watched_;
-};
-
-/// The probability that the threshold is reached within `horizon` (SI) from now on.
-double risk_within(const prognosis::Forecast& forecast, double horizon);
+using prognosis::risk_within;
+using prognosis::TrackerUnits;
 
 /// The displayed curve of lives: a forecast is a hundred times as large, and every unit has one.
 std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLives& lives,

@@ -9,47 +9,11 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/input/heading.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/prognosis/reading_table.h"
 
 namespace wearwell::prognosis {
 namespace {
-
-// The column of this name, with its unit in the heading or without a unit.
-const Column& named(const Table& table, const std::string& name, const std::string& si) {
-  const Column* found = nullptr;
-  for (const Column& each : table.columns) {
-    if (each.name != name && read_heading(each.name, si).name != name) continue;
-    if (found)
-      throw InputError(fmt::format("{}: both '{}' and '{}' may be {}", table.source,
-                                   printable(found->name), printable(each.name), name));
-    found = &each;
-  }
-  return found ? *found : table.column(name);
-}
-
-struct NumberAt {
-  const Column* column = nullptr;
-  Unit unit;
-};
-
-NumberAt number_column(const Table& table, const ReadingColumn& wanted) {
-  const Column& column = named(table, wanted.name, wanted.unit.text);
-  const std::string said = read_heading(column.name, wanted.unit.text).unit;
-  if (said.empty() && column.unit.empty() && wanted.unit.text != "1")
-    throw InputError(fmt::format("{}: the column '{}' needs its unit: '{} [{}]'", table.source,
-                                 printable(column.name), wanted.name, wanted.unit.text));
-  const std::string text = said.empty() ? column.unit.empty() ? "1" : bare_unit(column.unit) : said;
-  try {
-    return {&column, read_unit(text, wanted.unit.text)};
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}, column '{}': {}", table.source, printable(column.name),
-                                 printable(error.what())));
-  }
-}
-
-std::string text_at(const Column& column, std::size_t row) {
-  return column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
-}
 
 double median(std::vector<double> all) {
   if (all.empty()) return std::nan("");
@@ -131,22 +95,15 @@ std::vector<HeldAt> by_age(const std::vector<Hindcast>& all) {
 Backtest backtest(const Tracker& tracker, const Table& readings,
                   const std::map<std::string, double>& lives) {
   const Column& units = readings.column(tracker.noun());
-  std::vector<NumberAt> numbers;
-  for (const ReadingColumn& each : tracker.columns())
-    numbers.push_back(number_column(readings, each));
-  std::vector<const Column*> labels;
-  for (const std::string& each : tracker.labels()) labels.push_back(&readings.column(each));
+  const ReadingTable rows(tracker, readings);
   Backtest result;
   std::map<std::string, Followed> fleet;
   std::map<std::string, std::vector<Hindcast>> hindcasts;
   for (std::size_t row = 0; row < readings.rows; ++row) {
-    const std::string name = text_at(units, row);
+    const std::string name = unit_name(units, row);
     Followed& followed = fleet[name];
     if (!followed.unit) followed.unit = tracker.begin(name);
-    Reading reading;
-    for (const NumberAt& each : numbers)
-      reading.numbers.push_back(to_si(each.unit, cell_number(readings, *each.column, row)));
-    for (const Column* each : labels) reading.labels.push_back(text_at(*each, row));
+    Reading reading = rows.reading(row);
     const bool complete = std::none_of(reading.numbers.begin(), reading.numbers.end(),
                                        [](double x) { return std::isnan(x); });
     if (complete && !followed.known.emplace(reading.numbers, reading.labels).second) {
@@ -177,16 +134,24 @@ Backtest backtest(const Tracker& tracker, const Table& readings,
   return result;
 }
 
+Backtest backtest(const Tracker& tracker, const Table& readings, const Table& lives) {
+  Backtest test = backtest(tracker, readings, lives_by_unit(tracker, lives));
+  if (test.hindcasts.empty())
+    throw InputError(
+        fmt::format("{}: no unit of {} has a known end there", lives.source, readings.source));
+  return test;
+}
+
 std::map<std::string, double> lives_by_unit(const Tracker& tracker, const Table& table) {
   const Column& units = table.column(tracker.noun());
-  const NumberAt life = number_column(table, {"life", tracker.axis().unit, false});
+  const NumberColumn life = number_column(table, {"life", tracker.axis().unit, false});
   std::map<std::string, double> lives;
   for (std::size_t row = 0; row < table.rows; ++row) {
     const double at = to_si(life.unit, cell_number(table, *life.column, row));
     if (std::isnan(at)) continue;  // it has not ended
-    if (!lives.emplace(text_at(units, row), at).second)
+    if (!lives.emplace(unit_name(units, row), at).second)
       throw InputError(fmt::format("{}: {} has two lives", place(table, units.name, row),
-                                   printable(text_at(units, row))));
+                                   printable(unit_name(units, row))));
   }
   return lives;
 }

@@ -48,6 +48,10 @@ struct Backtest {
 Backtest backtest(const Tracker& tracker, const Table& readings,
                   const std::map<std::string, double>& lives);
 
+/// The same with `lives` as a table (lives_by_unit). Throws InputError also if no unit of `readings`
+/// has a known end there.
+Backtest backtest(const Tracker& tracker, const Table& readings, const Table& lives);
+
 /// Observed ends from a table with a column of units and a column `life` with its unit. SI.
 std::map<std::string, double> lives_by_unit(const Tracker& tracker, const Table& table);
 

@@ -107,15 +107,16 @@ std::vector<std::string> missing(const CampaignTable& kept, const Table& table) 
   return names;
 }
 
-// Reads a file as the tables whose columns it has; reads again only for tables in another format.
-void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tables) {
+// Adds rows to the table whose columns they have; a file is read again only for tables in another format.
+void add_rows(const NewRows& rows, std::vector<CampaignTable>& tables) {
+  const auto* const file = std::get_if<std::filesystem::path>(&rows);
   std::vector<std::string> why;
   CampaignTable* of = nullptr;
   const TableSettings* settings = nullptr;
-  Table table, read;
+  Table table = file ? Table{} : std::get<Table>(rows), read;
   for (CampaignTable& each : tables) {
-    if (!settings || *settings != each.settings)
-      table = wearwell::read_table(file, {}, {}, each.settings);
+    if (file && (!settings || *settings != each.settings))
+      table = wearwell::read_table(*file, {}, {}, each.settings);
     settings = &each.settings;
     const std::vector<std::string> names = missing(each, table);
     if (!names.empty()) {
@@ -131,15 +132,16 @@ void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tab
   }
   if (!of)
     throw InputError(fmt::format("{} is not a table of this campaign; it lacks of {}",
-                                 valid_utf8(file.string()), fmt::join(why, ", of ")));
+                                 file ? valid_utf8(file->string()) : table.source,
+                                 fmt::join(why, ", of ")));
   of->fresh.push_back(std::move(read));
 }
 
 }  // namespace
 
-JoinedData joined_campaign(const Source& source, const std::vector<std::filesystem::path>& files) {
+JoinedData joined_campaign(const Source& source, const std::vector<NewRows>& rows) {
   std::vector<CampaignTable> tables = tables_of(source);
-  for (const auto& file : files) add_file(file, tables);
+  for (const NewRows& each : rows) add_rows(each, tables);
   JoinedData joined{source, {}};
   std::vector<std::size_t> fresh;
   for (const CampaignTable& each : tables) {

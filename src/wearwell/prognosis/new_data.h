@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "wearwell/prognosis/carried_state.h"
@@ -12,6 +13,9 @@ namespace wearwell::prognosis {
 /// Meaning of a row that equals an earlier one. For one unit at one place on the axis it is the
 /// same reading; for single tests it may be another test.
 enum class Repeated { ask, once, another };
+
+/// New rows: a file, or a table in memory whose `source` is its name.
+using NewRows = std::variant<std::filesystem::path, Table>;
 
 /// A reading that contradicts the present posterior.
 struct Contradiction {

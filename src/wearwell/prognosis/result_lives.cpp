@@ -1,6 +1,9 @@
 #include "wearwell/prognosis/result_lives.h"
 
+#include <fmt/format.h>
+
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/prognosis/study_lives.h"
 #include "wearwell/study/inference_data.h"
 
@@ -10,6 +13,13 @@ std::unique_ptr<const Tracker> tracker_where_possible(const CarriedState& state,
   for (const Model& model : models)
     if (model.key == state.model && model.track) return model.track(state);
   return nullptr;
+}
+
+std::unique_ptr<const Tracker> required_tracker(const CarriedState& state, Models models,
+                                                const std::string& result) {
+  if (auto tracker = tracker_where_possible(state, models)) return tracker;
+  throw InputError(fmt::format("{}: single units of this study of model \"{}\" cannot be followed",
+                               result, printable(state.model)));
 }
 
 ResultLives lives_of_result(const CarriedState& state, Models models, const std::string& title,

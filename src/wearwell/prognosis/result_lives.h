@@ -13,6 +13,10 @@ namespace wearwell::prognosis {
 /// followed.
 std::unique_ptr<const Tracker> tracker_where_possible(const CarriedState& state, Models models);
 
+/// The same; throws InputError that names the result where there is none.
+std::unique_ptr<const Tracker> required_tracker(const CarriedState& state, Models models,
+                                                const std::string& result);
+
 /// Lives of a result, with the tracker that they refer to.
 struct ResultLives {
   std::unique_ptr<const Tracker> tracker;  ///< null if the study measures lives

@@ -6,13 +6,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/option_rules.h"
-#include "wearwell/models/formula_model/c_export.h"
-#include "wearwell/models/formula_model/sql_export.h"
+#include "wearwell/models/formula_model/export_files.h"
 #include "wearwell/present/result_folder.h"
-#include "wearwell/present/text_table.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -24,25 +21,13 @@ struct ExportOptions {
 
 int run_export(const ExportOptions& options) {
   const prognosis::CarriedState state = prognosis::read_state(options.result);
-  if (state.model != "formula")
-    throw InputError(
-        fmt::format("{}: C export needs a study of model \"formula\"; this one is of model \"{}\"",
-                    options.result.string(), printable(state.model)));
+  require_formula_state(state, options.result.string(), "C");
   const CExport made = c_export(state, options.choice, WEARWELL_VERSION);
   const std::string& name = options.choice.name;
   ResultFolder folder(options.output);
-  folder.write(name + "_unit.h", made.header);
-  folder.write(name + "_unit.c", made.source);
-  folder.write(name + "_test.c", made.test);
+  for (const auto& [file, content] : c_files(made, name)) folder.write(file, content);
   folder.commit();
-  fmt::print("{} nodes on {} lines, effective sample size {:.0f} at the start\n", made.nodes,
-             made.lines, made.effective);
-  fmt::print(
-      "{}",
-      text_table({{"", "bytes"},
-                  {"  tables, read only", fmt::format("{}", made.table_bytes)},
-                  {"  per unit", fmt::format("{}", made.unit_bytes)},
-                  {"  scratch, shared by all units", fmt::format("{}", made.scratch_bytes)}}));
+  fmt::print("{}", c_sizes(made));
   fmt::print(
       "Now run: cd {0} && cc -std=c99 -O2 {1}_unit.c {1}_test.c -lm -o {1}_test && ./{1}_test\n",
       printable(options.output.string()), name);
@@ -57,25 +42,10 @@ struct SqlOptions {
 
 int run_export_sql(SqlOptions& options) {
   const prognosis::CarriedState state = prognosis::read_state(options.result);
-  if (state.model != "formula")
-    throw InputError(fmt::format(
-        "{}: SQL export needs a study of model \"formula\"; this one is of model \"{}\"",
-        options.result.string(), printable(state.model)));
+  require_formula_state(state, options.result.string(), "SQL");
   options.choice.dialect = fleet::read_dialect(options.dialect);
   const SqlExport made = sql_export(state, options.choice);
-  fmt::print("{}", fleet::comment(fmt::format("wearwell {}: {} [{}] of each row of {}, for {}",
-                                              WEARWELL_VERSION, made.expression, made.unit,
-                                              options.choice.table, options.dialect)));
-  if (options.part != "query") {
-    const bool whole = options.choice.dialect != fleet::Dialect::clickhouse;
-    fmt::print("{}{}{}", whole ? "begin;\n" : "", made.setup, whole ? "commit;\n" : "");
-  }
-  if (options.part != "setup")
-    fmt::print(
-        "-- 2. Query: quantiles over the draws at 5, 50 and 95 %, each the mean of two order "
-        "statistics; measurement scatter is not included.\n"
-        "{};\n",
-        made.query);
+  fmt::print("{}", sql_script(made, options.choice, options.part, WEARWELL_VERSION));
   return state.trusted ? 0 : 1;
 }
 

@@ -1,0 +1,102 @@
+"""The client of a monitor: a monitor runs, takes readings, and answers what it would tell its page."""
+
+import json
+import time
+import urllib.request
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import wearwell as ww
+from monitored import monitored
+from test_follow import fit, fleet, in_time, messages_of  # noqa: F401  (fixtures)
+
+token = "0123456789abcdef0123"
+
+
+@pytest.fixture(scope="module")
+def lines(fleet):  # noqa: F811
+    return in_time(messages_of(fleet, ["M042", "M067"]))[:12]
+
+
+@pytest.fixture
+def url(fleet, lines, tmp_path):  # noqa: F811
+    with monitored(tmp_path, fleet / "study-results", lines) as address:
+        yield address
+
+
+def answered(url, path):
+    with urllib.request.urlopen(url + path) as answer:
+        return json.load(answer)
+
+
+def until(work):
+    for _ in range(100):
+        if work():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_answers_are_those_of_the_api(url, fit, lines):  # noqa: F811
+    monitor = ww.Monitor(url)
+    assert until(lambda: len(monitor.units()) == 2 and monitor.units()["readings"].sum() == 12)
+    assert monitor.fleet()["limit"] == 100 and monitor.fleet()["units"] == answered(url, "/api/fleet")["units"]
+    units = monitor.units()
+    for each in answered(url, "/api/units")["units"]:
+        row = units.loc[each["unit"]]
+        assert [row[f"rul_{q}"] for q in ("q05", "q50", "q95")] == list(each["remaining"].values())
+        assert row["risk"] == each["risk"] and row["alarm"] == each["alarm"] and row["at"] == each["at"]
+        tracker = fit.track(each["unit"], new=True)
+        tracker.update(pd.DataFrame([row for row in lines if row["machine"] == each["unit"]])[["use_h", "wear_um"]])
+        assert tracker.rul == (row["rul_q05"], row["rul_q50"], row["rul_q95"], units.attrs["axis_unit"])
+        assert len(monitor.unit(each["unit"])["moments"]) == each["quality"]["readings"]
+    assert list(monitor.units("067").index) == ["M067"]
+
+
+def test_readings_are_stored(url):
+    monitor = ww.Monitor(url)
+    sent = pd.DataFrame({"time": pd.to_datetime(["2026-05-05T12:00:00Z", "2026-05-06T12:00:00Z"]), "machine": "hall 2/pump",
+                         "use_h": np.array([900.0, 950.0]), "wear_um": [17.5, 18.6], "remark": [None, float("nan")]})
+    assert monitor.send(sent) == {"readings": 2, "repeated": 0, "refused": 0, "problem": ""}
+    assert monitor.send(sent.to_dict("records"))["repeated"] == 2
+    assert until(lambda: "hall 2/pump" in monitor.units().index)
+    assert monitor.unit("hall 2/pump")["at"] == 950
+    mixed = [{"time": "2026-05-07T12:00:00Z", "machine": "M1", "use_h": 10.0, "wear_um": 1.0}, {"machine": "M1", "use_h": 11.0}]
+    found = monitor.send(mixed)
+    assert found["readings"] == 1 and found["refused"] == 1 and found["problem"]
+
+
+def test_events(url):
+    monitor = ww.Monitor(url)
+    events = monitor.events()
+    assert next(events)["all"]
+    monitor.send({"time": "2026-05-05T12:00:00Z", "machine": "M9", "use_h": 900.0, "wear_um": 17.5})
+    assert any("M9" in each["changed"] or each["all"] for each in (next(events) for _ in range(3)))
+    events.close()
+
+
+def test_errors(url):
+    monitor = ww.Monitor(url)
+    with pytest.raises(ww.InputError, match='"M0" is not a unit'):
+        monitor.unit("M0")
+    with pytest.raises(ww.InputError, match="use|wear"):
+        monitor.send({"machine": "M1", "time": "2026-05-05T12:00:00Z"})
+    for wrong, message in (({"use_h": float("inf")}, "row 1, 'use_h' is inf; a number is finite"), ([], "readings has no rows"),
+                           ("a.csv", "readings is str; it is a dict"), ({"use_h": [1]}, "row 1, 'use_h' is list")):
+        with pytest.raises(ww.InputError, match=message):
+            monitor.send(wrong)
+    with pytest.raises(ww.MachineError, match="^http://127.0.0.1:9 cannot be reached"):
+        ww.Monitor("http://127.0.0.1:9").fleet()
+    with pytest.raises(ww.InputError, match="^url is 'monitor'; it is like"):
+        ww.Monitor("monitor")
+    with pytest.raises(ww.InputError, match="^token: http://plant.example is not encrypted"):
+        ww.Monitor("http://plant.example", token=token)
+
+
+def test_token(fleet, tmp_path):  # noqa: F811
+    with monitored(tmp_path, fleet / "study-results", token=token) as address:
+        with pytest.raises(ww.InputError, match=address):
+            ww.Monitor(address).fleet()
+        assert ww.Monitor(address, token=token).fleet()["units"]["all"] == 0

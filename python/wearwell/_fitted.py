@@ -1,0 +1,57 @@
+"""What questions about a fit or the folder of a result share."""
+
+import os
+
+from . import _core
+from ._data import table_of
+from ._errors import InputError, missing_files, warn
+
+
+def fitted(fit):
+    """The run of a fit and a path, one of them empty."""
+    from ._fit import Fit
+
+    if isinstance(fit, Fit):
+        return fit._live(), ""
+    if isinstance(fit, (str, os.PathLike)):
+        return None, os.fspath(fit)
+    raise InputError(f"fit is {type(fit).__name__}; it is a fit, or the folder of a result")
+
+
+def population(fit):
+    """The units of a fit that can be followed; a fit keeps it."""
+    from ._fit import Fit
+
+    found = fit._population if isinstance(fit, Fit) else population_of(fit)
+    warn_unless(found.trusted)
+    return found
+
+
+def population_of(fit):
+    with missing_files():
+        return _core.population_of(*fitted(fit))
+
+
+def warn_unless(trusted):
+    if not trusted:
+        warn("the fit that this rests on is not trusted: see its checks")
+
+
+def rows_of(data, name):
+    """A table of rows; a mapping of single values is one row."""
+    if hasattr(data, "keys") and not hasattr(data, "columns") and not hasattr(data, "__arrow_c_stream__") and len(data):
+        values = [data[key] for key in data.keys()]
+        if all(_is_single(each) for each in values):
+            data = {key: [data[key]] for key in data.keys()}
+    with missing_files():
+        return table_of(data, name)
+
+
+def _is_single(value):
+    return isinstance(value, (str, bytes)) or not hasattr(value, "__len__")
+
+
+def one_text(value, name):
+    if not isinstance(value, str) or not value:
+        raise InputError(f"{name} is {value!r}; it is a text")
+    return value

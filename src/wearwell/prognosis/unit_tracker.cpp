@@ -1,0 +1,158 @@
+#include "wearwell/prognosis/unit_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/prognosis/quantity_like.h"
+#include "wearwell/prognosis/reading_table.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double x) {
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json interval_json(const Interval& interval) {
+  return {{"q05", finite_or_null(interval.q05)},
+          {"q50", finite_or_null(interval.q50)},
+          {"q95", finite_or_null(interval.q95)}};
+}
+
+void require_unit(const Tracker& tracker, const std::string& unit, bool fresh) {
+  const auto seen = tracker.seen();
+  const bool known = std::find(seen.begin(), seen.end(), unit) != seen.end();
+  if (unit.empty()) throw InputError("unit is empty; it is the name of a unit");
+  if (known && fresh)
+    throw InputError(fmt::format("unit: {} '{}' is one of the study, so it is not new",
+                                 tracker.noun(), printable(unit)));
+  if (const std::string refusal = tracker.refusal(unit); !refusal.empty())
+    throw InputError(fmt::format("unit: {}", refusal));
+  if (!known && !fresh)
+    throw InputError(fmt::format(
+        "unit: the study has no {} '{}'{}; track it as a new one (new) to begin without readings",
+        tracker.noun(), printable(unit),
+        did_you_mean(unit, std::vector<std::string>(seen.begin(), seen.end()))));
+}
+
+// The reading of each row; an error before any is taken.
+std::vector<Reading> readings_of(const Tracker& tracker, const std::string& unit,
+                                 const Table& table) {
+  const ReadingTable rows(tracker, table);
+  const auto units = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [&](const Column& each) { return each.name == tracker.noun(); });
+  std::vector<Reading> readings;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (units != table.columns.end() && unit_name(*units, row) != unit)
+      throw InputError(fmt::format("{}: it is a reading of {} '{}', and '{}' is tracked",
+                                   place(table, units->name, row), tracker.noun(),
+                                   printable(unit_name(*units, row)), printable(unit)));
+    Reading reading = rows.reading(row);
+    if (const std::string problem = tracker.problem(reading); !problem.empty())
+      throw InputError(
+          fmt::format("{}, {}: {}", table.source, row_name(row + 1, 0), printable(problem)));
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
+}  // namespace
+
+UnitTracker::UnitTracker(std::shared_ptr<const Tracker> tracker, std::string unit, bool fresh)
+    : tracker_(std::move(tracker)), unit_(std::move(unit)), fresh_(fresh), reported_(*tracker_) {
+  require_unit(*tracker_, unit_, fresh_);
+  state_ = tracker_->begin(unit_);
+}
+
+std::vector<RowOutcome> UnitTracker::update(const Table& rows) {
+  std::vector<RowOutcome> outcomes;
+  for (Reading& reading : readings_of(*tracker_, unit_, rows)) {
+    RowOutcome outcome;
+    const bool complete = std::none_of(reading.numbers.begin(), reading.numbers.end(),
+                                       [](double x) { return std::isnan(x); });
+    if (complete && !known_.emplace(reading.numbers, reading.labels).second) {
+      ++repeated_;
+      outcome.repeated = true;
+      outcomes.push_back(std::move(outcome));
+      continue;
+    }
+    const History history = [&](const auto& visit) {
+      for (const Reading& each : history_) visit(each);
+    };
+    outcome.result =
+        watch_.update({*tracker_, reported_.watched(), unit_, *state_}, reading, false, history);
+    if (!outcome.result.problem.empty()) last_problem_ = outcome.result.problem;
+    refused_ += !outcome.result.counted;
+    contradicting_ += outcome.result.counted && outcome.result.contradicts;
+    history_.push_back(std::move(reading));
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+Json UnitTracker::json() const {
+  const Forecast now = forecast();
+  const bool known = !std::isnan(now.passed);
+  const auto if_known = [&](const Json& value) { return known ? value : Json(nullptr); };
+  const std::string doubt = watch_.reason();
+  return {{"unit", unit_},
+          {"noun", tracker_->noun()},
+          {"new", fresh_},
+          {"axis", tracker_->axis().name},
+          {"axis_unit", tracker_->axis().unit.text},
+          {"limited", tracker_->limited()},
+          {"level_unit", tracker_->limit().unit.text},
+          {"limit", finite_or_null(reported_.level(tracker_->limit().si()))},
+          {"known", known},
+          {"at", if_known(finite_or_null(reported_.at(now.now)))},
+          {"level", if_known(known ? interval_json(reported_.level(now)) : Json())},
+          {"remaining", if_known(interval_json(reported_.remaining(now)))},
+          {"b10", if_known(finite_or_null(reported_.b10(now)))},
+          {"numerical_error",
+           if_known(finite_or_null(relative_error(now.remaining, tracker_->probability_error())))},
+          {"passed", if_known(finite_or_null(std::clamp(now.passed, 0.0, 1.0)))},
+          {"doubt", doubt.empty() ? Json(nullptr) : Json(doubt)},
+          {"beyond", watch_.is_beyond()},
+          {"quality",
+           {{"readings", history_.size()},
+            {"repeated", repeated_},
+            {"contradicting", contradicting_},
+            {"refused", refused_},
+            {"last_problem", last_problem_}}}};
+}
+
+double UnitTracker::risk(const std::string& within) const {
+  const double horizon =
+      quantity_like("within", within, tracker_->axis().unit, Allowed::not_negative);
+  const Forecast now = forecast();
+  return std::isnan(now.passed) ? now.passed : risk_within(now, horizon);
+}
+
+std::vector<ForecastBand> UnitTracker::path() const {
+  std::vector<ForecastBand> path = state_->ahead(places_ahead(forecast()));
+  for (ForecastBand& each : path)
+    each = {reported_.at(each.at), reported_.level(each.level05), reported_.level(each.level50),
+            reported_.level(each.level95)};
+  return path;
+}
+
+Json outcomes_json(const std::vector<RowOutcome>& outcomes) {
+  Json all = Json::array();
+  for (const auto& [repeated, result] : outcomes)
+    all.push_back({{"counted", result.counted},
+                   {"repeated", repeated},
+                   {"contradicts", result.contradicts},
+                   {"p_value", repeated ? Json(nullptr) : finite_or_null(result.p_value)},
+                   {"problem", result.problem}});
+  return all;
+}
+
+}  // namespace wearwell::prognosis
