@@ -105,17 +105,16 @@ class JoinedStudy {
 
   // Of the tests at one node. Units that the study has are given their own rows.
   std::vector<double> densities_at(Index j, EffectIntegral integral) const {
-    const std::vector<double> factor = effects_ == 0                       ? new_factors(j, 0)
-                                       : integral == EffectIntegral::rough ? rough_factors(j)
-                                                                           : integrated_factors(j);
-    std::vector<double> found;
+    std::vector<double> factor = effects_ == 0                       ? new_factors(j, 0)
+                                 : integral == EffectIntegral::rough ? rough_factors(j)
+                                                                     : integrated_factors(j);
     for (std::size_t i = 0; i < tests_; ++i) {
       const std::size_t unit = histories_.unit[i];
-      const double density =
-          unit == Histories::none ? factor[i] : factor[i] - factor[tests_ + unit];
-      found.push_back(std::isnan(density) ? -infinity : density);
+      if (unit != Histories::none) factor[i] -= factor[tests_ + unit];
+      if (std::isnan(factor[i])) factor[i] = -infinity;
     }
-    return found;
+    factor.resize(tests_);
+    return factor;
   }
 
   // The logarithms of the factors at the nodes of an integral; those known are every second one.
