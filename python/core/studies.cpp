@@ -4,6 +4,7 @@
 #include "core.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/embed/fork_guard.h"
+#include "wearwell/embed/residuals.h"
 #include "wearwell/embed/run.h"
 #include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/result_writer.h"
@@ -67,6 +68,17 @@ std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
   return stats;
 }
 
+// Of each observation its score and whether it is censored; what an observation is.
+py::tuple residuals_of(const Run& run) {
+  embed::Residuals found;
+  {
+    const py::gil_scoped_release release;
+    const embed::ForkGuard guard;
+    found = embed::residuals(run);
+  }
+  return py::make_tuple(found.score, found.censored, found.noun);
+}
+
 // Texts, but of files that end in .bin bytes.
 py::list files_of(const Run& run) {
   embed::Files files;
@@ -112,6 +124,7 @@ void add_studies(py::module_& module) {
       .def("terminal", [](const Run& run) { return terminal_text(*run.result, {}); })
       .def("draws", &draws_of)
       .def("sample_stats", &sample_stats)
+      .def("residuals", &residuals_of)
       .def("files", &files_of)
       .def("write_netcdf", &write_netcdf)
       .def("asked", [](const Run& run, const ReadStudy& other, double level) {

@@ -31,7 +31,7 @@ def _levels(fit, study, columns):
     text = json.dumps([study.get("formula", {}), study["likelihood"]])
     found = {}
     for base, label in re.findall(r"([A-Za-z][A-Za-z0-9_]*)\[([A-Za-z][A-Za-z0-9_]*)\]", text):
-        if label in columns:
+        if label in columns and label != study.get("failure_modes", {}).get("column"):
             levels = [name[len(base) + 1:-1] for name in fit.results["parameters"] if name.startswith(f"{base}[") and name.endswith("]")]
             if levels:
                 found.setdefault(label, levels)

@@ -96,14 +96,27 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   notes <- c(reference_notes(effects$conditions, "rate", NULL, NULL),
              if (is.null(limit)) "no limit is given: wear is fitted, and no life is predicted; limit = \"100 um\" gives lives",
              if (process && !is.null(label)) paste0("one rate for all: the increments of each ", sides$unit, " are random, its rate is not"))
-  one_line(text$text, study, text$proposed, notes, fit, call, ...)
+  known <- list(path = path, family = family, start = start, differs = length(entries) > 0, along = along, power_of = power_unit(along),
+                item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
+                effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
+                units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "scale", if (family == "normal") "sigma")], unit_of_prior))
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+}
+
+# Where a power of the axis is 1.
+power_unit <- function(along) rounded_up(max(along))
+
+# "um/km" of a prior of "0.5 um/km".
+unit_of_prior <- function(prior) {
+  size <- c(prior$median, prior$scale, prior$mean)[[1]]
+  if (is.character(size)) sub("^[^ ]+ ", "", size) else ""
 }
 
 path_of_degradation <- function(path, start, axis, unit, along, effects) {
   rate <- if (length(effects$terms)) paste0("rate * exp(", paste(effects$terms, collapse = " + "), ")") else "rate"
   if (path == "power") {
     if (any(along < 0)) stop_input("path = \"power\" needs an axis from 0 on, and data, row ", which(along < 0)[1], " is at ", along[along < 0][1])
-    one <- if (unit == "") number_text(rounded_up(max(along))) else paste0(number_text(rounded_up(max(along))), " [", unit, "]")
+    one <- if (unit == "") number_text(power_unit(along)) else paste0(number_text(power_unit(along)), " [", unit, "]")
     grown <- paste0(rate, " * ", one, " * (", axis, "/", if (unit == "") one else paste0("(", one, ")"), ")^exponent")
   } else {
     grown <- paste0(rate, " * ", axis)
