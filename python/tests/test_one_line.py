@@ -390,8 +390,8 @@ def test_lives_of_units_differ_at_random():
         assert ours[table] == study[table]
     assert ours["prior"] == {"mean_life": {"distribution": "lognormal", "median": "1000 h", "log_sd": 2},
                              "mean_life_scatter": {"distribution": "half-normal", "scale": 1}}
-    with pytest.warns(ww.CheckWarning):  # three batches say little of their scatter
-        fit = ww.life(batches, "hours", unit="batch", family="exponential", method="exact", draws=50, chains=2, report=False)
+    known = {"mean_life": ww.lognormal(300, log_sd=0.3), "mean_life_scatter": ww.lognormal(0.3, log_sd=0.3)}
+    fit = ww.life(batches, "hours", unit="batch", family="exponential", priors=known, method="exact", draws=50, chains=2, report=False, b=10)
     assert fit.lives.loc[0, "of"] == "new batch" and list(fit.percentile(10).index) == [10]
 
 

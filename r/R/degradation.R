@@ -74,6 +74,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   }
   look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "")
   middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
+  require_finite(readings, measured$heading)
+  require_finite(along, axis$heading)
   proposed <- degradation_priors(readings, along, measured$unit, axis$unit, path, start, family, !is.null(label), effects)
   likelihood <- switch(family,
     normal = list(family = family, mean = middle, sd = "sigma"),
@@ -124,11 +126,15 @@ path_of_degradation <- function(path, start, axis, unit, along, effects) {
   if (start) paste0("start + ", grown) else grown
 }
 
+require_finite <- function(values, heading) {
+  row <- which(!is.finite(values))[1]
+  if (is.na(row)) return()
+  what <- if (is.na(values[row])) "a value is missing; the formula uses it" else paste(values[row], "is not a finite number")
+  stop_input("data, row ", row, ", column '", heading, "': ", what)
+}
+
 # As `wearwell new` proposes them: from the size of the data.
 degradation_priors <- function(y, x, y_unit, x_unit, path, start, family, differs, effects) {
-  if (anyNA(y) || anyNA(x)) stop_input("data, row ", which(is.na(y) | is.na(x))[1], ": a value is missing; the formula uses it")
-  wrong <- which(!is.finite(y) | !is.finite(x))
-  if (length(wrong)) stop_input("data, row ", wrong[1], ": ", c(y[wrong[1]], x[wrong[1]])[!is.finite(c(y[wrong[1]], x[wrong[1]]))], " is not a finite number")
   slope <- if (start) stats::cov(x, y) / stats::var(x) else sum(x * y) / sum(x * x)
   if (!isTRUE(slope > 0)) {
     stop_input("the readings do not rise along the axis (slope ", signif(slope, 3), "): give the loss, like initial - reading, so that wear grows")

@@ -80,6 +80,7 @@ numbers_for <- function(each, what) {
 failures_of <- function(each, what) {
   values <- each$values
   heading <- each$heading
+  if (length(dim(values)) > 1 || is.character(values)) column_values(values, paste0("data, column '", heading, "'"))
   if (is.factor(values)) values <- as.character(values)
   if (is.character(values)) return(values)
   if (is.numeric(values) && !is.object(values) || is.logical(values)) {
