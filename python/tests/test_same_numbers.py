@@ -44,6 +44,18 @@ def test_files_are_those_of_the_program(name, examples, tmp_path):
     here, there = files_below(tmp_path / "here"), files_below(tmp_path / "there")
     assert here.keys() == there.keys()
     assert not [name for name in here if here[name] != there[name]]
+    if name == "clutch/study":
+        campaign_has_no_posterior(fit, tmp_path)
+
+
+def campaign_has_no_posterior(fit, tmp_path):
+    with pytest.raises(ww.InputError, match="no parameters"):
+        fit.parameters
+    with pytest.raises(ww.InputError, match="no posterior"):
+        fit.to_netcdf(tmp_path / "nothing.nc")
+    with pytest.raises(ww.InputError, match="posterior"):
+        fit.residuals()
+    assert not (tmp_path / "nothing.nc").exists()
 
 
 def test_with_report_and_other_method(examples, wearwell, tmp_path):

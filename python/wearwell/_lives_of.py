@@ -110,7 +110,9 @@ def _frame(rows, differ, name, columns, unit):
 
 def _asked_of(fit, values, what):
     table = {"given": values} if values else {}
-    return fit.ask({**table, **what}).get("quantities", [])
+    answers = fit.ask({**table, **what}).get("quantities", [])
+    # Of failure modes: those of the part, which come first; the others are of each mode alone, under the same names.
+    return [each for each in answers if each["of"].removeprefix("new ") == answers[0]["of"].removeprefix("new ")]
 
 
 def _life_row(each, keys):

@@ -172,13 +172,6 @@ test_that("workers of parallel and future fit too, to the same bits", {
   expect_identical(future::value(future::future(wearwell::ww_fit(study, seed = 3, report = FALSE)$parameters)), bare$parameters)
 })
 
-test_that("a campaign of a clutch has tables and no posterior", {
-  fit <- quiet(ww_fit(example("clutch", "study.toml"), report = FALSE))
-  refused(fit$parameters, "no parameters")
-  refused(ww_netcdf(fit, tempfile()), "no posterior")
-  expect_match(capture.output(print(summary(fit)))[2], "rusted|RUSTED")
-})
-
 test_that("NetCDF is that of the program", {
   there <- tempfile(fileext = ".nc")
   program("fit", example("joint", "study.toml"), "--seed", 3, "--quiet", "--no-report", "--netcdf", there, "-o", tempfile())

@@ -26,6 +26,12 @@ test_that("files of examples are those of the program", {
     expect_identical(fit$trusted, done$code == 0, info = name)
     expect_identical(files_below(here), files_below(there), info = name)
     unlink(c(here, there), recursive = TRUE)
+    if (dirname(name) == "clutch") {  # a campaign has tables and no posterior
+      refused(fit$parameters, "no parameters")
+      refused(ww_netcdf(fit, tempfile()), "no posterior")
+      refused(ww_loo(fit), "this study has no leave-one-out")
+      expect_match(capture.output(print(summary(fit)))[2], "rusted|RUSTED")
+    }
   }
 })
 
