@@ -95,6 +95,15 @@ class Columns:
         """The cells of a column as texts, whole numbers without a point."""
         return self._read().words(heading)
 
+    def kinds(self, heading):
+        """The distinct cells as texts, whole numbers without a point."""
+        import numpy
+
+        try:
+            return {f"{each:.17g}" for each in numpy.unique(self.numbers(heading))}
+        except InputError:  # of texts
+            return set(self.words(heading))
+
     def levels(self, heading):
         """The labels of a column in the order in which they come."""
         return [each for each in dict.fromkeys(self.words(heading)) if each]
@@ -138,7 +147,7 @@ def status_of(columns, event):
                              "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
-    cells = {cell.lower() for cell in columns.words(heading)}
+    cells = {cell.lower() for cell in columns.kinds(heading)}
     codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
     if not codes:
         return heading

@@ -79,10 +79,12 @@ def _conditions(columns, by, stress, given):
 
 
 def _lives(columns, life):
-    """(what [data.columns] says, name of the life, largest and middle value, unit)"""
+    """(what [data.columns] says, name of the life, its values in rising order, unit)"""
+    import numpy
+
     if isinstance(life, str):
         heading = columns.take(life, "life")
-        values = sorted(columns.numbers(heading))
+        values = numpy.sort(columns.numbers(heading))
         return {columns.name(heading): columns.entry(heading)}, columns.name(heading), values, columns.unit(heading)
     if not isinstance(life, (tuple, list)) or len(life) != 2:
         raise InputError(f"life is {life!r}; it is the heading of a column, or the two of an interval: ('last_ok', 'first_failed')")
@@ -91,7 +93,7 @@ def _lives(columns, life):
     if units[0] != units[1]:
         raise InputError(f"life: column '{lower}' is in {units[0] or 'plain numbers'} and '{upper}' in {units[1] or 'plain numbers'}; "
                          "both ends need the same unit")
-    ends = sorted([*columns.numbers(lower), *columns.numbers(upper)])
+    ends = numpy.sort(numpy.concatenate([columns.numbers(lower), columns.numbers(upper)]))
     return {"lower": columns.entry(lower), "upper": columns.entry(upper)}, "life", ends, units[0]
 
 

@@ -67,6 +67,7 @@ logLik.ww_fit <- function(object, ...) {
 
 # Leave-one-out of the fit's own check, in the form of the package loo.
 ww_loo <- function(fit) {
+  require_posterior(fit, "ww_loo()")
   found <- fit$summary$loo
   if (is.null(found$pointwise)) stop_input("ww_loo(): this study has no leave-one-out: ", if (is.null(found)) "its model has no likelihood by observations" else "it is not by observation")
   number <- function(key) column(found$pointwise, key)
