@@ -183,7 +183,8 @@ test_that("NetCDF is that of the program", {
 
 test_that("memory does not grow with fits", {
   resident <- function() as.double(strsplit(grep("VmRSS", readLines("/proc/self/status"), value = TRUE), "[^0-9]+")[[1]][2])
-  study <- of_a_formula()
+  study <- ww_study(formula = "hours = mean_life", family = "exponential", data = data.frame(hours = c(120, 340, 560, 230)),
+                    priors = list(mean_life = ww_lognormal(300, log_sd = 1)))
   fit <- function() quiet(ww_fit(study, seed = 1, method = "exact", draws = 10, chains = 1, report = FALSE))
   for (i in 1:20) fit()
   gc()

@@ -29,7 +29,7 @@ test_that("files of examples are those of the program", {
     if (dirname(name) == "clutch") {  # a campaign has tables and no posterior
       refused(fit$parameters, "no parameters")
       refused(ww_netcdf(fit, tempfile()), "no posterior")
-      refused(ww_loo(fit), "ww_loo(): a study of the model clutch-friction has no posterior")
+      refused(ww_loo(fit), "ww_loo(): a study of the model clutch-wear has no posterior")
       expect_match(capture.output(print(summary(fit)))[2], "rusted|RUSTED")
     }
   }
