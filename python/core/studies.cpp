@@ -5,6 +5,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/embed/fitted.h"
 #include "wearwell/embed/fork_guard.h"
+#include "wearwell/embed/residuals.h"
 #include "wearwell/embed/run.h"
 #include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/result_writer.h"
@@ -68,6 +69,17 @@ std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
   return stats;
 }
 
+// Of each observation its score and whether it is censored; what an observation is.
+py::tuple residuals_of(const Run& run) {
+  embed::Residuals found;
+  {
+    const py::gil_scoped_release release;
+    const embed::ForkGuard guard;
+    found = embed::residuals(run);
+  }
+  return py::make_tuple(found.score, found.censored, found.noun);
+}
+
 // Texts, but of files that end in .bin bytes.
 py::list files_of(const Run& run) {
   embed::Files files;
@@ -113,6 +125,7 @@ void add_studies(py::module_& module) {
       .def("terminal", [](const Run& run) { return terminal_text(*run.result, {}); })
       .def("draws", &draws_of)
       .def("sample_stats", &sample_stats)
+      .def("residuals", &residuals_of)
       .def("files", &files_of)
       .def("state", [](const Run& run) { return py::bytes(embed::saved_state(run)); })
       .def("write_netcdf", &write_netcdf)

@@ -69,3 +69,13 @@ def test_a_column_of_each_kind_is_read_or_refused_by_name(life, column, kind):
         assert life(pd.DataFrame(columns)).description()
     except ww.InputError as error:
         assert re.search(rf"\b({column}|stress|by|event)\b", str(error)), error
+
+
+def test_levels_of_an_index_and_of_headings_are_refused_by_name(life):
+    frame = pd.DataFrame({"hours": hours, "event": event, "group": group, "T": stress})
+    assert life(frame.set_index(pd.MultiIndex.from_product([[1, 2], range(4)]))).toml == life(frame).toml
+    with pytest.raises(ww.InputError, match=r"by: data has no column 'group'; it is a level of the index, and data.reset_index\(\)"):
+        life(frame.set_index(["group", frame.index]))
+    levels = frame.set_axis(pd.MultiIndex.from_product([["x"], frame.columns]), axis=1)
+    with pytest.raises(ww.InputError, match=r"the heading \('x', 'hours'\) has 2 levels; columns have one name each"):
+        life(levels)

@@ -35,6 +35,17 @@ def test_page_for_users_of_lifelines(tmp_path, monkeypatch):
     assert len(blocks) == 11 and list(space["groups"].summary.index) == ["characteristic[A]", "characteristic[B]", "slope"]
 
 
+def test_page_of_failure_modes(tmp_path, monkeypatch):
+    blocks, space = run_blocks(tmp_path, monkeypatch, "docs", "how-to", "failure-modes.md")
+    assert len(blocks) == 1 and len(space["fit"].lives) == 3
+
+
+def test_page_for_users_of_reliability(tmp_path, monkeypatch):
+    """Its numbers are asserted in its blocks, as above."""
+    blocks, space = run_blocks(tmp_path, monkeypatch, "docs", "how-to", "coming-from-reliability.md")
+    assert len(blocks) == 9 and list(space["modes"].lives["at"]) == ["", "without wear", "without seal"]
+
+
 def test_block_of_the_readme_runs(tmp_path, monkeypatch):
     blocks, space = run_blocks(tmp_path, monkeypatch, "README.md")
     assert len(blocks) == 1

@@ -19,6 +19,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import wearwell as ww
+from conftest import source
 
 
 @pytest.fixture
@@ -26,9 +27,10 @@ def joint(examples):
     return os.path.join(examples, "joint", "study.toml")
 
 
-@pytest.fixture
-def fit(joint):
-    return ww.fit(joint, seed=3)
+@pytest.fixture(scope="module")
+def fit():
+    """One for all tests: a fit does not change."""
+    return ww.fit(os.path.join(source, "examples", "joint", "study.toml"), seed=3)
 
 
 def test_parameters_are_the_summarys_by_quadrature(fit):
@@ -51,8 +53,8 @@ def test_draws_are_of_the_posterior(fit):
     assert abs(fit.draws["k"].mean() - fit.parameters.loc["k", "mean"]) < 5 * standard_error
 
 
-def test_trusted_and_not(joint, examples):
-    assert ww.fit(joint, seed=3, report=False).require_trusted().trusted
+def test_trusted_and_not(fit, examples):
+    assert fit.require_trusted() is fit and fit.trusted
     with pytest.warns(ww.CheckWarning, match="proper-posterior fails"):
         improper = ww.fit(os.path.join(examples, "joint", "improper_normal.toml"), seed=1, report=False)
     assert not improper.trusted
@@ -99,7 +101,7 @@ def test_options_are_checked(joint, options, message):
 
 def test_progress_is_told_and_its_exception_stops(joint):
     told = []
-    ww.fit(joint, seed=1, draws=60_000, report=False, progress=lambda *step: told.append(step))
+    ww.fit(joint, seed=1, draws=15_000, report=False, progress=lambda *step: told.append(step))
     assert told and told[-1][0] == "iterations"
     assert all(0 <= done <= total for _, done, total, _ in told)
 
@@ -114,18 +116,25 @@ def test_progress_is_told_and_its_exception_stops(joint):
 
 
 def test_interrupt_stops_and_leaves_nothing(joint, tmp_path):
+    """Within 0.2 s of the processor's time: other work on the machine does not count."""
     code = textwrap.dedent(f"""
         import os, signal, threading, time, sys
         import wearwell as ww
-        threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+
+        def interrupt():
+            global asked
+            asked = time.process_time()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Timer(0.5, interrupt).start()
         try:
-            ww.fit({joint!r}, seed=1, draws=9_000_000, report=False).write("results")
+            ww.fit({joint!r}, seed=1, draws=9_000_000, report=False, threads=1).write("results")
         except KeyboardInterrupt:
-            print("stopped", threading.active_count(), os.listdir("."))
+            print("stopped", threading.active_count(), os.listdir("."), time.process_time() - asked < 0.2)
         print(ww.fit({joint!r}, seed=3, report=False).trusted)
     """)
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=600)
-    assert done.stdout == "stopped 1 []\nTrue\n", done.stderr
+    assert done.stdout == "stopped 1 [] True\nTrue\n", done.stderr
 
 
 def test_other_threads_go_on_meanwhile(joint):
@@ -139,20 +148,38 @@ def test_other_threads_go_on_meanwhile(joint):
     done = threading.Event()
     counter = threading.Thread(target=count)
     counter.start()
-    ww.fit(joint, seed=1, draws=20_000, report=False)
+    ww.fit(joint, seed=1, draws=10_000, report=False)
     done.set()
     counter.join()
     assert len(counted) > 20
 
 
 def test_threads_fit_at_once_the_same_bits(joint, examples):
-    studies = [joint, os.path.join(examples, "life", "study.toml")] * 3
+    studies = [joint, os.path.join(examples, "life", "study.toml")] * 2
+    options = {"seed": 4, "report": False, "warmup": 200, "draws": 100}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        alone = [ww.fit(s, seed=4, report=False).results for s in studies[:2]] * 3
-        with ThreadPoolExecutor(6) as pool:
-            together = list(pool.map(lambda s: ww.fit(s, seed=4, report=False).results, studies))
+        alone = [ww.fit(s, **options).results for s in studies[:2]] * 2
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(lambda s: ww.fit(s, **options).results, studies))
     assert together == alone
+
+
+def test_fits_of_two_threads_run_side_by_side(joint):
+    """Each goes on to its end while the other one waits within a step of its own: neither holds a lock of the interpreter or the library."""
+    both = threading.Barrier(2, timeout=120)
+
+    def one(seed):
+        met = []
+
+        def meet(*_):
+            if not met:
+                met.append(both.wait())  # passes only if the other fit is under way, too
+
+        return ww.fit(joint, seed=seed, draws=10_000, chains=2, threads=1, report=False, progress=meet).seed
+
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(one, [1, 2])) == [1, 2]
 
 
 def _in_child(study, queue):
@@ -172,6 +199,14 @@ def test_forked_and_spawned_children_fit_too(joint, how):
         child.join(timeout=60)
         assert child.exitcode == 0
     assert found == [here, here]
+
+
+def test_workers_of_joblib_fit_too(joint):
+    joblib = pytest.importorskip("joblib")
+    here = ww.fit(joint, seed=4, report=False).parameters
+    for backend in ("loky", "threading"):
+        found = joblib.Parallel(n_jobs=2, backend=backend)(joblib.delayed(ww.fit)(joint, seed=4, report=False) for _ in range(2))
+        assert all(each.parameters.equals(here) for each in found)
 
 
 def test_pickle_and_copy(fit, tmp_path):
@@ -214,17 +249,6 @@ def test_asked_later_is_what_the_study_says(fit, joint):
         fit.ask({"cykles": [1]})
 
 
-def test_clutch_has_tables_and_no_posterior(examples):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ww.CheckWarning)
-        fit = ww.fit(os.path.join(examples, "clutch", "study.toml"), report=False)
-    with pytest.raises(ww.InputError, match="no parameters"):
-        fit.parameters
-    with pytest.raises(ww.InputError, match="no posterior"):
-        fit.to_netcdf("nothing.nc")
-    assert not os.path.exists("nothing.nc")
-
-
 def test_html_shows_verdict_and_parameters(fit):
     html = fit._repr_html_()
     assert "trusted" in html and "mm^3/(N m)" in html and "7.759e-04" in html.replace("0.0007759", "7.759e-04")
@@ -237,9 +261,8 @@ def test_an_interpreter_that_fitted_ends_well(joint):
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
-def test_many_fits_leave_no_memory_behind(joint):
-    text = re.sub(r"(?ms)^\[update\].*", "", open(joint).read())
-    study = ww.Study.from_toml(text, folder=os.path.dirname(joint))
+def test_many_fits_leave_no_memory_behind():
+    study = ww.Study(formula="hours = mean_life", family="exponential", data={"hours": [120.0, 340, 560, 230]}, priors={"mean_life": ww.lognormal(300, log_sd=1)})
 
     def resident():
         with open("/proc/self/statm") as file:
@@ -251,7 +274,7 @@ def test_many_fits_leave_no_memory_behind(joint):
             json.dumps(fit.results)
             fit.draws
 
-    some(40)
+    some(30)
     before = resident()
-    some(60)
-    assert resident() - before < 2.4e6  # 40 kB each would be a leak of draws or nodes
+    some(30)
+    assert resident() - before < 1.2e6  # 40 kB each would be a leak of draws or nodes

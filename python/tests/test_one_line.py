@@ -337,3 +337,94 @@ def test_warnings_stand_at_the_callers_line():
 def test_help_begins_with_what_people_need():
     first = ww.__doc__.split("\n")
     assert first[2].startswith("One line for a table") and "``life``" in ww.__doc__ and ww.__all__[0] == "life"
+
+
+# ---- Units, failure modes.
+
+absorbers = table_of("life/shock_absorbers.csv")
+mode_of = {"mode": "failure mode", "family": "exponential"}
+
+
+def test_mean_lives_of_exponential_modes_are_total_time_over_failures():
+    """The maximum likelihood estimate of each mode, in closed form; failures by the other one are run-outs."""
+    fit = ww.life(absorbers, "km", priors="flat", method="exact", draws=50, chains=2, report=False, **mode_of)
+    for name, each in fit.results["mode"]["parameters"].items():
+        failures = (absorbers["failure mode"] == name[len("mean_life["):-1]).sum()
+        assert abs(each["value"] / (absorbers["km"].sum() / failures) - 1) < 1e-4, name
+    assert list(fit.lives["of"]) == ["new unit", "new unit with mode 1 alone", "new unit with mode 2 alone"]
+    part = fit.survival_function([5000, 10000])
+    assert part["q50"].is_monotonic_decreasing and list(part.index) == [5000, 10000]
+    assert abs(fit.percentile(10)["predictive"].iloc[0] / fit.lives.loc[0, "b10"] - 1) < 1e-9
+    with pytest.raises(ww.InputError, match="mode: is not a condition"):
+        fit.ask({"given": {"mode": "mode 1"}})
+
+
+def test_default_study_of_modes_is_that_of_the_program(wearwell, tmp_path):
+    new = priors_of_new(wearwell, tmp_path, absorbers)
+    study = tomllib.loads(made(ww.life, absorbers, "km", mode="failure mode", units={"km": "km"}).toml)
+    assert study["prior"] == new and study["failure_modes"] == {"column": "mode"}
+    assert study["likelihood"]["km"] == {"family": "weibull", "scale": "characteristic[mode]", "shape": "slope[mode]"}
+
+
+def test_modes_are_read_from_words_codes_and_events():
+    causes = absorbers["failure mode"].map({"mode 1": 1, "mode 2": 2, "censored": 0})
+    ended = causes > 0
+    coded = made(ww.life, absorbers.assign(cause=causes), "km", mode={"column": "cause", "runout": 0}, unused="failure mode")
+    beside = made(ww.life, absorbers.assign(cause=causes.where(ended), ended=ended), "km", event="ended", mode="cause", unused="failure mode")
+    for study in (coded, beside):
+        assert "38 observations: 27 run-outs, 7 failed by 1, 4 failed by 2" in study.description()
+    shared = tomllib.loads(made(ww.life, absorbers, "km", mode="failure mode", shape="shared").toml)
+    assert shared["likelihood"]["km"]["shape"] == "slope"
+    stressed = absorbers.assign(load=[1.0, 2.0] * 19)
+    text = made(ww.life, stressed, "km", mode="failure mode", family="lognormal", stress={"load": "inverse power"}).toml
+    assert 'median_life = "life_ref[mode] * (load/load_ref)^-load_power"' in text
+
+
+def test_lives_of_units_differ_at_random():
+    """The formula study with the same random effect, written with ww.Study."""
+    batches = pd.DataFrame({"batch": list("AABBCC"), "hours": [210.0, 340, 460, 610, 150, 190]})
+    ours = tomllib.loads(made(ww.life, batches, "hours", unit="batch", family="exponential", units=units).toml)
+    study = tomllib.loads(ww.Study(formula="hours = mean_life", family="exponential", data=batches, unit="batch", units=units,
+                                   random_effects=["mean_life"], priors={"mean_life": ww.lognormal("1000 h", log_sd=2)}).toml)
+    for table in ("random_effects", "likelihood"):
+        assert ours[table] == study[table]
+    assert ours["prior"] == {"mean_life": {"distribution": "lognormal", "median": "1000 h", "log_sd": 2},
+                             "mean_life_scatter": {"distribution": "half-normal", "scale": 1}}
+    known = {"mean_life": ww.lognormal(300, log_sd=0.3), "mean_life_scatter": ww.lognormal(0.3, log_sd=0.3)}
+    fit = ww.life(batches, "hours", unit="batch", family="exponential", priors=known, method="exact", draws=50, chains=2, report=False, b=10)
+    assert fit.lives.loc[0, "of"] == "new batch" and list(fit.percentile(10).index) == [10]
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"unit": "supplier", "by": "supplier"}, "by and unit: each group has its own scale, which then has no random effect; leave one out"),
+    ({"mode": "failure mode", "by": "supplier"}, "by and mode: each failure mode has its own scale, for all groups; leave one out"),
+    ({"mode": "failure mode", "unit": "supplier"}, "unit and mode: failure modes have no random effects; leave one out"),
+    ({"mode": {"columns": "x"}}, "mode has the key 'columns'; it is like {'column': 'cause', 'runout': 0}"),
+    ({"mode": "cause"}, "mode: data has no column 'cause'"),
+    ({"shape": "separate"}, "shape='separate' needs by or mode"),
+    ({}, 'mode="failure mode" in wearwell.life'),  # its run-outs would be failures
+    ({"event": "code"}, "if the codes are failure modes, mode={'column': 'code', 'runout': 0} in place of event"),
+    ({"mode": "code", "unused": "failure mode"}, "name a column as event, or write mode={'column': ..., 'runout': \"0\"}"),
+])
+def test_units_and_modes_are_refused_in_the_words_of_arguments(options, message):
+    table = absorbers.assign(supplier=["A", "B"] * 19, code=[0, 1, 2] * 12 + [0, 1])
+    assert message in refusal(ww.life, table, "km", **options)
+
+
+def test_residuals_and_their_figure():
+    """Medians over draws of exponential scores; of a run-out the middle of the probability that is left."""
+    from statistics import NormalDist
+
+    fit = fitted("life", "pumps", "hours", event="failed", family="exponential")
+    means = fit.draws["mean_life"].to_numpy()
+    for (_, row), residual in zip(pumps.iterrows(), fit.residuals().itertuples()):
+        below = 1 - np.exp(-row["hours"] / means)
+        below = below if row["failed"] else (1 + below) / 2
+        scores = [NormalDist().inv_cdf(each) for each in below]
+        assert abs(residual.residual - np.median(scores)) < 1e-6 and residual.censored == (not row["failed"])
+    hazard = fit.residuals("cox-snell")["residual"]
+    assert np.allclose(hazard, [-np.log(1 - NormalDist().cdf(each)) for each in fit.residuals()["residual"]])
+    plot = fit.plot("residuals")
+    assert plot.figures == ["residuals"] and "<svg" in plot.to_html() and len(plot.to_dict()["layer"]) == 3
+    with pytest.raises(ww.InputError, match="kind is 'deviance'; it is 'score' or 'cox-snell'"):
+        fit.residuals("deviance")

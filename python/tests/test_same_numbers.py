@@ -27,14 +27,15 @@ def files_below(folder):
 def test_files_are_those_of_the_program(name, examples, tmp_path):
     study = os.path.join(examples, *f"{name}.toml".split("/"))
     seed = None if name == "clutch/study" else 7  # a campaign has its seeds in its file
-    options = ("--seed", str(seed)) if seed else ()
+    fewer = {"draws": 200, "warmup": 200} if seed else {}
+    options = ("--seed", str(seed), "--draws", "200", "--warmup", "200") if seed else ()
     # Both at once: each has stretches that one core alone can do.
     program = subprocess.Popen([binary, "fit", study, *options, "--quiet", "--no-report", "-o", tmp_path / "there"],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ww.CheckWarning)
-            fit = ww.fit(study, seed=seed, report=False)
+            fit = ww.fit(study, seed=seed, report=False, **fewer)
         fit.write(tmp_path / "here")
     finally:
         _, error = program.communicate()
@@ -43,6 +44,18 @@ def test_files_are_those_of_the_program(name, examples, tmp_path):
     here, there = files_below(tmp_path / "here"), files_below(tmp_path / "there")
     assert here.keys() == there.keys()
     assert not [name for name in here if here[name] != there[name]]
+    if name == "clutch/study":
+        campaign_has_no_posterior(fit, tmp_path)
+
+
+def campaign_has_no_posterior(fit, tmp_path):
+    with pytest.raises(ww.InputError, match="no parameters"):
+        fit.parameters
+    with pytest.raises(ww.InputError, match="no posterior"):
+        fit.to_netcdf(tmp_path / "nothing.nc")
+    with pytest.raises(ww.InputError, match="posterior"):
+        fit.residuals()
+    assert not (tmp_path / "nothing.nc").exists()
 
 
 def test_with_report_and_other_method(examples, wearwell, tmp_path):

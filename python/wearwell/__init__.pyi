@@ -86,6 +86,7 @@ class Fit:
     def conditional(
         self, survived: _Quantity, b: _Percentages = ..., given: _Given = ..., confidence: float = ...
     ) -> pandas.DataFrame: ...
+    def residuals(self, kind: Literal["score", "cox-snell"] = ...) -> pandas.DataFrame: ...
     def compare(self, *others: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
     def update(
         self,
@@ -282,7 +283,9 @@ def life(
     count: str | None = ...,
     family: str = ...,
     by: str | None = ...,
-    shape: Literal["shared", "separate"] = ...,
+    unit: str | None = ...,
+    mode: str | Mapping[str, Any] | None = ...,
+    shape: Literal["shared", "separate"] | None = ...,
     stress: Mapping[str, str] | None = ...,
     given: Mapping[str, _Quantity] | None = ...,
     units: _Units = ...,

@@ -35,8 +35,9 @@ def columns_of(study):
 
 
 def conditions_of(study, columns):
-    """Columns that are neither measured nor name the items."""
+    """Columns that are neither measured nor name the items or failure modes."""
     skip = set(study["likelihood"]) | set(study.get("random_effects", {})) | {"status", "lower", "upper", "entry", "count"}
+    skip.add(study.get("failure_modes", {}).get("column"))
     return [name for name in columns if name not in skip]
 
 

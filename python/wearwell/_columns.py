@@ -95,6 +95,15 @@ class Columns:
         """The cells of a column as texts, whole numbers without a point."""
         return self._read().words(heading)
 
+    def kinds(self, heading):
+        """The distinct cells as texts, whole numbers without a point."""
+        import numpy
+
+        try:
+            return {f"{each:.17g}" for each in numpy.unique(self.numbers(heading))}
+        except InputError:  # of texts
+            return set(self.words(heading))
+
     def levels(self, heading):
         """The labels of a column in the order in which they come."""
         return [each for each in dict.fromkeys(self.words(heading)) if each]
@@ -116,6 +125,19 @@ def _in_two_ways(heading, what, readings):
     return InputError(f"event: column '{heading}' holds {what}: {'; or '.join(readings)}")
 
 
+def modes_of(columns, mode):
+    """What [failure_modes] says of the column of ``mode``, beside its ``heading``."""
+    if mode is None:
+        return {}
+    entry = dict(mode) if isinstance(mode, dict) else {"column": mode}
+    unknown = next((key for key in entry if key not in ("column", "runout", "unknown")), None)
+    if unknown or "column" not in entry:
+        raise InputError(f"mode has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'cause', 'runout': 0}}")
+    heading = columns.take(entry.pop("column"), "mode")
+    words = {key: [str(each) for each in value] if isinstance(value, (list, tuple)) else str(value) for key, value in entry.items()}
+    return {"heading": heading, **words}
+
+
 def status_of(columns, event):
     """What [data.columns] says of the column of ``event``: how each life ended."""
     if isinstance(event, dict):
@@ -125,7 +147,7 @@ def status_of(columns, event):
                              "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
-    cells = {cell.lower() for cell in columns.words(heading)}
+    cells = {cell.lower() for cell in columns.kinds(heading)}
     codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
     if not codes:
         return heading
@@ -134,7 +156,8 @@ def status_of(columns, event):
         raise _in_two_ways(heading, f"the codes {shown}", [
             f"event={{'column': '{heading}', 'failure': 1}} reads 1 failed, 0 still running, 2 left-censored, 3 interval",
             f"event={{'column': '{heading}', 'failure': 0}} reads 0 failed, 1 still running, -1 left-censored, 2 interval",
-            "if 2 is a failure, as in the codes 1 and 2 of some tables, or another cause of failure, make a column of True and False"])
+            "if 2 is a failure, as in the codes 1 and 2 of some tables, make a column of True and False",
+            f"if the codes are failure modes, mode={{'column': '{heading}', 'runout': 0}} in place of event reads 0 still running"])
     if _core.failure_code_of(heading) == 0:
         raise _in_two_ways(heading, f"{shown}, and its name says that it marks the lives that did not end", [
             f"event={{'column': '{heading}', 'failure': 0}} reads 0 or False as failed",

@@ -111,8 +111,15 @@ class FitFiles:
         ['curve', 'posterior', 'pairs', 'residuals']
         """
         from ._plots import names_of
+        from ._residuals import residual_figure
 
-        return names_of(self._figures)
+        names = names_of(self._figures)
+        if "residuals" in names:
+            return names
+        try:
+            return [*names, residual_figure(self)["id"]]
+        except InputError:  # of a model without scores
+            return names
 
     def plot(self, name=None, ax=None):
         """A picture of the fit: a figure of its report.
@@ -121,7 +128,7 @@ class FitFiles:
         ----------
         name : str, optional
             "life", "probability" (probability paper), "curve" (S-N curve, wear against cycles, path of a new unit), "hazard",
-            "posterior" (of each parameter, with its prior), "pairs", "residuals", "paths", "trace", "chains", or the name of
+            "posterior" (of each parameter, with its prior), "pairs", "residuals" (about the fit, or against normal quantiles), "paths", "trace", "chains", or the name of
             a figure of the report: ``plots`` lists those that this fit has. By default the first figure of the report.
         ax : matplotlib.axes.Axes or sequence of them, optional
             Axes to draw on; one for each figure.
@@ -143,9 +150,13 @@ class FitFiles:
         >>> fit.plot("life")
         <wearwell.Plot 'life': life>
         """
-        from ._plots import plot_of
+        from ._plots import Plot, has_plot, plot_of
+        from ._residuals import residual_figure
 
-        plot = plot_of(self._figures, name)
+        if name == "residuals" and not ("report.json" in self._files() and has_plot(self._figures, name)):
+            plot = Plot(name, [residual_figure(self)])
+        else:
+            plot = plot_of(self._figures, name)
         return plot if ax is None else plot.draw(ax)
 
     def to_netcdf(self, path):

@@ -35,6 +35,38 @@ class FitTables:
         """
         return self.parameters[["unit", "mean", "sd", "q05", "q50", "q95", "ess_bulk", "rhat", "prior"]]
 
+    def residuals(self, kind="score"):
+        """Quantile residuals of the observations (Dunn and Smyth 1996), medians over the posterior.
+
+        Parameters
+        ----------
+        kind : {"score", "cox-snell"}
+            "score": standard normal if the model is right. "cox-snell": the cumulative hazard at each life, exponential with
+            mean 1.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each observation: ``residual`` and ``censored``, whether only an interval of it is known. Such a
+            residual is in the middle of the probability of this interval.
+
+        Raises
+        ------
+        InputError
+            If the study has no posterior, or the observations of its model have no scores.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+        >>> fit = ww.life(pumps, "hours", event="failed", method="exact", draws=100, report=False)
+        >>> fit.residuals()["censored"].sum()
+        2
+        """
+        from ._residuals import residuals
+
+        return residuals(self, kind)
+
     @functools.cached_property
     def parameters(self):
         """Posterior of each parameter.

@@ -1,10 +1,10 @@
 """Lives in one line: a distribution, groups, and stresses that shorten a life."""
 
 from . import _toml
-from ._columns import Columns, status_of
+from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
 from ._fit_options import fits
-from ._proposed import Priors, factor_27, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
+from ._proposed import Priors, factor_27, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
 from ._study import Study
 
 _slope = ("slope", {"distribution": "lognormal", "median": 1.5, "log_sd": 0.7}, "below 1 early failures, 1 random failures, above wear-out")
@@ -79,10 +79,12 @@ def _conditions(columns, by, stress, given):
 
 
 def _lives(columns, life):
-    """(what [data.columns] says, name of the life, largest and middle value, unit)"""
+    """(what [data.columns] says, name of the life, its values in rising order, unit)"""
+    import numpy
+
     if isinstance(life, str):
         heading = columns.take(life, "life")
-        values = sorted(columns.numbers(heading))
+        values = numpy.sort(columns.numbers(heading))
         return {columns.name(heading): columns.entry(heading)}, columns.name(heading), values, columns.unit(heading)
     if not isinstance(life, (tuple, list)) or len(life) != 2:
         raise InputError(f"life is {life!r}; it is the heading of a column, or the two of an interval: ('last_ok', 'first_failed')")
@@ -91,13 +93,27 @@ def _lives(columns, life):
     if units[0] != units[1]:
         raise InputError(f"life: column '{lower}' is in {units[0] or 'plain numbers'} and '{upper}' in {units[1] or 'plain numbers'}; "
                          "both ends need the same unit")
-    ends = sorted([*columns.numbers(lower), *columns.numbers(upper)])
+    ends = numpy.sort(numpy.concatenate([columns.numbers(lower), columns.numbers(upper)]))
     return {"lower": columns.entry(lower), "upper": columns.entry(upper)}, "life", ends, units[0]
 
 
+def _shape(shape, by, unit, mode):
+    """"shared" or "separate", the default where it is None."""
+    if shape not in (None, "shared", "separate"):
+        raise InputError(f"shape is {shape!r}; it is 'shared', one for all groups or failure modes, or 'separate'")
+    if shape == "separate" and by is None and mode is None:
+        raise InputError("shape='separate' needs by or mode: the column of the groups or failure modes that differ")
+    given = [name for name, value in (("by", by), ("unit", unit), ("mode", mode)) if value is not None]
+    if len(given) > 1:
+        why = {"by unit": "each group has its own scale, which then has no random effect",
+               "by mode": "each failure mode has its own scale, for all groups", "unit mode": "failure modes have no random effects"}
+        raise InputError(f"{given[0]} and {given[1]}: {why[' '.join(given[:2])]}; leave one out")
+    return shape or ("shared" if mode is None else "separate")
+
+
 @fits
-def life(data, life, *, event=None, entry=None, count=None, family="weibull", by=None, shape="shared", stress=None, given=None,
-         units=None, priors=None, b=(1, 10, 50), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None,
+def life(data, life, *, event=None, entry=None, count=None, family="weibull", by=None, unit=None, mode=None, shape=None, stress=None,
+         given=None, units=None, priors=None, b=(1, 10, 50), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None,
          chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit a distribution of life to a table: censored, truncated, by group, under stress.
 
@@ -120,8 +136,15 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Distribution of the lives.
     by : str, optional
         Column of groups, such as suppliers. Each group has its own scale.
-    shape : {"shared", "separate"}
-        Whether all groups have one shape (default), or each has its own.
+    unit : str, optional
+        Column of batches, or of units with several lives, whose lives differ at random: the scale has a random effect
+        (lognormal). Predicted lives are those of an item of any batch; ``fit.life(unit="B3")`` has those of one.
+    mode : str or dict, optional
+        Column of the failure mode of each failure. Each mode has its own scale, and a part fails by the mode whose life ends
+        first (competing risks). "A|B" is one of the two, "unknown" any. Without ``event`` a word such as "censored" in this
+        column marks what still ran; ``{"column": "cause", "runout": 0}`` names another one.
+    shape : {"shared", "separate"}, optional
+        Whether all groups or modes have one shape, or each has its own. By default groups share it, and modes do not.
     stress : dict of str to str, optional
         By column "arrhenius" or "eyring" (temperatures, whose unit must be stated) or "inverse power" (voltage, load,
         humidity): how a life shortens. Groups share the effect of a stress.
@@ -136,7 +159,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         ``mean_life``; ``life_ref``, at the harshest stresses, where there is a stress): lognormal, log_sd 2, median the
         largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. ``slope`` of weibull:
         lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.
-        ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5.
+        ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5. ``SCALE_scatter`` of ln life between units,
+        such as ``characteristic_scatter``: half-normal, scale 1.
     b : float or sequence of float
         Percentages of B-lives.
     confidence : float
@@ -171,17 +195,22 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     ...               units={"T": "degC", "hours": "h"}, method="exact", report=False)
     >>> fit.parameters.loc["energy", ["unit", "mean"]].tolist()
     ['eV', 0.7900...]
+
+    Two failure modes; each mode's mean life, and the B10 life of the part:
+
+    >>> parts = {"hours": [210, 340, 560, 610, 780, 900, 950, 1000], "cause": ["seal", "wear", "wear", "seal", "wear", "censored", "wear", "censored"]}
+    >>> fit = ww.life(parts, "hours", mode="cause", family="exponential", units={"hours": "h"}, method="exact", report=False)
+    >>> list(fit.parameters.index)
+    ['mean_life[seal]', 'mean_life[wear]']
     """
     if family not in _families:
         raise InputError(f"family is {family!r}; it is {', '.join(_families)}. wearwell.Study has further ones, with priors that you state")
-    if shape not in ("shared", "separate"):
-        raise InputError(f"shape is {shape!r}; it is 'shared', one for all groups, or 'separate'")
-    if shape == "separate" and by is None:
-        raise InputError("shape='separate' needs by: the column of the groups that differ")
+    shape = _shape(shape, by, unit, mode)
     scale, slots, shapes = _families[family]
-    names = {"life", "life_ref", "energy", scale, *(each[0] for each in shapes)}
+    base = "life_ref" if stress else scale
+    names = {"life", "life_ref", "energy", "mode", scale, f"{base}_scatter", *(each[0] for each in shapes)}
     columns = Columns(data, units, names - {"life"})
-    rows, measured, values, unit = _lives(columns, life)
+    rows, measured, values, of = _lives(columns, life)
     if not len(values) or values[-1] <= 0:
         raise InputError(f"life: {life!r} has no value above 0")
     if event is not None:
@@ -192,12 +221,19 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     if by is not None:
         by = columns.take(by, "by")
         rows[columns.name(by)] = by
+    if unit is not None:
+        unit = columns.take(unit, "unit")
+        rows[columns.name(unit)] = unit
+    modes = modes_of(columns, mode)
+    if mode is not None:
+        rows["mode"] = modes.pop("heading")
     stress = {columns.take(key, "stress"): model for key, model in (stress or {}).items()}
     known = Priors(priors)
-    base = "life_ref" if stress else scale
     size, why = (values[len(values) // 2], f"{factor_27} of the middle life") if stress else (values[-1], f"{factor_27} of the largest life")
-    known.add(base, lognormal(rounded_up(size), unit, 2), f"{why}, rounded up")
-    index = f"[{columns.name(by)}]" if by else ""
+    known.add(base, lognormal(rounded_up(size), of, 2), f"{why}, rounded up")
+    if unit:
+        known.add(f"{base}_scatter", half_normal(1.0), "most units are within a factor of ten")
+    index = f"[{columns.name(by)}]" if by else "[mode]" if mode is not None else ""
     formula, constants = base + index, {}
     for heading, model in stress.items():
         if model not in _stresses:
@@ -220,10 +256,14 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     if stress:
         parts += [_toml.table("constants", constants, {key: _harsh for key in constants if key != "boltzmann"}),
                   _toml.table("formula", {scale: formula})]
+    if unit:
+        parts.append(_toml.table(f"random_effects.{columns.name(unit)}", {base: {"distribution": "lognormal", "log_sd": f"{base}_scatter"}}))
+    if mode is not None:
+        parts.append(_toml.table("failure_modes", {"column": "mode", **modes}))
     parts += [_toml.table(f"likelihood.{measured}", {"family": family, **{slot: text.replace("{}", place) for slot, text in slots.items()}}),
               _toml.table("prior", known.laws, known.comments), _toml.table("predict", asked)]
     table, only = columns.table(unused)
     study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
-        "data.columns.status": "event", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
+        "data.columns.status": "event", "data.columns.mode": "mode", "failure_modes": "mode", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
         "predict.given": "given"})
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

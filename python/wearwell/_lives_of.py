@@ -31,7 +31,7 @@ def _levels(fit, study, columns):
     text = json.dumps([study.get("formula", {}), study["likelihood"]])
     found = {}
     for base, label in re.findall(r"([A-Za-z][A-Za-z0-9_]*)\[([A-Za-z][A-Za-z0-9_]*)\]", text):
-        if label in columns:
+        if label in columns and label != study.get("failure_modes", {}).get("column"):
             levels = [name[len(base) + 1:-1] for name in fit.results["parameters"] if name.startswith(f"{base}[") and name.endswith("]")]
             if levels:
                 found.setdefault(label, levels)
@@ -110,7 +110,9 @@ def _frame(rows, differ, name, columns, unit):
 
 def _asked_of(fit, values, what):
     table = {"given": values} if values else {}
-    return fit.ask({**table, **what}).get("quantities", [])
+    answers = fit.ask({**table, **what}).get("quantities", [])
+    # Of failure modes: those of the part, which come first; the others are of each mode alone, under the same names.
+    return [each for each in answers if each["of"].removeprefix("new ") == answers[0]["of"].removeprefix("new ")]
 
 
 def _life_row(each, keys):

@@ -182,6 +182,11 @@ def _of_alias(figures, alias):
     return []
 
 
+def has_plot(figures, name):
+    """Whether the report has a figure of this name, or one that shows what the name asks for."""
+    return name in figures or bool(_of_alias(figures, name))
+
+
 def plot_of(figures, name):
     if name is None:
         name = next(iter(figures), None)

@@ -74,6 +74,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   }
   look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "")
   middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
+  require_finite(readings, measured$heading)
+  require_finite(along, axis$heading)
   proposed <- degradation_priors(readings, along, measured$unit, axis$unit, path, start, family, !is.null(label), effects)
   likelihood <- switch(family,
     normal = list(family = family, mean = middle, sd = "sigma"),
@@ -96,14 +98,27 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   notes <- c(reference_notes(effects$conditions, "rate", NULL, NULL),
              if (is.null(limit)) "no limit is given: wear is fitted, and no life is predicted; limit = \"100 um\" gives lives",
              if (process && !is.null(label)) paste0("one rate for all: the increments of each ", sides$unit, " are random, its rate is not"))
-  one_line(text$text, study, text$proposed, notes, fit, call, ...)
+  known <- list(path = path, family = family, start = start, differs = length(entries) > 0, along = along, power_of = power_unit(along),
+                item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
+                effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
+                units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "scale", if (family == "normal") "sigma")], unit_of_prior))
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+}
+
+# Where a power of the axis is 1.
+power_unit <- function(along) rounded_up(max(along))
+
+# "um/km" of a prior of "0.5 um/km".
+unit_of_prior <- function(prior) {
+  size <- c(prior$median, prior$scale, prior$mean)[[1]]
+  if (is.character(size)) sub("^[^ ]+ ", "", size) else ""
 }
 
 path_of_degradation <- function(path, start, axis, unit, along, effects) {
   rate <- if (length(effects$terms)) paste0("rate * exp(", paste(effects$terms, collapse = " + "), ")") else "rate"
   if (path == "power") {
     if (any(along < 0)) stop_input("path = \"power\" needs an axis from 0 on, and data, row ", which(along < 0)[1], " is at ", along[along < 0][1])
-    one <- if (unit == "") number_text(rounded_up(max(along))) else paste0(number_text(rounded_up(max(along))), " [", unit, "]")
+    one <- if (unit == "") number_text(power_unit(along)) else paste0(number_text(power_unit(along)), " [", unit, "]")
     grown <- paste0(rate, " * ", one, " * (", axis, "/", if (unit == "") one else paste0("(", one, ")"), ")^exponent")
   } else {
     grown <- paste0(rate, " * ", axis)
@@ -111,11 +126,15 @@ path_of_degradation <- function(path, start, axis, unit, along, effects) {
   if (start) paste0("start + ", grown) else grown
 }
 
+require_finite <- function(values, heading) {
+  row <- which(!is.finite(values))[1]
+  if (is.na(row)) return()
+  what <- if (is.na(values[row])) "a value is missing; the formula uses it" else paste(values[row], "is not a finite number")
+  stop_input("data, row ", row, ", column '", heading, "': ", what)
+}
+
 # As `wearwell new` proposes them: from the size of the data.
 degradation_priors <- function(y, x, y_unit, x_unit, path, start, family, differs, effects) {
-  if (anyNA(y) || anyNA(x)) stop_input("data, row ", which(is.na(y) | is.na(x))[1], ": a value is missing; the formula uses it")
-  wrong <- which(!is.finite(y) | !is.finite(x))
-  if (length(wrong)) stop_input("data, row ", wrong[1], ": ", c(y[wrong[1]], x[wrong[1]])[!is.finite(c(y[wrong[1]], x[wrong[1]]))], " is not a finite number")
   slope <- if (start) stats::cov(x, y) / stats::var(x) else sum(x * y) / sum(x * x)
   if (!isTRUE(slope > 0)) {
     stop_input("the readings do not rise along the axis (slope ", signif(slope, 3), "): give the loss, like initial - reading, so that wear grows")

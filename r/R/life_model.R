@@ -27,7 +27,7 @@ ww_life.default <- function(x, ...) {
 }
 
 # The same of a frame and names of columns.
-ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, ...) {
+ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL, ...) {
   columns <- frame_columns(x, list(...)$units)
   name <- function(text, what) {
     find_column(columns, one_text(text, what), what)
@@ -41,15 +41,16 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, ...) {
   } else if (!is.null(event)) call("Surv", life, event) else life
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  fit <- ww_life.formula(stats::as.formula(call("~", side, 1), env = parent.frame()), data = x, ...)
+  terms <- if (is.null(unit)) 1 else call("(", call("|", 1, name(unit, "unit")))
+  fit <- ww_life.formula(stats::as.formula(call("~", side, terms), env = parent.frame()), data = x, ...)
   with_call(fit, call)
 }
 
-ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
+ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
                             given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "by", "stress", "priors", "units", "weights", "given", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "weights", "given", "predict", "title",
                                           "unused", "fit"))
   if (!is_path(family) || !family %in% names(life_families)) {
     stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
@@ -74,24 +75,57 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, stres
     study[[by$name]] <- study_column(if (by$label) by$values else number_text(by$values), "")
     by$levels <- sort(unique(study[[by$name]]$values))
   }
+  modes <- modes_of(mode, columns, names(study))
+  if (!is.null(modes)) {
+    if (!is.null(by)) stop_input("by and mode: each failure mode has its own ", location, ", for all groups; leave one out")
+    if (length(random)) stop_input("mode: failure modes have no random effects; leave out (1 | ...), or mode")
+    study[[modes$name]] <- modes$column
+  }
   effect <- with_random(random, location, effects, columns, names(study), "the formula")
   study <- c(study, effect$columns)
-  used <- c(lives$used, names(effects$conditions), by$source, unlist(lapply(random, `[[`, "label")), weights)
+  used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), weights)
   look_at_unused(columns, used, lives$known, unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
-  middle <- if (is.null(by)) location else paste0(location, "[", by$name, "]")
+  index <- if (!is.null(c(by$name, modes$name))) paste0("[", c(by$name, modes$name), "]") else ""
+  middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
-  likelihood <- c(list(family = family), stats::setNames(as.list(c(middle, parameters[-1])), names(parameters)))
+  likelihood <- c(list(family = family), stats::setNames(as.list(c(middle, paste0(parameters[-1], if (has_own_shapes(shape, by, modes)) index)[seq_along(parameters[-1])])), names(parameters)))
   largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
   proposed <- stats::setNames(lapply(names(parameters), function(slot) life_prior(family, slot, largest, lives$unit)), parameters)
   proposed <- c(proposed, effects$priors, effect$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(
     title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study, constants = effects$constants,
-    likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect,
+    likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
     predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10), credible_level = 0.9))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(family, parameters, lives, study, effects, effect, by)
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., lives = known)
+  known$modes <- !is.null(modes)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+}
+
+# The column of failure modes, and what [failure_modes] says of it.
+modes_of <- function(mode, columns, taken) {
+  if (is.null(mode)) return(NULL)
+  table <- if (is.list(mode)) mode else list(column = mode)
+  unknown <- setdiff(c(names(table), if (is.null(names(table))) ""), c("column", "runout", "unknown"))
+  if (length(unknown) || is.null(table$column)) {
+    stop_input("mode is ", shown_value(mode), "; it is the name of a column, or like list(column = \"cause\", runout = 0)")
+  }
+  each <- find_column(columns, one_text(table$column, "mode"), "mode")
+  values <- column_values(plain_values(each), paste0("data, column '", each$heading, "'"))
+  if (is.double(values)) values <- ifelse(is.na(values), NA_character_, number_text(values))
+  name <- language_name("mode", taken)
+  table$column <- name
+  table[-1] <- lapply(table[-1], as.character)
+  list(name = name, source = each$heading, column = study_column(values, ""), table = table[c("column", setdiff(names(table), "column"))])
+}
+
+# Whether groups or failure modes have shapes of their own: by default modes do.
+has_own_shapes <- function(shape, by, modes) {
+  if (is.null(shape)) return(!is.null(modes))
+  if (!isTRUE(shape %in% c("shared", "separate"))) stop_input("shape is ", shown_value(shape), "; it is 'shared', one for all groups or failure modes, or 'separate'")
+  if (shape == "separate" && is.null(by) && is.null(modes)) stop_input("shape = 'separate' needs by or mode: the column of the groups or failure modes that differ")
+  shape == "separate"
 }
 
 # What simulate() needs of the model.
@@ -109,7 +143,8 @@ simulator_of <- function(family, parameters, lives, study, effects, random, by) 
   })
   list(family = family, parameters = parameters, unit = lives$unit, rows = rows, by = if (!is.null(by)) study[[by$name]]$values,
        effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
-       fixed = effects$fixed, random = labels, entry = study$entry$values)
+       fixed = effects$fixed, random = labels, entry = study$entry$values,
+       units = stats::setNames(list(lives$unit), parameters[[1]]))
 }
 
 lives_name <- function(lives, x) if (is_surv_call(x[[2]]) && lives$name == "life") words(all.vars(x[[2]])) else lives$name
@@ -201,13 +236,14 @@ checked_priors <- function(own, known) {
 }
 
 # A study file of a formula model. `columns`: study_column() by name. The data frame has the same names.
-study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL) {
+study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL, modes = NULL) {
   own_priors <- checked_priors(own_priors, names(priors))
   proposed <- priors[setdiff(names(priors), names(own_priors))]
   data <- list(file = "data")
   if (length(random$labels) > 1) data$rows_of <- finest(random)
   parts <- c(toml_table("", list(title = title, model = "formula")), toml_table("data", data), columns_table(columns),
              if (length(constants)) toml_table("constants", constants), if (length(formula)) toml_table("formula", formula))
+  if (length(modes)) parts <- c(parts, toml_table("failure_modes", modes))
   for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
   parts <- c(parts, toml_table("prior", c(proposed, own_priors)))
   for (label in names(random$entries)) parts <- c(parts, toml_table(paste0("random_effects.", toml_key(label)), random$entries[[label]]))
@@ -224,14 +260,14 @@ columns_table <- function(columns) {
 }
 
 # The fit of a study's text with a frame, or the study.
-one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, lives = NULL) {
+one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL) {
   if (is.null(tables)) {
     tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
   }
   study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
-  study$lives <- lives
+  study$replicates <- replicates
   if (!one_truth(fit, "fit")) return(study)
   found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
   with_call(found, call)
@@ -249,6 +285,8 @@ in_words_of_caller <- function(message) {
   message <- gsub("(^|\n)study(:[0-9]+)*: ", "\\1", message)
   message <- sub("\n +[^\n]* = [^\n]*\n *\\^ *$", "", message)
   message <- sub("; or define your own word in the study: .*$", paste0("; or a condition in place of the column, like ", "Surv(hours, end == \"broke\")"), message)
+  message <- gsub("give the study a status column", "state the event, Surv(..., EVENT)", message, fixed = TRUE)
+  message <- gsub("write \\[failure_modes\\] runout = (\"[^\"]*\")", "write mode = list(column = ..., runout = \\1)", message)
   message <- gsub("\\bprior\\.([A-Za-z0-9_]+)", "priors: \\1", message, perl = TRUE)
   message <- gsub("^data[.]columns[.]", "column ", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)

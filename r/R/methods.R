@@ -65,6 +65,34 @@ logLik.ww_fit <- function(object, ...) {
   structure(mode$log_likelihood, df = length(mode$parameters), nobs = mode$observations, class = "logLik")
 }
 
+# Leave-one-out of the fit's own check, in the form of the package loo.
+ww_loo <- function(fit) {
+  require_posterior(fit, "ww_loo()")
+  found <- fit$summary$loo
+  if (is.null(found$pointwise)) stop_input("ww_loo(): this study has no leave-one-out: ", if (is.null(found)) "its model has no likelihood by observations" else "it is not by observation")
+  number <- function(key) column(found$pointwise, key)
+  elpd <- number("elpd")
+  p <- number("lpd") - elpd
+  pointwise <- cbind(elpd_loo = elpd, p_loo = p, looic = -2 * elpd, influence_pareto_k = number("khat"))
+  estimates <- cbind(Estimate = c(found$elpd, found$p_loo, -2 * found$elpd), SE = c(found$se, stats::sd(p) * sqrt(length(p)), 2 * found$se))
+  rownames(estimates) <- c("elpd_loo", "p_loo", "looic")
+  draws <- unclass(fit)$draws
+  structure(list(estimates = estimates, pointwise = pointwise, diagnostics = list(pareto_k = pointwise[, "influence_pareto_k"])),
+            dims = c(if (is.null(draws)) 0L else prod(dim(draws)[1:2]), length(elpd)), class = c("ww_loo", "loo"), observation = found$observation,
+            threshold = found$khat_threshold, refitted = sum(column(found$pointwise, "refitted", FALSE)), density_unit = found$density_unit)
+}
+
+loo.ww_fit <- function(x, ...) ww_loo(x)
+
+print.ww_loo <- function(x, digits = 1, ...) {
+  cat("Leave-one-out over ", nrow(x$pointwise), " observations (", attr(x, "observation"), ")\n\n", sep = "")
+  print(round(x$estimates, digits))
+  k <- x$diagnostics$pareto_k
+  cat("\nPareto k at most ", format(max(k, -Inf, na.rm = TRUE), digits = 2), " (reliable up to ", format(attr(x, "threshold"), digits = 2), "); ",
+      attr(x, "refitted"), " refitted without their observation\n", sep = "")
+  invisible(x)
+}
+
 nobs.ww_fit <- function(object, ...) {
   mode <- object$summary$mode
   if (is.null(mode$observations)) object$summary$data$rows else mode$observations
@@ -82,29 +110,32 @@ residuals.ww_fit <- function(object, type = "score", ...) {
 simulate.ww_fit <- function(object, nsim = 1, seed = NULL, ...) {
   nsim <- whole(nsim, "nsim", 1, 1e6)
   require_draws(object, "simulate()")
-  lives <- object$study$lives
-  if (is.null(lives)) {
-    stop_input("simulate() needs a fit of ww_life(): for other models ww_ask(fit, predict) has predictive intervals, and fit$draws the posterior")
+  known <- object$study$replicates
+  if (is.null(known)) {
+    stop_input("simulate() needs a fit of ww_life() or ww_degradation(): for other models ww_ask(fit, predict) has predictive intervals, and fit$draws the posterior")
   }
   text <- seed_text(if (is.null(seed)) object$seed else seed)
   old <- get0(".Random.seed", globalenv(), inherits = FALSE)
   on.exit(if (is.null(old)) rm(".Random.seed", envir = globalenv()) else assign(".Random.seed", old, globalenv()))
   set.seed(as.integer(as.double(text) %% .Machine$integer.max), kind = "Mersenne-Twister", normal.kind = "Inversion", sample.kind = "Rejection")
-  require_units_of(object, lives)
+  require_units_of(object, known)
   draws <- draws_matrix(object)
-  frame <- as.data.frame(lapply(seq_len(nsim), function(i) new_lives_at(draws[sample.int(nrow(draws), 1), ], lives)))
+  replicate_at <- if (is.null(known$path)) new_lives_at else new_readings_at
+  frame <- as.data.frame(lapply(seq_len(nsim), function(i) replicate_at(draws[sample.int(nrow(draws), 1), ], known)))
   names(frame) <- paste0("sim_", seq_len(nsim))
   attr(frame, "seed") <- text
-  attr(frame, "unit") <- lives$unit
+  attr(frame, "unit") <- known$unit
   frame
 }
 
-# The simulation computes in the units that ww_life() gave.
-require_units_of <- function(fit, lives) {
-  location <- lives$parameters[[1]]
-  rows <- grep(paste0("^", location, "([[].*)?$"), rownames(fit$parameters))
-  found <- setdiff(fit$parameters$unit[rows], c(lives$unit, if (lives$unit == "") "1"))
-  if (length(found)) stop_input("simulate(): the prior gives ", location, " in ", found[1], ", and the lives are in ", lives$unit, ": state the prior in ", lives$unit)
+# The simulation computes in the units of the data: `known$units`, by parameter.
+require_units_of <- function(fit, known) {
+  for (name in names(known$units)) {
+    rows <- grep(paste0("^", name, "([[].*)?$"), rownames(fit$parameters))
+    unit <- known$units[[name]]
+    found <- setdiff(fit$parameters$unit[rows], c(unit, if (unit == "") "1"))
+    if (length(found)) stop_input("simulate(): the prior gives ", name, " in ", found[1], ", and the data have it in ", unit, ": state the prior in ", unit)
+  }
 }
 
 update.ww_fit <- function(object, formula. = NULL, ..., evaluate = TRUE) {

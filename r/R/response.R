@@ -80,6 +80,7 @@ numbers_for <- function(each, what) {
 failures_of <- function(each, what) {
   values <- each$values
   heading <- each$heading
+  if (length(dim(values)) > 1 || is.character(values)) column_values(values, paste0("data, column '", heading, "'"))
   if (is.factor(values)) values <- as.character(values)
   if (is.character(values)) return(values)
   if (is.numeric(values) && !is.object(values) || is.logical(values)) {
@@ -99,7 +100,7 @@ failures_of <- function(each, what) {
     }
     stop_input(what, ": column '", heading, "' holds ", words(utils::head(kinds, 6)), if (length(kinds) > 6) ", ...",
                "; an event is TRUE or 1 of a failure and FALSE or 0 of a part that was stopped; write a condition, like Surv(..., ",
-               heading, " == ", kinds[1], ")")
+               heading, " == ", kinds[1], "), or, where the numbers are failure modes, mode = list(column = \"", heading, "\", runout = 0) without an event")
   }
   column_values(values, paste0("data, column '", heading, "'"))
   stop_input(what, ": column '", heading, "' is ", kind_of(values), "; it holds truths, 0 and 1, or words")
@@ -139,7 +140,7 @@ lives_of_call <- function(side, columns, env) {
   type <- if (is.null(call$type)) NULL else eval(call$type, env)
   if (!is.null(type) && !(is_path(type) && type %in% surv_types)) {
     stop_input("Surv(): type is ", shown_value(type), "; it is one of ", words(surv_types), if (identical(type, "mstate"))
-      " (failure modes: a study of each mode, the others being stopped parts)")
+      " (failure modes: Surv(time, event) with mode = \"column of the modes\")")
   }
   # As survival has it: of two unnamed arguments the second is the event, of three the first two are times.
   if (is.null(type)) type <- if (!is.null(call$time2) && !is.null(call$event)) "counting" else "right"
@@ -219,7 +220,16 @@ lives_of_surv <- function(surv, unit, used) {
                           status = study_column(ended(m[, "status"] == 1, "runout"), "")), found, used))
   }
   if (type == "interval") return(between_ends(as.double(m[, "time1"]), as.double(m[, "time2"]), m[, "status"], found, unit, used))
-  stop_input("Surv of type ", type, " is not read; it is one of ", words(surv_types))
+  stop_input("Surv of type ", type, " is not read; it is one of ", words(surv_types), " (failure modes: mode = \"column of the modes\")")
+}
+
+# Long words alone: a short one, such as S, can be a mode.
+of_runouts <- "^(runout|run-out|suspended|suspension|censored|running|survived)$"
+
+# Failure modes with a word for what did not fail.
+looks_like_modes <- function(each) {
+  values <- if (is.factor(each$values)) as.character(each$values) else each$values
+  is.character(values) && any(grepl(of_runouts, values, ignore.case = TRUE)) && length(unique(values)) <= 6
 }
 
 # ---- Unused columns that look like endings, weights or units.
@@ -244,10 +254,11 @@ look_at_unused <- function(columns, used, known, unused, call) {
   if (length(unknown)) stop_input("unused: data has no column '", unknown[1], "' (columns: ", words(names(columns)), ")")
   left <- columns[!names(columns) %in% c(used, unused)]
   left <- left[!vapply(left, function(each) each$heading %in% c(used, unused), NA)]
-  ends <- names(left)[vapply(left, looks_like_ending, NA)]
+  ends <- names(left)[vapply(left, function(each) looks_like_ending(each) || looks_like_modes(each), NA)]
   if (length(ends) && !known) {
     stop_input("column '", ends[1], "' looks like how each life ended, and the formula does not use it, so that all lives would be ",
-               "failures: write ", call, ", or unused = \"", ends[1], "\" if it says something else")
+               "failures: write ", call, ", ", if (looks_like_modes(left[[ends[1]]]) && grepl("^Surv", call)) paste0("or mode = \"", ends[1], "\" of failure modes, "),
+               "or unused = \"", ends[1], "\" if it says something else")
   }
   for (name in ends) warn_of_column(name, "looks like how a life ended")
   for (name in names(left)[vapply(left, looks_like_counts, NA)]) warn_of_column(name, "looks like a number of equal rows (weights = ...)")

@@ -21,18 +21,32 @@ shift_of <- function(draw, lives) {
   shift
 }
 
+# "wear" and "seal" of eta[wear] and eta[seal].
+levels_among <- function(names, parameter) {
+  own <- names[startsWith(names, paste0(parameter, "["))]
+  substr(own, nchar(parameter) + 2, nchar(own) - 1)
+}
+
 new_lives_at <- function(draw, lives) {
   parameters <- lives$parameters
-  location <- if (is.null(lives$by)) draw[[parameters[[1]]]] else unname(draw[paste0(parameters[[1]], "[", lives$by, "]")])
-  location <- location * exp(shift_of(draw, lives))
-  drawn <- function(u) random_life(lives$family, u, location, if (length(parameters) > 1) draw[parameters[-1]])
-  if (is.null(lives$entry)) return(drawn(stats::runif(lives$rows)))
+  shift <- shift_of(draw, lives)
+  # Of a label of every row, such as its group.
+  of <- function(parameter, label) {
+    if (parameter %in% names(draw)) draw[[parameter]] else unname(draw[paste0(parameter, "[", label, "]")])
+  }
+  drawn_of <- function(label) {
+    random_life(lives$family, stats::runif(lives$rows), of(parameters[[1]], label) * exp(shift), lapply(parameters[-1], of, label))
+  }
+  modes <- if (isTRUE(lives$modes)) levels_among(names(draw), parameters[[1]])
+  # A part fails by the mode whose life ends first.
+  drawn <- function() if (is.null(modes)) drawn_of(lives$by) else do.call(pmin, lapply(modes, drawn_of))
+  if (is.null(lives$entry)) return(drawn())
   # Given survival to its entry: redrawn until it is.
-  values <- drawn(stats::runif(lives$rows))
+  values <- drawn()
   for (i in seq_len(1000)) {
     early <- values <= lives$entry
     if (!any(early)) return(values)
-    values[early] <- drawn(stats::runif(lives$rows))[early]
+    values[early] <- drawn()[early]
   }
   stop_input("simulate(): hardly any new life outlasts the entries of the data")
 }
@@ -56,8 +70,10 @@ random_life <- function(family, u, location, other) {
     },
     `generalized-gamma` = {
       sigma <- other[[1]]
-      lambda <- other[[2]]
-      if (abs(lambda) < 1e-6) location * exp(sigma * stats::qnorm(u)) else
-        location * exp(sigma / lambda * log(lambda^2 * stats::qgamma(if (lambda > 0) u else 1 - u, lambda^-2)))
+      lambda <- rep_len(other[[2]], length(u))
+      as_normal <- abs(lambda) < 1e-6
+      lambda[as_normal] <- 1
+      ifelse(as_normal, location * exp(sigma * stats::qnorm(u)),
+             location * exp(sigma / lambda * log(lambda^2 * stats::qgamma(ifelse(lambda > 0, u, 1 - u), lambda^-2))))
     })
 }

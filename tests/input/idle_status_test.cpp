@@ -42,6 +42,16 @@ TEST_F(IdleStatusTest, ARefusalNamesBothReadings) {
   EXPECT_THAT(refusal("outcome", {"failed", "running"}), HasSubstr("failure, runout, left"));
 }
 
+TEST_F(IdleStatusTest, RunOutsAmongFailureModesAreRefusedBesideLives) {
+  EXPECT_THAT(refusal("cause", {"seal", "censored", "wear"}),
+              AllOf(HasSubstr("'cause'"), HasSubstr("(censored, seal, wear)"),
+                    HasSubstr("mode = \"cause\" and [failure_modes] column = \"mode\"")));
+  EXPECT_NE(refusal("failure mode", {"seal", "censored", "wear"}), "");
+  EXPECT_NO_THROW(refuse(table("grade", {"S", "A", "C"})));  // short words can be anything
+  EXPECT_NO_THROW(refuse(table("cause", {"seal", "censored"}), "", RowKind::measurement));
+  EXPECT_NO_THROW(refuse(table("cause", {"seal", "censored"}), "unused = [\"cause\"]"));
+}
+
 TEST_F(IdleStatusTest, HeadingsThatSaySoAreRefusedBesideAnyMeasurement) {
   for (const char* heading :
        {"event", "events", "Censored", "censor", "failed", "failure", "status", "state",

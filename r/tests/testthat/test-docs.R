@@ -1,7 +1,7 @@
-# docs/reference/r.md: every block of R, in its order, in one place, where the examples are.
+# Pages with R: every block, in its order, in one place, where the examples are.
 
-test_that("every block runs", {
-  text <- readLines(file.path(source_of_project(), "docs", "reference", "r.md"))
+run_blocks <- function(...) {
+  text <- readLines(file.path(source_of_project(), "docs", ...), encoding = "UTF-8")
   starts <- which(text == "```r")
   expect_gte(length(starts), 8)
   folder <- tempfile()
@@ -16,7 +16,19 @@ test_that("every block runs", {
     eval(parse(text = text[(start + 1):(end - 1)]), space)
   }))
   grDevices::dev.off()
-  expect_true(all(c("draws_1.csv", "report.html", "summary.json") %in% list.files("joint-results")))
+  space$files <- list.files(recursive = TRUE)
+  space
+}
+
+test_that("every block of the reference runs", {
+  space <- run_blocks("reference", "r.md")
+  expect_true(all(file.path("joint-results", c("draws_1.csv", "report.html", "summary.json")) %in% space$files))
   expect_identical(space$left$of, "joint J5")
-  expect_true(file.exists("fit.nc"))
+  expect_true("fit.nc" %in% space$files)
+})
+
+test_that("the page for users of survival compares both", {  # in its blocks
+  skip_if_not_installed("survival")
+  space <- run_blocks("how-to", "coming-from-survival.md")
+  expect_match(space$study$text, "eta = { distribution = \"lognormal\", log_sd = \"eta_scatter\" }", fixed = TRUE)
 })

@@ -1,9 +1,11 @@
 # What a fit is: verdict, frames, conditions, Ctrl-C, progress, copies, forks.
 
 joint <- function(...) ww_fit(example("joint", "study.toml"), ...)
+delayedAssign("kept", joint(seed = 3))  # for what only reads a fit
+delayedAssign("bare", joint(seed = 3, report = FALSE))
 
 test_that("parameters are the summary's, by quadrature", {
-  fit <- joint(seed = 3)
+  fit <- kept
   k <- fit$summary$parameters$k
   expect_identical(fit$parameters["k", "mean"], k$mean)
   expect_identical(fit$parameters["k", "unit"], "mm^3/(N m)")
@@ -21,7 +23,7 @@ test_that("parameters are the summary's, by quadrature", {
 
 test_that("draws are what posterior takes, and it finds the same diagnostics", {
   skip_if_not_installed("posterior")
-  fit <- joint(seed = 3, report = FALSE)
+  fit <- bare
   expect_true(posterior::is_draws_array(fit$draws))
   expect_identical(posterior::as_draws_array(fit$draws), fit$draws)
   expect_identical(posterior::variables(fit$draws), c("k", "sigma"))
@@ -33,7 +35,7 @@ test_that("draws are what posterior takes, and it finds the same diagnostics", {
 })
 
 test_that("the verdict comes first, in print, summary and plot", {
-  fit <- joint(seed = 3, report = FALSE)
+  fit <- bare
   expect_match(capture.output(print(fit))[1], "^trusted")
   expect_match(capture.output(print(summary(fit)))[2], "^trusted")
   expect_identical(ww_require_trusted(fit), fit)
@@ -67,7 +69,7 @@ test_that("errors have the words of the program", {
     expect_s3_class(error, c("wearwell_input_error", "wearwell_error", "error", "condition"), exact = TRUE)
     expect_identical(paste0("wearwell: ", conditionMessage(error), "\n"), said$error)
   }
-  fit <- joint(seed = 1, report = FALSE)
+  fit <- bare
   refused(ww_report(fit, tempfile()), "report = FALSE")
   expect_error(ww_netcdf(fit, "/dev/full"), class = "wearwell_machine_error")
 })
@@ -91,7 +93,7 @@ test_that("options are checked", {
 
 test_that("progress is told, and what it throws stops the fit", {
   told <- list()
-  joint(seed = 1, draws = 60000, report = FALSE, progress = function(...) told[[length(told) + 1]] <<- list(...))
+  joint(seed = 1, draws = 15000, report = FALSE, progress = function(...) told[[length(told) + 1]] <<- list(...))
   expect_gt(length(told), 0)
   expect_identical(told[[1]][[1]], "iterations")
   expect_true(all(vapply(told, function(step) step[[2]] <= step[[3]], NA)))
@@ -122,11 +124,11 @@ test_that("Ctrl-C stops a fit and leaves nothing", {
 test_that("nothing is printed by a fit, and a bar goes to standard error", {
   # Only the study's own warning is given, as a warning.
   expect_silent(suppressWarnings(fit <- joint(seed = 3, report = FALSE)))
-  expect_identical(capture.output(joint(seed = 1, draws = 60000, report = FALSE, progress = TRUE)$trusted), "[1] TRUE")
+  expect_identical(capture.output(joint(seed = 1, draws = 15000, report = FALSE, progress = TRUE)$trusted), "[1] TRUE")
 })
 
 test_that("a fit that was kept answers as before", {
-  fit <- joint(seed = 3)
+  fit <- kept
   file <- tempfile(fileext = ".rds")
   saveRDS(fit, file)
   again <- readRDS(file)
@@ -159,27 +161,32 @@ test_that("forked children fit too, to the same bits", {
   expect_identical(there, list(here, here))
 })
 
-test_that("a campaign of a clutch has tables and no posterior", {
-  fit <- quiet(ww_fit(example("clutch", "study.toml"), report = FALSE))
-  refused(fit$parameters, "no parameters")
-  refused(ww_netcdf(fit, tempfile()), "no posterior")
-  expect_match(capture.output(print(summary(fit)))[2], "rusted|RUSTED")
+test_that("workers of parallel and future fit too, to the same bits", {
+  study <- example("joint", "study.toml")
+  cluster <- parallel::makePSOCKcluster(1)
+  on.exit(parallel::stopCluster(cluster))
+  there <- parallel::clusterCall(cluster, function(study) suppressWarnings(wearwell::ww_fit(study, seed = 3, report = FALSE))$parameters, study)[[1]]
+  expect_identical(there, bare$parameters)
+  skip_if_not_installed("future")
+  future::plan("multisession", workers = 2)
+  expect_identical(future::value(future::future(wearwell::ww_fit(study, seed = 3, report = FALSE)$parameters)), bare$parameters)
 })
 
 test_that("NetCDF is that of the program", {
   there <- tempfile(fileext = ".nc")
   program("fit", example("joint", "study.toml"), "--seed", 3, "--quiet", "--no-report", "--netcdf", there, "-o", tempfile())
   here <- tempfile(fileext = ".nc")
-  ww_netcdf(joint(seed = 3, report = FALSE), here)
+  ww_netcdf(bare, here)
   expect_equal(file.size(here), file.size(there), tolerance = 0.01)
   expect_identical(readBin(here, "raw", 4), as.raw(c(0x89, 0x48, 0x44, 0x46)))
 })
 
 test_that("memory does not grow with fits", {
   resident <- function() as.double(strsplit(grep("VmRSS", readLines("/proc/self/status"), value = TRUE), "[^0-9]+")[[1]][2])
-  study <- of_a_formula()
+  study <- ww_study(formula = "hours = mean_life", family = "exponential", data = data.frame(hours = c(120, 340, 560, 230)),
+                    priors = list(mean_life = ww_lognormal(300, log_sd = 1)))
   fit <- function() quiet(ww_fit(study, seed = 1, method = "exact", draws = 10, chains = 1, report = FALSE))
-  for (i in 1:30) fit()
+  for (i in 1:20) fit()
   gc()
   before <- resident()
   for (i in 1:30) fit()

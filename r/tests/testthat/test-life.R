@@ -136,9 +136,51 @@ test_that("errors name arguments and columns", {
   refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(beta = ww_lognormal(1, log_sd = 1))), "priors: the model has no parameter 'beta' (parameters: eta, shape)")
   refused(study_of(Surv(hours, event) ~ 1, pumps, units = c(hrs = "h")), "units: data has no column 'hrs'")
   refused(study_of(Surv(hours, event) ~ load, pumps, given = list(lod = 3)), "given: lod is no condition of the formula (conditions: load)")
-  refused(study_of(Surv(hours, event, type = "mstate") ~ 1, pumps), "a study of each mode")
+  refused(study_of(Surv(hours, event, type = "mstate") ~ 1, pumps), "failure modes: Surv(time, event) with mode = ")
   refused(study_of(Surv(hours, end) ~ 1, transform(pumps[-2], end = c("kaputt", rep("runout", 9)))), "'kaputt' is not a status")
   refused(ww_life("lives.toml"), "ww_life() takes a formula")
   refused(study_of(Surv(hours, event) ~ 1, pumps[0, ]), "data has no rows")
   refused(study_of(Surv(day, event) ~ 1, transform(pumps, day = as.Date("2024-01-01") + hours)), "holds dates or times")
+})
+
+absorbers <- function() read.csv(example("life", "shock_absorbers.csv"), check.names = FALSE)
+
+test_that("failure modes: means of exponential lives in closed form, simulated lives are the earliest", {
+  table <- absorbers()
+  fit <- quick(Surv(km) ~ 1, table, mode = "failure mode", family = "exponential", priors = list(mean = ww_flat("1")))
+  failures <- table(table[["failure mode"]])
+  expect_equal(mode_of(fit), c(`mean[mode 1]` = sum(table$km) / failures[["mode 1"]], `mean[mode 2]` = sum(table$km) / failures[["mode 2"]]), tolerance = 1e-4)
+  expect_identical(fit$lives$of, c("new unit", "new unit with mode 1 alone", "new unit with mode 2 alone"))
+  b10 <- fit$lives$b10[1]
+  draws <- unclass(fit$draws)  # of two exponential lives the earliest is exponential
+  rate <- 1 / draws[, , 1] + 1 / draws[, , 2]
+  lives <- unlist(simulate(fit, nsim = 500, seed = 3))
+  expect_lt(abs(mean(lives < b10) - mean(1 - exp(-b10 * rate))), 4 * sqrt(0.09 / 500))
+})
+
+test_that("failure modes are read from words, codes and events", {
+  table <- absorbers()
+  code <- unname(c(`mode 1` = 1, `mode 2` = 2, censored = 0)[table[["failure mode"]]])
+  coded <- study_of(Surv(km) ~ 1, data.frame(km = table$km, cause = code), mode = list(column = "cause", runout = 0))
+  beside <- study_of(Surv(km, ended) ~ 1, data.frame(km = table$km, cause = ifelse(code > 0, code, NA), ended = code > 0), mode = "cause")
+  for (study in list(coded, beside)) expect_match(ww_description(study), "27 run-outs, 7 failed by 1, 4 failed by 2", fixed = TRUE)
+  expect_match(coded$text, "shape = \"shape[mode]\"", fixed = TRUE)
+  expect_match(study_of(Surv(km) ~ 1, table, mode = "failure mode", shape = "shared")$text, "shape = \"shape\"", fixed = TRUE)
+  expect_match(study_of(table, "km", event = NULL, mode = "failure mode")$text, "mode = \"mode\"", fixed = TRUE)
+  refused(study_of(Surv(km) ~ 1, table), "or mode = \"failure mode\" of failure modes, or unused")
+  refused(study_of(Surv(km) ~ 1, data.frame(km = table$km, cause = code), mode = "cause"), "or write mode = list(column = ..., runout = \"0\")")
+  refused(study_of(Surv(km, cause) ~ 1, data.frame(km = table$km, cause = code)), "mode = list(column = \"cause\", runout = 0) without an event")
+  refused(study_of(Surv(km) ~ 1, table, mode = "cause"), "mode: data has no column 'cause'")
+  refused(study_of(Surv(km) ~ 1, table, mode = list(columns = "x")), "it is the name of a column, or like list(column = \"cause\", runout = 0)")
+  supplied <- transform(table, supplier = rep(c("A", "B"), 19), check.names = FALSE)
+  names(supplied)[2] <- "cause"
+  refused(study_of(Surv(km) ~ 1, supplied, mode = "cause", by = "supplier"), "by and mode: each failure mode has its own eta")
+  refused(study_of(Surv(km) ~ 1 + (1 | supplier), supplied, mode = "cause"), "mode: failure modes have no random effects")
+  refused(study_of(Surv(km) ~ 1, supplied, unused = "cause", shape = "separate"), "shape = 'separate' needs by or mode")
+})
+
+test_that("a frame with the name of a unit is the formula with a random effect", {
+  batches <- data.frame(hours = c(210, 340, 460, 610, 150, 190), batch = rep(c("A", "B", "C"), each = 2))
+  expect_identical(study_of(batches, "hours", unit = "batch")$text, study_of(hours ~ 1 + (1 | batch), batches)$text)
+  refused(study_of(batches, "hours", unit = "lot"), "unit: data has no column 'lot'")
 })

@@ -52,6 +52,48 @@ test_that("simulations have the predictive distribution, and one seed the same b
   refused(simulate(fit, 0), "nsim is 0")
 })
 
+test_that("leave-one-out has the form of the package loo", {
+  found <- ww_loo(fit)
+  expect_s3_class(found, c("ww_loo", "loo"), exact = TRUE)
+  said <- fit$summary$loo
+  expect_identical(found$estimates["elpd_loo", ], c(Estimate = said$elpd, SE = said$se))
+  # Standard errors are those of sums of as many independent terms (Vehtari, Gelman and Gabry 2017, eq. 23).
+  for (name in rownames(found$estimates)) {
+    expect_equal(unname(found$estimates[name, ]), c(sum(found$pointwise[, name]), sqrt(10) * stats::sd(found$pointwise[, name])), tolerance = 1e-8)
+  }
+  expect_identical(dim(found$pointwise), c(10L, 4L))
+  expect_identical(attr(found, "dims"), c(4000, 10))
+  expect_match(capture.output(print(found)), "elpd_loo", all = FALSE)
+  # The registered method is found where loo is installed.
+  skip_if_not_installed("loo")
+  expect_identical(loo::loo(fit), found)
+})
+
+test_that("readings of degradation are simulated, of new units", {
+  wear <- data.frame(machine = rep(c("A", "B"), each = 2), km = c(10, 20, 10, 20), wear = c(11, 19, 14, 31))
+  known <- list(rate = ww_lognormal("1.2 um/km", log_sd = 0.3), sigma = ww_lognormal("1 um", log_sd = 0.5), rate_scatter = ww_lognormal(0.4, log_sd = 0.3))
+  paths <- quiet(ww_degradation(wear ~ km | machine, data = wear, units = c(wear = "um", km = "km"), priors = known, seed = 1, draws = 500, warmup = 200,
+                                chains = 1, report = FALSE))
+  expect_identical(attr(simulate(paths, 1), "unit"), "um")
+  expect_identical(simulate(paths, 2, seed = 4), simulate(paths, 2, seed = 4))
+  rows <- as.matrix(simulate(paths, 2000, seed = 2))
+  scale <- paths$parameters["rate", "q50"]
+  expect_equal(stats::median(rows[1, ]), 10 * scale, tolerance = 0.1)  # of the median unit
+  expect_gt(stats::cor(rows[1, ], rows[2, ]), stats::cor(rows[1, ], rows[3, ]) + 0.3)  # one unit has one rate
+  refused(wearwell:::require_units_of(paths, list(units = list(rate = "mm/km"))), "the prior gives rate in um/km, and the data have it in mm/km")
+  refused(simulate(quiet(ww_fit(of_a_formula(), seed = 1, method = "exact", draws = 10, report = FALSE))), "simulate() needs a fit of ww_life() or ww_degradation()")
+})
+
+test_that("increments of processes have their mean and a variance in proportion", {
+  set.seed(1)
+  for (family in c("wiener-process", "gamma-process", "inverse-gaussian-process")) {
+    drawn <- wearwell:::increments(family, rep(c(0, 3), each = 1e5), 0.5)
+    expect_identical(unique(drawn[1:1e5]), 0, info = family)
+    expect_equal(mean(drawn[-(1:1e5)]), 3, tolerance = 0.01, info = family)
+    expect_equal(stats::var(drawn[-(1:1e5)]), 0.5 * 3, tolerance = 0.03, info = family)
+  }
+})
+
 test_that("each family simulates its own quantiles", {
   u <- c(0.1, 0.5, 0.9)
   of <- function(family, ...) wearwell:::random_life(family, u, 100, c(...))

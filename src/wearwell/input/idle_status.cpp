@@ -77,10 +77,19 @@ bool says_failure_throughout(const Column& column, const Words& kinds) {
   return !code || truth_in(word) == (*code == 1);
 }
 
+// Failure modes with a word for run-outs; a short word, such as S, can be a mode or anything else.
+bool has_run_outs_among_modes(const Words& kinds) {
+  constexpr std::size_t shortest = 4;
+  return kinds.size() > 1 && std::any_of(kinds.begin(), kinds.end(), [](const std::string& each) {
+           return each.size() >= shortest && censoring_by_word(each) == Censoring::right;
+         });
+}
+
 bool looks_like_status(const Column& column, const Words& kinds, RowKind kind) {
   const bool codes = all(kinds, is_code), words = all(kinds, is_word);
   const bool truth_values = kinds.size() == 2 && truth_in(*kinds.begin()).has_value() &&
                             truth_in(*kinds.rbegin()) == !*truth_in(*kinds.begin());
+  if (kind == RowKind::life && !words && has_run_outs_among_modes(kinds)) return true;
   if (is_named_status(column.name)) {
     return (codes || words) && !says_failure_throughout(column, kinds);
   }
@@ -115,6 +124,10 @@ std::string bare(const Column& column) {
 }
 
 std::string reading_as_status(const Column& column, const Words& kinds) {
+  if (!all(kinds, is_code) && !all(kinds, is_word)) {
+    return fmt::format("mode = \"{}\" and [failure_modes] column = \"mode\" in a formula study",
+                       column.name);
+  }
   if (!all(kinds, is_code)) {
     return fmt::format("status = \"{}\" (its words: failure, runout, left, interval, or F and S)",
                        column.name);

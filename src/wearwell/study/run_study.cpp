@@ -215,6 +215,11 @@ std::string sampler_instead(const std::string& why) {
                            why);
 }
 
+// Between stages that do not look for a request themselves.
+void require_no_stop(const Monitor& monitor) {
+  if (monitor.stop.stop_requested()) throw Cancelled();
+}
+
 }  // namespace
 
 std::string method_note(const PosteriorStudy& study, const SamplerChoice& choice) {
@@ -260,18 +265,23 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   Fit final = fit(whole, settings);
   const std::shared_ptr<const Posterior> quick = final.quick;
   const Posterior& posterior = quick ? *quick : whole;
+  require_no_stop(monitor);
   std::optional<Plots> plots;
   if (with_plots) plots = plot_study(study, posterior, final);
+  require_no_stop(monitor);
   std::optional<LooSummary> loo = left_out_one_by_one(study, posterior, final, monitor.stop);
+  require_no_stop(monitor);
   const NaturalMode natural = constrained_mode(posterior, final);
   for (StageDiagnostic& each : later_stage_diagnostics(whole, final, natural)) {
     final.stage_diagnostics.push_back(std::move(each));
   }
 
+  require_no_stop(monitor);
   PosteriorSummary result = described(study, settings, posterior, final);
   if (wants_quadrature) result.method_note = sampler_instead(final.no_exact);
   result.mode =
       summarize_mode(study, posterior, final, natural, observations_of(study, whole, loo));
+  require_no_stop(monitor);
   result.checks = all_checks(study, posterior, final, loo);
   if (loo) to_density_unit(study.density, *loo);
   result.loo = std::move(loo);

@@ -28,7 +28,8 @@ Conditions read_conditions(const TomlReader& table, const FormulaModel& model) {
     if (is_condition(model, each.name)) known.push_back(each.name);
   }
   for (const formula::LabelSymbol& each : model.symbols.labels) {
-    if (model.label != each.name) known.push_back(each.name);
+    // Failure modes are levels of parameters, and no condition of a life.
+    if (model.label != each.name && model.data.label(each.name)) known.push_back(each.name);
   }
   for (const std::string& name : table.keys()) {
     if (model.along == name)

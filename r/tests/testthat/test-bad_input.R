@@ -1,0 +1,98 @@
+# Columns of every kind, in every argument that names one: an answer, or a refusal that names the argument or the column.
+
+hours <- c(120, 340, 560, 230, 450, 610, 80, 150)
+event <- c(1, 1, 1, 1, 0, 1, 1, 0)
+site <- rep(c("a", "b"), 4)
+temperature <- rep(c(300, 320), 4)
+
+# name: a column made from the values of a good one
+kinds <- list(
+  `as it is` = identity,
+  integer = function(v) if (is.numeric(v)) as.integer(v) else v,
+  factor = factor,
+  ordered = function(v) factor(v, ordered = TRUE),
+  texts = as.character,
+  `as is` = I,
+  logical = function(v) rep(c(TRUE, FALSE), 4),
+  `NA` = function(v) replace(v, 3, NA),
+  `NaN` = function(v) if (is.numeric(v)) replace(v, 3, NaN) else v,
+  infinite = function(v) if (is.numeric(v)) replace(v, 3, Inf) else v,
+  `minus infinity` = function(v) if (is.numeric(v)) replace(v, 3, -Inf) else v,
+  `all NA` = function(v) rep(NA, 8),
+  negative = function(v) if (is.numeric(v)) replace(v, 3, -7) else v,
+  zero = function(v) rep(0, 8),
+  alike = function(v) rep(v[1], 8),
+  complex = function(v) complex(8, 1),
+  raw = function(v) as.raw(1:8),
+  date = function(v) as.Date("2020-01-01") + 1:8,
+  POSIXct = function(v) as.POSIXct("2020-01-01", tz = "UTC") + 1:8,
+  POSIXlt = function(v) as.POSIXlt(as.POSIXct("2020-01-01", tz = "UTC") + 1:8),
+  difftime = function(v) as.difftime(1:8, units = "hours"),
+  integer64 = function(v) structure(as.double(1:8), class = "integer64"),
+  list = function(v) I(as.list(v)),
+  ragged = function(v) I(c(list(1:2), as.list(v[-1]))),
+  `list of NULL` = function(v) I(rep(list(NULL), 8)),
+  frames = function(v) I(rep(list(data.frame(a = 1)), 8)),
+  functions = function(v) I(rep(list(mean), 8)),
+  matrix = function(v) matrix(v, 8, 2),
+  `one column` = function(v) matrix(v, 8, 1),
+  frame = function(v) data.frame(a = v, b = v),
+  unknown = function(v) structure(as.list(v), class = "rcrd"),
+  mixed = function(v) c(as.character(v)[1:3], "seven", as.character(v)[5:8]),
+  blanks = function(v) rep(" ", 8),
+  huge = function(v) if (is.numeric(v)) rep(1e300, 8) else v,
+  tiny = function(v) if (is.numeric(v)) rep(1e-300, 8) else v,
+  `signs and lines` = function(v) rep("\"];\n#", 8),
+  latin1 = function(v) rep("caf\xe9", 8),
+  bytes = function(v) {
+    text <- rep("\xff", 8)
+    Encoding(text) <- "UTF-8"
+    text
+  })
+
+frame_with <- function(column, values) {
+  frame <- list(hours = hours, event = event, site = site, temperature = temperature)
+  frame[[column]] <- values
+  structure(frame, class = "data.frame", row.names = 1:8)
+}
+
+forms <- list(
+  conditions = function(frame) ww_life(Surv(hours, event) ~ site, data = frame, stress = c(temperature = "arrhenius"), units = c(temperature = "K"), fit = FALSE),
+  effects = function(frame) ww_life(Surv(hours, event) ~ temperature + (1 | site), data = frame, fit = FALSE),
+  modes = function(frame) ww_life(Surv(hours, event) ~ temperature, data = frame, mode = "site", fit = FALSE),
+  path = function(frame) ww_degradation(hours ~ temperature | site, data = frame, unused = "event", fit = FALSE))
+
+for (form in names(forms)) {
+  test_that(paste("a column of each kind is read, or refused by name:", form), {
+    for (column in c("hours", "event", "site", "temperature")) {
+      for (kind in names(kinds)) {
+        frame <- frame_with(column, kinds[[kind]](get(column)))
+        found <- tryCatch(suppressWarnings(ww_description(forms[[form]](frame))), error = identity)
+        about <- paste(form, column, kind)
+        if (!inherits(found, "condition")) {
+          expect_match(found, "Will be fitted", info = about)
+        } else {
+          expect_s3_class(found, "wearwell_input_error")
+          expect_match(conditionMessage(found), paste0("\\b(", column, "|Surv|stress|by|mode|life|readings|formula|contradict)\\b"), info = paste(about, conditionMessage(found)))
+        }
+      }
+    }
+  })
+}
+
+test_that("frames of every kind are read or refused", {
+  good <- frame_with("hours", hours)
+  tibble <- structure(good, class = c("tbl_df", "tbl", "data.frame"))
+  expect_identical(forms$effects(tibble)$text, forms$effects(good)$text)
+  refused(forms$effects(good[0, ]), "data has no rows")
+  refused(forms$effects(good["hours"]), "data has no column 'event'")
+  twice <- good
+  names(twice)[4] <- "hours"
+  refused(forms$effects(twice), "two columns are called 'hours'")
+  names(twice)[4] <- NA
+  refused(forms$effects(twice), "column 4 has no name")
+  refused(forms$effects(as.matrix(good)), "matrix")
+  refused(forms$effects(unclass(good)$hours), "data is double")
+  refused(forms$effects(mean), "data is closure")
+  refused(forms$effects(list(1, 2)), "the columns have no names")
+})
