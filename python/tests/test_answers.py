@@ -73,7 +73,7 @@ def test_pictures_without_scripts_hold_every_point(name):
         page = plot.to_html()
         tree = ElementTree.fromstring(page[page.index("<svg"):page.index("</svg>") + 6])
         assert "nan" not in page and "inf" not in page.lower().replace("information", "")
-        marks, across, up = _marks.marks_of(fit._figures[each]["specification"])
+        marks, across, up = _marks.marks_of(plot._figures[0]["specification"])
         points = sum(sum(map(math.isfinite, mark.columns["y"])) for mark in marks if mark.kind == "point" and mark.shape == "circle")
         assert len(tree.findall(".//{*}circle")) == points
         assert across.low < across.high and up.low < up.high and (len(_marks.ticks_of(across)) >= 2 or not across.numbers)

@@ -47,7 +47,7 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
 }
 
 ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
-                            given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+                            unit = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
   require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "weights", "given", "predict", "title",
@@ -55,6 +55,7 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   if (!is_path(family) || !family %in% names(life_families)) {
     stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
   }
+  if (!is.null(unit)) stop_input("unit: in a formula, random effects of a label are (1 | label)")
   if (length(x) != 3) stop_input("the formula has no left side: Surv(hours, event) ~ 1")
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)

@@ -111,8 +111,7 @@ is_name <- function(text) grepl("^[A-Za-z.][A-Za-z0-9._]*$", text)
 ended <- function(failures, otherwise) if (is.character(failures)) failures else ifelse(failures, "failure", otherwise)
 
 is_surv_call <- function(side) {
-  is.call(side) && (identical(side[[1]], quote(Surv)) || identical(side[[1]], quote(survival::Surv)) ||
-                      identical(side[[1]], quote(survival:::Surv)))
+  is.call(side) && (identical(side[[1]], quote(Surv)) || identical(side[[1]], quote(survival::Surv)))
 }
 
 # A column of the study: values, unit.

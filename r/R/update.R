@@ -6,6 +6,11 @@ several_rows <- function(data, name) {
   lapply(several, function(each) if (is_path(each)) path_of(each, name) else table_of(each, name))
 }
 
+# Whether the lives of a fit were written as Surv(), which makes the columns of its study.
+made_by_surv <- function(fit) {
+  inherits(fit, "ww_fit") && is.call(fit$call) && "Surv" %in% unlist(lapply(as.list(fit$call), all.names))
+}
+
 ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, progress = interactive()) {
   if (!is.null(repeated) && !(is_path(repeated) && repeated %in% c("once", "another"))) {
     stop_input("repeated is ", shown_value(repeated), "; it is 'once' or 'another'")
@@ -13,6 +18,10 @@ ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, pr
   threads <- whole(threads, "threads", 0, 1024)
   report <- one_truth(report, "report")
   rows <- several_rows(data, "data")
+  if (made_by_surv(fit) && is.data.frame(data) && !any(grepl("^life($| *\\[)", names(data)))) {
+    stop_input("data has no column 'life': this fit was made with Surv(), and new rows have the columns of its study, life with its unit in the heading, ",
+               "like 'life [h]', and status with the words failure and runout; fit$toml shows them")
+  }
   about <- fit_or_folder(fit)
   run <- with_progress(progress, function(report_progress) {
     core(C_update, about$run, about$path, rows, if (is.null(repeated)) "" else repeated, threads, report, report_progress)

@@ -197,8 +197,8 @@ class CountTests {
     constexpr double most = 0.02;
     if (outcomes.defect <= most) return;
     throw InputError(fmt::format(
-        "{}: {} of this test has a distribution that the sum over its counts does not resolve "
-        "(error {:.2g})",
+        "{}: {} of this test may be one of so many counts that the sum over them does not resolve "
+        "its distribution (error {:.2g}); plan a smaller test",
         row_of(conditions_, tests_[i].row), study_.measured_name, outcomes.defect));
   }
 

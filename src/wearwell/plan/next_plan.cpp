@@ -176,9 +176,11 @@ void refuse_together(const NextQuestion& question, const TestStudy& study,
 
 // Whether a name speaks of this unit: "B10 of machine 3".
 bool is_of(const std::string& name, const std::string& unit) {
-  const std::size_t at = name.find(unit);
-  const std::size_t end = at + unit.size();
-  return at != name.npos && (end == name.size() || name[end] == ' ' || name[end] == ',');
+  for (std::size_t at = name.find(unit); at != name.npos; at = name.find(unit, at + 1)) {
+    const std::size_t end = at + unit.size();
+    if (end == name.size() || name[end] == ' ' || name[end] == ',') return true;
+  }
+  return false;
 }
 
 // A goal is a number at each node. That of a unit changes at each node with a reading of the unit.

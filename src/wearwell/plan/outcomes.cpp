@@ -12,6 +12,7 @@
 #include "wearwell/plan/count_outcomes.h"
 #include "wearwell/plan/outcome_ranges.h"
 #include "wearwell/plan/row_densities.h"
+#include "wearwell/present/plain.h"
 
 namespace wearwell::plan {
 namespace {
@@ -240,9 +241,9 @@ void refuse_impossible(const Table& conditions, std::size_t row, double weight) 
   constexpr double most = 1e-3;
   if (weight <= most) return;
   throw InputError(fmt::format(
-      "{}: the model has no value under these conditions with a probability of {:.2g} %: they "
+      "{}: the model has no value under these conditions with a probability of {} %: they "
       "lie outside the range of its formula",
-      row_of(conditions, row), 100 * weight));
+      row_of(conditions, row), plain_number(100 * weight, 2)));
 }
 
 Scouts scouts_of(const Points& nodes, std::span<const double> weights) {

@@ -125,7 +125,35 @@ TEST(Renewal, ExponentialAndLongRun) {
   const RenewalFunction wearing(2, 20, 400), far(2, 20, 40000);
   const double mean = 20 * std::tgamma(1.5), square = 400;
   EXPECT_NEAR(wearing(400), 400 / mean + square / (2 * mean * mean) - 1, 0.02);
-  EXPECT_NEAR(far(400), 400 / mean + square / (2 * mean * mean) - 1, 1e-9);
+  EXPECT_NEAR(far(4000), 4000 / mean + square / (2 * mean * mean) - 1, 1e-9);
+}
+
+// With beta 0.3 gaps differ by decades, and 50 scales are no long run: simulated, beta 0.3 and eta 1.
+TEST(Renewal, GapsThatDifferByDecades) {
+  constexpr double beta = 0.3, horizon = 60;
+  constexpr int count = 20'000;
+  double sum = 0, squares = 0;
+  Rng rng(7, 0);
+  for (int i = 0; i < count; ++i) {
+    double number = 0;
+    for (double age = std::pow(-std::log(rng.uniform()), 1 / beta); age < horizon;
+         age += std::pow(-std::log(rng.uniform()), 1 / beta))
+      ++number;
+    sum += number, squares += number * number;
+  }
+  const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
+  EXPECT_NEAR(RenewalFunction(beta, 1, horizon).expected(0), mean, 4 * error + 0.01 * mean);
+  EXPECT_NEAR(RenewalFunction(beta, 1, 6000)(horizon), mean, 4 * error + 0.05 * mean);
+}
+
+// A failure at the end of a phase belongs to it; what is to come at that age, to the next.
+TEST(Process, PredictionsAtTheEndOfAPhaseAreOfTheNext) {
+  const Process phases{ProcessKind::phases, 1, 0, {500}};
+  const double x[] = {100, 1000};
+  EXPECT_EQ(phases.phase_at(500), 0U);
+  EXPECT_DOUBLE_EQ(phases.intensity(x, 499), 0.01);
+  EXPECT_DOUBLE_EQ(phases.intensity(x, 500), 0.001);
+  EXPECT_NEAR(phases.mean_by(x, 501) - phases.mean_by(x, 500), 0.001, 1e-12);
 }
 
 // The expected number by the renewal equation is the mean of simulated futures, for a unit in the midst of a gap.

@@ -109,10 +109,13 @@ TEST_F(RecurrenceDataTest, EndsAtTheLastFailure) {
 TEST_F(RecurrenceDataTest, LateStarts) {
   const std::string columns = "event = \"event\"\nstart = \"start\"\n",
                     heading = "unit,age [h],event,start [h]";
-  const RecurrenceData data = read("a,10,failure,5\na,15,end,5\nb,30,end,\n", "", columns, heading);
+  const RecurrenceData data =
+      read("a,10,failure,5\na,15,end,5\nb,30,end,0\n", "", columns, heading);
   EXPECT_EQ(data.units[0].start, 18000);
   EXPECT_EQ(data.gaps[0].from, 18000);
   EXPECT_EQ(data.units[1].start, 0);
+  EXPECT_THAT(refusal("a,10,failure,5\na,15,end,5\nb,30,end,\n", "", columns, heading),
+              HasSubstr("row 3, column 'start [h]'"));
   EXPECT_THAT(refusal("a,10,failure,5\na,15,end,6\n", "", columns, heading),
               HasSubstr("row 2, column 'start [h]'"));
   EXPECT_THAT(refusal("a,4,failure,5\na,15,end,5\n", "", columns, heading),

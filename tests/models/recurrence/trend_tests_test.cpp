@@ -125,6 +125,8 @@ TEST(MeanCumulativeFunction, CountsUnitsUnderObservation) {
   EXPECT_NEAR(steps[2].mean, 1.0 / 2 + 1.0 / 3 + 1, 1e-12);
   // At age 2: units 1 and 3 differ from their mean by 1/2, over 2 at risk.
   EXPECT_NEAR(steps[0].se, std::sqrt(2.0) / 4, 1e-12);
+  // One unit at risk shows no variance.
+  EXPECT_TRUE(std::isnan(steps[2].se) && std::isnan(steps[2].low));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "wearwell/models/formula_model/formula_start.h"
 #include "wearwell/models/formula_model/identified.h"
 #include "wearwell/models/formula_model/life_paper.h"
+#include "wearwell/prognosis/plural.h"
 
 namespace wearwell {
 namespace {
@@ -48,8 +49,8 @@ std::string description(const FormulaModel& model) {
         fmt::format("{} of a part is the earliest of these", model.measured.front().column));
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
-    parts.push_back(fmt::format("{} of each of {} {}s is {} about {} with {} {}", effect.name,
-                                model.units.size(), *model.label,
+    parts.push_back(fmt::format("{} of each of {} {} is {} about {} with {} {}", effect.name,
+                                model.units.size(), prognosis::plural(*model.label),
                                 effect.lognormal ? "lognormal" : "normal", effect.name,
                                 effect.lognormal ? "log_sd" : "sd", model.population.text(e)));
   }
@@ -58,10 +59,11 @@ std::string description(const FormulaModel& model) {
         fmt::format("their correlation is {}", model.population.text(model.effects.size())));
   }
   for (const formula_model::DrawnEffect& each : model.drawn) {
-    parts.push_back(fmt::format(
-        "{} of each of {} {}s is {} about {}_middle with {} {}{}", each.name, each.seen, each.label,
-        each.lognormal ? "lognormal" : "normal", each.name, each.lognormal ? "log_sd" : "sd",
-        each.scatter, each.correlation ? ", correlation " + *each.correlation : ""));
+    parts.push_back(fmt::format("{} of each of {} {} is {} about {}_middle with {} {}{}", each.name,
+                                each.seen, prognosis::plural(each.label),
+                                each.lognormal ? "lognormal" : "normal", each.name,
+                                each.lognormal ? "log_sd" : "sd", each.scatter,
+                                each.correlation ? ", correlation " + *each.correlation : ""));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -159,13 +161,13 @@ std::vector<std::string> notes(const FormulaModel& model) {
     }
   }
   if (model.has_random_effects())
-    all.push_back(fmt::format("{} {}s", model.units.size(), *model.label));
+    all.push_back(fmt::format("{} {}", model.units.size(), prognosis::plural(*model.label)));
   for (const formula_model::DrawnEffect& each : model.drawn) {
     all.push_back(
-        fmt::format("{} of each of {} {}s is drawn, not integrated out: by NUTS, without a "
+        fmt::format("{} of each of {} {} is drawn, not integrated out: by NUTS, without a "
                     "quadrature for comparison. The mode is then the joint mode of all drawn "
                     "values: its scatters are not estimates",
-                    each.name, each.seen, each.label));
+                    each.name, each.seen, prognosis::plural(each.label)));
   }
   return all;
 }

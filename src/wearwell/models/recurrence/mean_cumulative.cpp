@@ -71,8 +71,10 @@ std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& 
       steps[k].se += deviation * deviation;
     }
   }
+  bool estimable = true;  // one unit alone shows no variance
   for (MeanCumulativeStep& step : steps) {
-    step.se = std::sqrt(step.se);
+    estimable = estimable && step.at_risk > 1;
+    step.se = estimable ? std::sqrt(step.se) : NAN;
     const double factor = std::exp(z * step.se / step.mean);
     step.low = step.mean / factor;
     step.high = step.mean * factor;

@@ -19,7 +19,8 @@ struct MeanCumulativeStep {
 /// Nelson's estimate of the mean number of failures per unit, with the robust variance that makes no assumption on the
 /// process (Lawless and Nadeau 1995, Technometrics 37, 158-168; Meeker and Escobar 1998, equations 16.1 and 16.2) and
 /// bounds of `level` on the logarithmic scale, which are positive: mean exp(+-z se/mean). A unit is at risk after the start
-/// of its observation and up to its end.
+/// of its observation and up to its end. Failures are counted from the first age at which a unit is at risk. From the first
+/// step with one unit at risk on, the standard error and bounds are NaN: one unit shows no variance.
 std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& units,
                                                 double level);
 

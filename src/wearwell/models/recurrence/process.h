@@ -51,9 +51,11 @@ struct Process {
     }
     return x[1] * exp(x[0] * std::log(age / reference));
   }
-  /// Failures per unit of age under minimal repair.
+  /// Failures per unit of age from `age` on, under minimal repair: at the end of a phase those of the next.
   double intensity(const double* x, double age) const {
-    return kind == ProcessKind::phases ? 1 / x[phase_at(age)] : x[0] * mean_by(x, age) / age;
+    if (kind != ProcessKind::phases) return x[0] * mean_by(x, age) / age;
+    const auto ended = std::upper_bound(phase_ends.begin(), phase_ends.end(), age);
+    return 1 / x[ended - phase_ends.begin()];
   }
 };
 

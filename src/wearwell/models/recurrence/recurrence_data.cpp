@@ -156,8 +156,8 @@ std::vector<double> read_starts(const TomlReader& columns, const Table& table,
   if (!start) return starts;
   for (std::size_t i = 0; i < table.rows; ++i) {
     const double value = cell_number(table, table.column(start->column), i);
-    starts[i] = std::isnan(value) ? 0 : to_si(start->unit, value);
-    require(starts[i] >= 0, table, *start, i, "0 or more");
+    starts[i] = to_si(start->unit, value);
+    require(starts[i] >= 0, table, *start, i, "0 or more; 0 if it was observed from age 0");
   }
   return starts;
 }
@@ -186,6 +186,12 @@ std::size_t RecurrenceData::failures() const {
   std::size_t sum = 0;
   for (const UnitHistory& unit : units) sum += unit.failures.size();
   return sum;
+}
+
+double RecurrenceData::first_start() const {
+  double least = units.front().start;
+  for (const UnitHistory& unit : units) least = std::min(least, unit.start);
+  return least;
 }
 
 double RecurrenceData::longest() const {

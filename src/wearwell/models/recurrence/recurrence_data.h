@@ -36,7 +36,8 @@ struct RecurrenceData {
   TableLayout layout = {};
 
   std::size_t failures() const;
-  double longest() const;  ///< the largest age at the end of observation
+  double first_start() const;  ///< the least age at which observation of a unit began
+  double longest() const;      ///< the largest age at the end of observation
 };
 
 /// Reads [data]: one row an event of a unit, with its age, and whether it is a failure or the end of observation. Throws

@@ -75,7 +75,7 @@ std::vector<NamedTest> classical_tests(const Asked& asked, const WeightedDraws& 
 
 present::Table test_table(const std::vector<NamedTest>& tests) {
   present::Table table{"trend-tests",
-                       "Classical tests; a small p speaks against what is asked",
+                       "Classical tests; a small p is evidence that the answer is no",
                        {{"test", "1"},
                         {"question", "1"},
                         {"statistic", "1", present::digits(4)},
@@ -130,7 +130,7 @@ std::vector<present::Cell> forecast_cells(const std::string& of, const std::stri
                                           const Quantity& ahead, const Forecast& f) {
   return {of,
           from,
-          fmt::format("{:.6g} {}", ahead.value, ahead.unit.text),
+          fmt::format("{} {}", plain_number(ahead.value, 6), ahead.unit.text),
           f.expected,
           present::Range{f.low, f.high},
           present::Range{f.count_low, f.count_high},
@@ -178,7 +178,7 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
     for (std::size_t i = 0; i < std::min(units.size(), most_units) && units.size() > 1; ++i) {
       const Forecast f = forecast(asked.process, few, {state_at_end(units[i])}, ahead.si());
       const std::string from = fmt::format(
-          "age {:.6g} {}, {} failure{} so far", from_si(asked.data.unit, units[i].end),
+          "age {} {}, {} failure{} so far", plain_number(from_si(asked.data.unit, units[i].end), 6),
           asked.data.unit.text, units[i].failures.size(), units[i].failures.size() == 1 ? "" : "s");
       all.units.rows.push_back(forecast_cells(units[i].name, from, ahead, f));
     }
@@ -217,15 +217,18 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
   constexpr int points = 60;
   const Unit& unit = asked.data.unit;
   const WeightedDraws draws = thinned(all, draws_of_figure);
-  std::vector<double> ages;
-  for (int i = 1; i <= points; ++i) ages.push_back(asked.data.longest() * i / points);
+  // Both count failures from the first age at which a unit is observed.
+  const double first = asked.data.first_start();
+  std::vector<double> ages = {first};
+  for (int i = 1; i <= points; ++i)
+    ages.push_back(std::lerp(first, asked.data.longest(), static_cast<double>(i) / points));
   std::vector<std::vector<double>> means;  // of each draw
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i)
     means.push_back(expected_failures(asked.process, draws.values.row(i).data(), ages));
-  std::vector<double> x = {0}, low = {0}, middle = {0}, high = {0};
+  std::vector<double> x, low, middle, high;
   for (std::size_t k = 0; k < ages.size(); ++k) {
     std::vector<double> at;
-    for (const auto& each : means) at.push_back(each[k]);
+    for (const auto& each : means) at.push_back(each[k] - each[0]);
     std::sort(at.begin(), at.end());
     x.push_back(from_si(unit, ages[k]));
     low.push_back(quantile(at, 0.05));
@@ -241,7 +244,7 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
     below.push_back(l);
     above.push_back(h);
   };
-  add(0, 0, 0, 0);
+  add(x.front(), 0, 0, 0);
   for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level)) {
     const double age = from_si(unit, step.age);
     add(age, last_mean, last_low, last_high);
@@ -249,25 +252,28 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
   }
   add(from_si(unit, asked.data.longest()), last_mean, last_low, last_high);
   const std::string shown = html::unit(unit.text);
-  return {"mean-cumulative-function",
-          "Failures per unit until each age",
-          "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
-          "assume no model. The line is "
-          "the fitted process, posterior median with its 90 % band.",
-          plot::plot(
-              "Mean cumulative number of failures per unit against age, from the data and fitted",
-              {"Age [" + shown + "]", false, 0, x.back()}, {"Failures per unit", false, 0, {}},
-              {plot::area({{"x", at}, {"y", above}, {"y2", below}},
-                          {colour::measured, "90 % bounds of the data", 0.15}),
-               plot::area({{"x", x}, {"y", high}, {"y2", low}},
-                          {colour::posterior, "90 % of the fitted mean", 0.28}),
-               plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
-                          {colour::measured, "data", 1, 2}),
-               plot::line({{"x", x}, {"y", middle}, {"failures per unit", middle}},
-                          {colour::posterior, "fitted", 1, 2})},
-              320, true),
-          {},
-          true};
+  return {
+      "mean-cumulative-function",
+      first > 0 ? fmt::format("Failures per unit from age {} {} until each age",
+                              plain_number(x.front(), 4), shown)
+                : "Failures per unit until each age",
+      "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
+      "assume no model (none where one unit alone is at risk). The line is "
+      "the fitted process, posterior median with its 90 % band.",
+      plot::plot(
+          "Mean cumulative number of failures per unit against age, from the data and fitted",
+          {"Age [" + shown + "]", false, x.front(), x.back()}, {"Failures per unit", false, 0, {}},
+          {plot::area({{"x", at}, {"y", above}, {"y2", below}},
+                      {colour::measured, "90 % bounds of the data", 0.15}),
+           plot::area({{"x", x}, {"y", high}, {"y2", low}},
+                      {colour::posterior, "90 % of the fitted mean", 0.28}),
+           plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
+                      {colour::measured, "data", 1, 2}),
+           plot::line({{"x", x}, {"y", middle}, {"failures per unit", middle}},
+                      {colour::posterior, "fitted", 1, 2})},
+          320, true),
+      {},
+      true};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace wearwell::recurrence {
 namespace {
 
 std::string age_text(const RecurrenceData& data, double si) {
-  return fmt::format("{:.6g} {}", from_si(data.unit, si), data.unit.text);
+  return fmt::format("{} {}", plain_number(from_si(data.unit, si), 6), data.unit.text);
 }
 
 void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceData& data,
@@ -33,12 +33,21 @@ void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceDa
     if (!(end.si() < data.longest()))
       conditions->fail(
           "phase_ends",
-          fmt::format("has a phase that begins at {:.6g} {}, but no unit was observed beyond {}",
-                      end.value, end.unit.text, age_text(data, data.longest())));
+          fmt::format("has a phase that begins at {} {}, but no unit was observed beyond {}",
+                      plain_number(end.value, 6), end.unit.text, age_text(data, data.longest())));
     process.phase_ends.push_back(end.si());
   }
   if (process.phase_ends.size() >= most_phases)
     conditions->fail("phase_ends", fmt::format("allows at most {} phases", most_phases));
+  for (std::size_t k = 0; k < process.parameters(); ++k) {
+    const bool observed =
+        std::any_of(data.units.begin(), data.units.end(), [&](const UnitHistory& unit) {
+          return process.time_in_phase(k, unit.end) > process.time_in_phase(k, unit.start);
+        });
+    if (!observed)
+      conditions->fail("phase_ends",
+                       fmt::format("has a phase {} in which no unit was observed", k + 1));
+  }
 }
 
 Process read_process(const TomlReader& root, const RecurrenceData& data) {
@@ -173,7 +182,7 @@ std::vector<double> read_ages(const std::optional<TomlReader>& predict, const As
       if (!(age.si() > 0)) predict->fail("age", "must be positive");
       ages.push_back(age.si());
       study.reaches.push_back(
-          {fmt::format("the age of {:.6g} {}", age.value, age.unit.text),
+          {fmt::format("the age of {} {}", plain_number(age.value, 6), age.unit.text),
            "the oldest unit was observed until " + age_text(asked.data, asked.data.longest()),
            age.si(), asked.data.longest()});
     }
@@ -205,7 +214,7 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
     }
     if (process.kind == ProcessKind::power_law)
       add_quantity(
-          study, quantity("age of the first expected failure (eta)", "new unit", "", data.unit),
+          study, quantity("age at which one failure is expected (eta)", "new unit", "", data.unit),
           [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
   } else {
     static_cast<void>(read_ages(predict, asked, study));
@@ -220,10 +229,10 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   asked.ahead = predict->quantities("next", data.si);
   for (const Quantity& ahead : asked.ahead) {
     if (!(ahead.si() > 0)) predict->fail("next", "must be positive");
-    study.reaches.push_back(
-        {fmt::format("the forecast over the next {:.6g} {}", ahead.value, ahead.unit.text),
-         "the oldest unit was observed until " + age_text(data, data.longest()),
-         data.longest() + ahead.si(), data.longest()});
+    study.reaches.push_back({fmt::format("the forecast over the next {} {}",
+                                         plain_number(ahead.value, 6), ahead.unit.text),
+                             "the oldest unit was observed until " + age_text(data, data.longest()),
+                             data.longest() + ahead.si(), data.longest()});
   }
 }
 

@@ -7,15 +7,18 @@ namespace wearwell::recurrence {
 namespace {
 
 constexpr double steps_per_scale = 20, fewest_steps = 100, most_steps = 1000, far_scales = 50;
+// The asymptote is within 1 % beyond so many means times 1 + cv^2, if cv is large.
+constexpr double far_means = 6;
 
 }  // namespace
 
 RenewalFunction::RenewalFunction(double beta, double eta, double horizon)
-    : beta_(beta), eta_(eta), horizon_(horizon), far_(horizon > far_scales * eta) {
-  if (far_) return;
+    : beta_(beta), eta_(eta), horizon_(horizon) {
+  const double mean = std::tgamma(1 + 1 / beta), square = std::tgamma(1 + 2 / beta);
+  near_ = std::min(horizon, eta * std::max(far_scales, far_means * square / mean));
   const auto n = static_cast<std::size_t>(
-      std::clamp(std::ceil(steps_per_scale * horizon / eta), fewest_steps, most_steps));
-  step_ = horizon / static_cast<double>(n);
+      std::clamp(std::ceil(steps_per_scale * near_ / eta), fewest_steps, most_steps));
+  step_ = near_ / static_cast<double>(n);
   std::vector<double> failed(2 * n + 1);  // F at multiples of half a step
   for (std::size_t k = 0; k < failed.size(); ++k)
     failed[k] = -std::expm1(-hazard(0.5 * step_ * static_cast<double>(k)));
@@ -38,7 +41,7 @@ double RenewalFunction::asymptote(double t) const {
 }
 
 double RenewalFunction::operator()(double t) const {
-  if (far_) return asymptote(t);
+  if (t > near_) return asymptote(t);
   const double at = std::clamp(t / step_, 0.0, static_cast<double>(m_.size() - 1));
   const auto i = std::min(static_cast<std::size_t>(at), m_.size() - 2);
   return std::lerp(m_[i], m_[i + 1], at - static_cast<double>(i));
