@@ -68,8 +68,8 @@ TEST(Phases, CountFailuresAndTimeOfEachPhase) {
   EXPECT_NEAR(gradient[0], -2.0 / 40 + 100.0 / 1600, 1e-12);
   EXPECT_NEAR(gradient[1], -1.0 / 80 + 100.0 / 6400, 1e-12);
   EXPECT_NEAR(phases.mean_by(x, 90), 50.0 / 40 + 40.0 / 80, 1e-12);
-  EXPECT_NEAR(phases.intensity(x, 50), 1.0 / 40, 1e-15);
-  EXPECT_NEAR(phases.intensity(x, 51), 1.0 / 80, 1e-15);
+  EXPECT_NEAR(phases.intensity(x, 49), 1.0 / 40, 1e-15);
+  EXPECT_NEAR(phases.intensity(x, 50), 1.0 / 80, 1e-15);  // of what is to come
 }
 
 // One phase is the power law with beta = 1.

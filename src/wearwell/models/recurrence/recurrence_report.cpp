@@ -130,7 +130,7 @@ std::vector<present::Cell> forecast_cells(const std::string& of, const std::stri
                                           const Quantity& ahead, const Forecast& f) {
   return {of,
           from,
-          fmt::format("{} {}", plain_number(ahead.value, 6), ahead.unit.text),
+          fmt::format("{} {}", plain_given(ahead.value), ahead.unit.text),
           f.expected,
           present::Range{f.low, f.high},
           present::Range{f.count_low, f.count_high},
@@ -178,7 +178,7 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
     for (std::size_t i = 0; i < std::min(units.size(), most_units) && units.size() > 1; ++i) {
       const Forecast f = forecast(asked.process, few, {state_at_end(units[i])}, ahead.si());
       const std::string from = fmt::format(
-          "age {} {}, {} failure{} so far", plain_number(from_si(asked.data.unit, units[i].end), 6),
+          "age {} {}, {} failure{} so far", age_number(from_si(asked.data.unit, units[i].end)),
           asked.data.unit.text, units[i].failures.size(), units[i].failures.size() == 1 ? "" : "s");
       all.units.rows.push_back(forecast_cells(units[i].name, from, ahead, f));
     }
@@ -255,7 +255,7 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
   return {
       "mean-cumulative-function",
       first > 0 ? fmt::format("Failures per unit from age {} {} until each age",
-                              plain_number(x.front(), 4), shown)
+                              age_number(x.front()), shown)
                 : "Failures per unit until each age",
       "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
       "assume no model (none where one unit alone is at risk). The line is "
@@ -277,6 +277,10 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
 }
 
 }  // namespace
+
+std::string age_number(double in_unit) {
+  return plain_given(std::stod(fmt::format("{:.6g}", in_unit)));
+}
 
 PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
   PresetAddition added;

@@ -15,7 +15,7 @@ namespace wearwell::recurrence {
 namespace {
 
 std::string age_text(const RecurrenceData& data, double si) {
-  return fmt::format("{} {}", plain_number(from_si(data.unit, si), 6), data.unit.text);
+  return fmt::format("{} {}", age_number(from_si(data.unit, si)), data.unit.text);
 }
 
 void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceData& data,
@@ -34,7 +34,7 @@ void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceDa
       conditions->fail(
           "phase_ends",
           fmt::format("has a phase that begins at {} {}, but no unit was observed beyond {}",
-                      plain_number(end.value, 6), end.unit.text, age_text(data, data.longest())));
+                      plain_given(end.value), end.unit.text, age_text(data, data.longest())));
     process.phase_ends.push_back(end.si());
   }
   if (process.phase_ends.size() >= most_phases)
@@ -182,7 +182,7 @@ std::vector<double> read_ages(const std::optional<TomlReader>& predict, const As
       if (!(age.si() > 0)) predict->fail("age", "must be positive");
       ages.push_back(age.si());
       study.reaches.push_back(
-          {fmt::format("the age of {} {}", plain_number(age.value, 6), age.unit.text),
+          {fmt::format("the age of {} {}", plain_given(age.value), age.unit.text),
            "the oldest unit was observed until " + age_text(asked.data, asked.data.longest()),
            age.si(), asked.data.longest()});
     }
@@ -229,10 +229,10 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   asked.ahead = predict->quantities("next", data.si);
   for (const Quantity& ahead : asked.ahead) {
     if (!(ahead.si() > 0)) predict->fail("next", "must be positive");
-    study.reaches.push_back({fmt::format("the forecast over the next {} {}",
-                                         plain_number(ahead.value, 6), ahead.unit.text),
-                             "the oldest unit was observed until " + age_text(data, data.longest()),
-                             data.longest() + ahead.si(), data.longest()});
+    study.reaches.push_back(
+        {fmt::format("the forecast over the next {} {}", plain_given(ahead.value), ahead.unit.text),
+         "the oldest unit was observed until " + age_text(data, data.longest()),
+         data.longest() + ahead.si(), data.longest()});
   }
 }
 
