@@ -47,7 +47,7 @@ def residual_figure(fit):
     for label, held in (("observations", False), ("censored", True)):
         of = [(x, y) for x, y, each in points if each == held]
         if of:
-            mark = {"type": "point", "filled": True, "size": 50, "opacity": 1, **({"shape": "triangle-up"} if held else {})}
+            mark = {"type": "point", "filled": True, "size": 50, "opacity": 1, **({"shape": "triangle-right"} if held else {})}
             layers.append(_layer(mark, of, label, shown))
     return {"id": "residuals", "title": "Quantile residuals",
             "caption": "Standard normal if the model is right; a censored one is in the middle of the probability that it leaves open.",
