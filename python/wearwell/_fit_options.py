@@ -1,5 +1,7 @@
 """What all functions that fit a table share: the options of the fit, and what they return and raise."""
 
+import re
+
 _run = """    threads : int
         Threads, 0 for all. No number depends on it.
     report : bool
@@ -40,6 +42,23 @@ def filled(function, places):
         for place, text in places.items():
             function.__doc__ = function.__doc__.replace(place, text)
     return function
+
+
+def options_of_the_run(function):
+    """Puts the options of the run into the docstring."""
+    return filled(function, {"    <options of the run>": _run})
+
+
+def like_function(function):
+    """Puts the arguments, results, errors and warnings of a function of a fit into the docstring of the method of the same name."""
+    def put(method):
+        text = function.__doc__
+        if not text:
+            return method
+        text = re.sub(r"    fit : .*\n(?: {8}.*\n)+", "", text[text.index("    Parameters\n"):text.index("    Examples\n")].rstrip())
+        return filled(method, {"        <as the function>": re.sub(r"(?m)^(?=.)", "    ", text)})
+
+    return put
 
 
 def fits(function):

@@ -4,35 +4,12 @@ import os
 
 from . import _core
 from ._errors import InputError, missing_files
-from ._fit_options import _run, filled
+from ._fit_options import options_of_the_run
 from ._fitted import fitted, rows_of
 from ._progress import reporter
 
-doc_of_update = {
-    "    <new rows>": """    data : table, str or path, or a list of them
-        New rows with the headings of the study's data, in the same or other units: whatever ``wearwell.table`` takes. The order of
-        rows does not matter, and a repeated reading of a unit counts once. Of a clutch campaign each table whose columns it has.
-    repeated : {"once", "another"}, optional
-        Meaning of a single test that equals an earlier one: the same test again, or another. By default it is refused.
-""" + _run,
-    "    <updated fit>": """    Fit
-        The study fitted with all rows: its check ``new-data`` counts the new ones and names those that contradict the earlier
-        posterior, ``results["update"]`` has them. It can be updated again.""",
-    "    <errors of update>": """    InputError
-        If a column, a unit or a cell does not fit the study's data, a test may be a repeat, or the study has no posterior to update;
-        the message names row and column.""",
-}
 
-
-def described(function, indent=0):
-    """Puts what the function and the method share into the docstring."""
-    def shifted(text):
-        return "\n".join(" " * indent + line if line else line for line in text.split("\n"))
-
-    return filled(function, {shifted(place): shifted(text) for place, text in doc_of_update.items()})
-
-
-@described
+@options_of_the_run
 def update(fit, data, repeated=None, *, threads=0, report=True, progress=None):
     """Fit a study again with new rows.
 
@@ -42,15 +19,24 @@ def update(fit, data, repeated=None, *, threads=0, report=True, progress=None):
     ----------
     fit : Fit, str or path
         A fit, or the folder of its result.
-    <new rows>
+    data : table, str or path, or a list of them
+        New rows with the headings of the study's data, in the same or other units: whatever ``wearwell.table`` takes. The order of
+        rows does not matter, and a repeated reading of a unit counts once. Of a clutch campaign each table whose columns it has.
+    repeated : {"once", "another"}, optional
+        Meaning of a single test that equals an earlier one: the same test again, or another. By default it is refused.
+    <options of the run>
 
     Returns
     -------
-    <updated fit>
+    Fit
+        The study fitted with all rows: its check ``new-data`` counts the new ones and names those that contradict the earlier
+        posterior, ``results["update"]`` has them. It can be updated again.
 
     Raises
     ------
-    <errors of update>
+    InputError
+        If a column, a unit or a cell does not fit the study's data, a test may be a repeat, or the study has no posterior to update;
+        the message names row and column.
 
     Warns
     -----

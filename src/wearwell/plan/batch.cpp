@@ -75,7 +75,7 @@ class BatchChoice {
   // What is to be small.
   double left(const Gain& gain) const {
     if (question_.by == "information") return -gain.information;
-    if (question_.by == "loss") return 1 - gain.saved / plan_.loss->now;
+    if (question_.by == "loss") return 1 - plan_.loss->share(gain.saved);
     return std::sqrt(gain.variance) / plan_.nodes.sd;
   }
 

@@ -21,6 +21,7 @@ struct DecisionLoss {
       0;  ///< use of all units that the decision is for, unit of the goal; 0: not given
 
   double saved(double rate) const { return rate * fleet_use; }  ///< in the currency
+  double share(double rate) const { return rate / now; }        ///< of today's cost
 };
 
 /// Puts the losses of candidate ages at each node into `points`. Throws InputError that names the

@@ -78,7 +78,7 @@ Measure measure_of(const NextPlan& plan) {
     measure = {"Expected saving", "%", "Expected share of the cost saved", {}};
   for (const Judged& each : plan.judged)
     measure.value.push_back(money       ? plan.loss->saved(each.gain.saved)
-                            : plan.loss ? 100 * each.gain.saved / plan.loss->now
+                            : plan.loss ? 100 * plan.loss->share(each.gain.saved)
                                         : 100 * each.narrowing);
   return measure;
 }

@@ -22,7 +22,7 @@ std::optional<double> cost_of(const Candidate& candidate, const Gain& gain,
 
 double gain_by(const std::string& by, const NextPlan& plan, const Gain& gain) {
   if (by == "information") return gain.information;
-  if (by == "loss") return gain.saved / plan.loss->now;
+  if (by == "loss") return plan.loss->share(gain.saved);
   return 1 - std::sqrt(gain.variance) / plan.nodes.sd;
 }
 

@@ -61,8 +61,8 @@ std::string best_text(const NextPlan& plan) {
                   width_text(plan, plan.expected_width(best.narrowing)));
   if (plan.loss)
     text += fmt::format(" It is expected to save {} of the cost.",
-                        with_error(100 * best.gain.saved / plan.loss->now,
-                                   100 * best.gain.saved_error / plan.loss->now));
+                        with_error(100 * plan.loss->share(best.gain.saved),
+                                   100 * plan.loss->share(best.gain.saved_error)));
   if (!best.candidate.outside.empty())
     text += fmt::format(" It is an extrapolation: {}.", fmt::join(best.candidate.outside, "; "));
   return text;
@@ -159,7 +159,7 @@ std::vector<CandidateColumn> candidate_columns(const NextPlan& plan) {
        [](const Judged& each) { return static_cast<double>(each.candidate.specimens); }}};
   if (plan.loss)
     all.push_back({{"cost saved", "%", present::digits(3)},
-                   [&](const Judged& each) { return 100 * each.gain.saved / plan.loss->now; }});
+                   [&](const Judged& each) { return 100 * plan.loss->share(each.gain.saved); }});
   if (plan.loss && plan.loss->fleet_use > 0)
     all.push_back({{"saving", currency, present::digits(4)},
                    [&](const Judged& each) { return plan.loss->saved(each.gain.saved); }});

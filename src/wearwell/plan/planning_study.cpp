@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/rng.h"
@@ -83,9 +84,6 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
   if (formula) measured = root.required_table("likelihood").keys();
   if (const auto effects = root.table("random_effects")) random = effects->keys();
   if (!formula) measured = {"life", "depth", "volume", "dx", "dy"};
-  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
   Table table{rows.source, {}, std::max<std::size_t>(2, rows.rows)};
   for (const std::string& name : columns.keys()) {
     const DataRoles::Named named = prognosis::named_column(columns, name);
@@ -95,11 +93,11 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
                       "cannot be planned "
                       "before any test; leave it out",
                       name));
-    const bool is_measured = among(measured, name);
+    const bool is_measured = contains(measured, name);
     const Column* given = is_measured ? nullptr : column_for(rows, named);
     if (!given) {
       // A column of words has no unit in the study.
-      const bool label = among(random, name) || (!is_measured && named.unit.empty());
+      const bool label = contains(random, name) || (!is_measured && named.unit.empty());
       table.columns.push_back(stand_in(
           named, table.rows,
           is_measured ? std::optional(values_of_family(root, name)) : std::nullopt, label));

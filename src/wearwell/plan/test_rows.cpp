@@ -6,15 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/plan/candidates.h"
 
 namespace wearwell::plan {
 namespace {
-
-bool listed(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::string cell_as_text(const Column& column, std::size_t row) {
   return column.is_number
@@ -106,7 +103,7 @@ Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
     if (measured && !column.is_number) column.marks = NumberMarks{'.', 0};
     const ConditionColumn* const condition = study.condition(of.name);
     const bool label = condition && condition->varies;
-    const bool name = listed(study.new_units, of.name) || listed(study.names, of.name);
+    const bool name = contains(study.new_units, of.name) || contains(study.names, of.name);
     if (label || name) column.is_number = false;
     const Column* const from = condition ? &condition_column(conditions, of.name) : nullptr;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -121,7 +118,7 @@ Table rows_with_outcomes(const TestStudy& study, const Table& conditions,
         column.text.push_back(cell_word(*from, rows[i]));
       } else if (label || name) {
         column.text.push_back(fmt::format("{} {}", prefix, i + 1));
-      } else if (listed(study.ones, of.name)) {
+      } else if (contains(study.ones, of.name)) {
         push(column, 1);
       } else if (from && column.is_number) {
         column.numbers.push_back(cell_value(conditions, *from, rows[i]).number);

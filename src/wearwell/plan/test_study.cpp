@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
@@ -20,10 +21,6 @@ namespace wearwell::plan {
 namespace {
 
 using prognosis::DataRoles;
-
-bool among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 Unit unit_of_column(const Column& column, const std::string& stated) {
   const std::string text = !stated.empty()        ? stated
@@ -72,13 +69,13 @@ void find_measured(const TomlReader& root, const std::string& measure, TestStudy
   }
   std::vector<std::string> names;
   for (const DataRoles::Named& each : study.roles.used)
-    if (among(study.roles.measured, each.column)) names.push_back(each.name);
+    if (contains(study.roles.measured, each.column)) names.push_back(each.name);
   if (model == "sn") names = {"life"};
   if (names.empty() || (model == "archard-joint" && names.size() > 1))
     throw InputError(
         "plan: a test of this study is not one row with one measured value, so that its outcome "
         "cannot be predicted row by row");
-  if (!measure.empty() && !among(names, measure))
+  if (!measure.empty() && !contains(names, measure))
     throw InputError(fmt::format("--measure: there is no measured column '{}'; it is one of {}{}",
                                  printable(measure), fmt::join(names, ", "),
                                  did_you_mean(measure, names)));
@@ -117,7 +114,7 @@ ConditionColumn condition_of(const Table& table, const DataRoles::Named& named, 
   if (words || !holds_numbers(column)) {
     condition.words = true;
     for (std::size_t i = 0; i < table.rows; ++i)
-      if (const std::string word = cell_word(column, i); !among(condition.labels, word))
+      if (const std::string word = cell_word(column, i); !contains(condition.labels, word))
         condition.labels.push_back(word);
     return condition;
   }
@@ -139,17 +136,17 @@ void find_conditions(const TomlReader& root, TestStudy& study) {
   if (const auto effects = root.table("random_effects")) varying = effects->keys();
   const bool sn = root.required_text("model") == "sn" || root.required_text("model") == "staircase";
   for (const DataRoles::Named& each : study.roles.used) {
-    if (each.column == study.measured || among(study.roles.measured, each.column)) continue;
+    if (each.column == study.measured || contains(study.roles.measured, each.column)) continue;
     if (each.name == "count") study.ones.push_back(each.column);
-    if (among(of_outcomes, each.name)) continue;
-    if (sn && among(of_specimens, each.name)) {
+    if (contains(of_outcomes, each.name)) continue;
+    if (sn && contains(of_specimens, each.name)) {
       study.names.push_back(each.column);
-    } else if (among(varying, each.name) || each.column == study.unit) {
+    } else if (contains(varying, each.name) || each.column == study.unit) {
       study.conditions.push_back(condition_of(study.table(), each, true));
       study.conditions.back().varies = true;
     } else {
       study.conditions.push_back(
-          condition_of(study.table(), each, among(study.roles.words, each.column)));
+          condition_of(study.table(), each, contains(study.roles.words, each.column)));
     }
   }
 }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/input/life_status.h"
@@ -30,9 +30,7 @@ struct ConditionColumn {
   std::vector<std::string> labels = {};  ///< of words: those in the data
   bool varies = false;  ///< has random effects: a test is at a level of the data, or at a new one
 
-  bool is_new(const std::string& label) const {
-    return std::find(labels.begin(), labels.end(), label) == labels.end();
-  }
+  bool is_new(const std::string& label) const { return !contains(labels, label); }
 };
 
 /// A study to which rows of tests not yet done are added. Values are in the units of its table.

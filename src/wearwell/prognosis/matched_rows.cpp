@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_system.h"
@@ -15,10 +16,6 @@
 
 namespace wearwell::prognosis {
 namespace {
-
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 // The unit of a column: in a row of units, in the study, or in the heading.
 std::string unit_of(const Column& column, const std::string& said) {
@@ -48,7 +45,7 @@ class Matching {
       if (column) taken_.push_back(column->name);
     }
     for (const Column& each : fresh_.columns) {
-      if (!holds(taken_, each.name))
+      if (!contains(taken_, each.name))
         found_.notes.push_back(
             fmt::format("column '{}' is not in the study's data and is ignored", each.name));
     }
@@ -79,7 +76,7 @@ class Matching {
                                      like.name, of_name->name, each.name));
       of_name = &each;
     }
-    if (!of_name && holds(needed_, like.name))
+    if (!of_name && contains(needed_, like.name))
       throw InputError(fmt::format("{} has no column '{}', which the study reads (nearest: '{}')",
                                    fresh_.source, like.name, nearest_name(like.name, headings)));
     return of_name;
@@ -87,7 +84,7 @@ class Matching {
 
   bool words(const Column& like, const Column& column) const {
     if (!holds_numbers(like)) return true;
-    return !column.is_number && holds(roles_.words, like.name);
+    return !column.is_number && contains(roles_.words, like.name);
   }
 
   void add_empty(const Column& like) {

@@ -25,8 +25,7 @@ constexpr double lower_end = 0.05, upper_end = 0.95;
 double hazard_ahead(const Process& process, const double* x, const UnitState& unit, double ahead) {
   if (process.minimal_repair())
     return process.mean_by(x, unit.age + ahead) - process.mean_by(x, unit.age);
-  const auto hazard = [&](double gap) { return gap > 0 ? std::pow(gap / x[1], x[0]) : 0; };
-  return hazard(unit.since_repair + ahead) - hazard(unit.since_repair);
+  return weibull_hazard(x, unit.since_repair + ahead) - weibull_hazard(x, unit.since_repair);
 }
 
 double poisson_cdf(double count, double mean) {
@@ -78,8 +77,7 @@ void of_poisson(const Process& process, const WeightedDraws& all,
 double renewals(const double* x, double since_repair, double ahead, Rng& rng) {
   constexpr double most = 1e6;
   const auto next = [&](double since) {
-    const double hazard = since > 0 ? std::pow(since / x[1], x[0]) : 0;
-    return x[1] * std::pow(hazard - std::log(rng.uniform()), 1 / x[0]) - since;
+    return x[1] * std::pow(weibull_hazard(x, since) - std::log(rng.uniform()), 1 / x[0]) - since;
   };
   double count = 0;
   for (double at = next(since_repair); at <= ahead && count < most; at += next(0)) ++count;

@@ -17,13 +17,6 @@ T log_failed(const T& h) {
   return log(1.0 - exp(-h));
 }
 
-template <class T>
-T weibull_hazard(const T* x, double gap) {
-  using std::exp, std::log;
-  if (!(gap > 0)) return T(0.0);
-  return exp(x[0] * (std::log(gap) - log(x[1])));
-}
-
 // The expected number of failures in the gap, or its cumulative hazard.
 template <class T>
 T cumulative_hazard(const Process& process, const Gap& gap, const T* x) {

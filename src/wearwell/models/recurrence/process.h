@@ -17,6 +17,14 @@ namespace wearwell::recurrence {
 /// delayed fixes are made between phases (MIL-HDBK-189C, 5.4).
 enum class ProcessKind { power_law, renewal, phases };
 
+/// The cumulative hazard of a renewal process, `gap` after a repair; x = beta, eta.
+template <class T>
+T weibull_hazard(const T* x, double gap) {
+  using std::exp, std::log;
+  if (!(gap > 0)) return T(0.0);
+  return exp(x[0] * (std::log(gap) - log(x[1])));
+}
+
 struct Process {
   ProcessKind kind = ProcessKind::power_law;
   double reference = 1;  ///< T [SI], of the power law

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
@@ -58,15 +59,11 @@ EventWords read_event_words(const TomlReader& columns, const Table& table) {
   return words;
 }
 
-bool holds(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 // Nelson (1995) and SAS code a failure as 1 and the end as -1; R's Surv codes the end as 0.
 std::optional<bool> is_failure(const EventWords& words, const std::string& word) {
   const std::string folded = folded_word(word);
-  if (holds(words.failures, folded)) return true;
-  if (holds(words.ends, folded)) return false;
+  if (contains(words.failures, folded)) return true;
+  if (contains(words.ends, folded)) return false;
   if (word == "-1") return false;
   if (const auto truth = truth_in(word)) {
     if (!words.failure_code) return {};

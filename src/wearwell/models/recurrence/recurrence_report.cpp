@@ -33,7 +33,7 @@ const char* process_name(ProcessKind kind) {
   return "";
 }
 
-present::Table mcf_table(const Asked& asked) {
+present::Table mcf_table(const Asked& asked, const std::vector<MeanCumulativeStep>& steps) {
   present::Table table{"mcf",
                        "Mean cumulative function: failures per unit until each age (Nelson), "
                        "bounds hold 90 % pointwise",
@@ -43,7 +43,7 @@ present::Table mcf_table(const Asked& asked) {
                         {"failures per unit", "1"},
                         {"standard error", "1"},
                         {"90 %", "1", {}, true}}};
-  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level))
+  for (const MeanCumulativeStep& step : steps)
     table.rows.push_back({from_si(asked.data.unit, step.age), present::count(step.failures),
                           present::count(step.at_risk), step.mean, step.se,
                           present::Range{step.low, step.high}});
@@ -130,7 +130,7 @@ std::vector<present::Cell> forecast_cells(const std::string& of, const std::stri
                                           const Quantity& ahead, const Forecast& f) {
   return {of,
           from,
-          fmt::format("{} {}", plain_given(ahead.value), ahead.unit.text),
+          given_quantity(ahead),
           f.expected,
           present::Range{f.low, f.high},
           present::Range{f.count_low, f.count_high},
@@ -169,8 +169,7 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
       all.table.rows.push_back(forecast_cells(row.of, row.from, ahead, f));
       all.json.push_back(forecast_json(row.of, row.from, ahead, f));
       all.lines.push_back(
-          {"  " + row.of, row.from, fmt::format("{} {}", plain_given(ahead.value), ahead.unit.text),
-           plain_number(f.expected, 4),
+          {"  " + row.of, row.from, given_quantity(ahead), plain_number(f.expected, 4),
            fmt::format("{} to {}", plain_given(f.count_low), plain_given(f.count_high)),
            plain_number(100 * f.any, 3)});
     }
@@ -264,9 +263,9 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
           "Mean cumulative number of failures per unit against age, from the data and fitted",
           {"Age [" + shown + "]", false, x.front(), x.back()}, {"Failures per unit", false, 0, {}},
           {plot::area({{"x", at}, {"y", above}, {"y2", below}},
-                      {colour::measured, "90 % bounds of the data", 0.15}),
+                      {colour::measured, "90 %, data", 0.15}),
            plot::area({{"x", x}, {"y", high}, {"y2", low}},
-                      {colour::posterior, "90 % of the fitted mean", 0.28}),
+                      {colour::posterior, "90 %, fitted", 0.28}),
            plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
                       {colour::measured, "data", 1, 2}),
            plot::line({{"x", x}, {"y", middle}, {"failures per unit", middle}},
@@ -278,6 +277,10 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
 
 }  // namespace
 
+std::string given_quantity(const Quantity& quantity) {
+  return fmt::format("{} {}", plain_given(quantity.value), quantity.unit.text);
+}
+
 std::string age_number(double in_unit) {
   return plain_given(std::stod(fmt::format("{:.6g}", in_unit)));
 }
@@ -285,7 +288,7 @@ std::string age_number(double in_unit) {
 PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
   PresetAddition added;
   const std::vector<NamedTest> tests = classical_tests(asked, draws);
-  const present::Table mcf = mcf_table(asked);
+  const std::vector<MeanCumulativeStep> steps = mean_cumulative(asked.data.units, report_level);
   Json json = {{"process", process_name(asked.process.kind)},
                {"units", asked.data.units.size()},
                {"failures", asked.data.failures()},
@@ -297,7 +300,7 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
         1 - QuantityDistribution(draws, [](const double* x) { return x[0]; }).cdf(1);
   json["tests"] = tests_json(tests);
   json["mcf"] = Json::array();
-  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level))
+  for (const MeanCumulativeStep& step : steps)
     json["mcf"].push_back({{"age", from_si(asked.data.unit, step.age)},
                            {"failures", step.failures},
                            {"at_risk", step.at_risk},
@@ -308,7 +311,7 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
   if (asked.process.kind == ProcessKind::power_law)
     added.blocks["parameters"].push_back({crow_table(asked, draws)});
   added.blocks["fit"].push_back({test_table(tests)});
-  added.blocks["fit"].push_back({mcf});
+  added.blocks["fit"].push_back({mcf_table(asked, steps)});
   if (!asked.ahead.empty()) {
     const Forecasts all = forecasts_of(asked, draws);
     added.blocks["predictions"].push_back({all.table});

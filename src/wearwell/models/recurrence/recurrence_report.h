@@ -34,6 +34,9 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
 std::map<std::string, std::vector<html::Figure>> recurrence_figures(const Asked& asked,
                                                                     const WeightedDraws& draws);
 
+/// "100 h", as the study states it.
+std::string given_quantity(const Quantity& quantity);
+
 /// An age for people, in the unit of the data: "3 256.3", at most six digits.
 std::string age_number(double in_unit);
 

@@ -33,8 +33,8 @@ void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceDa
     if (!(end.si() < data.longest()))
       conditions->fail(
           "phase_ends",
-          fmt::format("has a phase that begins at {} {}, but no unit was observed beyond {}",
-                      plain_given(end.value), end.unit.text, age_text(data, data.longest())));
+          fmt::format("has a phase that begins at {}, but no unit was observed beyond {}",
+                      given_quantity(end), age_text(data, data.longest())));
     process.phase_ends.push_back(end.si());
   }
   if (process.phase_ends.size() >= most_phases)
@@ -182,7 +182,7 @@ std::vector<double> read_ages(const std::optional<TomlReader>& predict, const As
       if (!(age.si() > 0)) predict->fail("age", "must be positive");
       ages.push_back(age.si());
       study.reaches.push_back(
-          {fmt::format("the age of {} {}", plain_given(age.value), age.unit.text),
+          {"the age of " + given_quantity(age),
            "the oldest unit was observed until " + age_text(asked.data, asked.data.longest()),
            age.si(), asked.data.longest()});
     }
@@ -229,10 +229,9 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   asked.ahead = predict->quantities("next", data.si);
   for (const Quantity& ahead : asked.ahead) {
     if (!(ahead.si() > 0)) predict->fail("next", "must be positive");
-    study.reaches.push_back(
-        {fmt::format("the forecast over the next {} {}", plain_given(ahead.value), ahead.unit.text),
-         "the oldest unit was observed until " + age_text(data, data.longest()),
-         data.longest() + ahead.si(), data.longest()});
+    study.reaches.push_back({"the forecast over the next " + given_quantity(ahead),
+                             "the oldest unit was observed until " + age_text(data, data.longest()),
+                             data.longest() + ahead.si(), data.longest()});
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/models/recurrence/process.h"
+
 namespace wearwell::recurrence {
 namespace {
 
@@ -31,7 +33,8 @@ RenewalFunction::RenewalFunction(double beta, double eta, double horizon)
 }
 
 double RenewalFunction::hazard(double gap) const {
-  return gap > 0 ? std::pow(gap / eta_, beta_) : 0;
+  const double x[] = {beta_, eta_};
+  return weibull_hazard(x, gap);
 }
 
 double RenewalFunction::asymptote(double t) const {
