@@ -100,6 +100,33 @@ TEST(CountOutcomes, OfBinomialAreTheClosedForm) {
   }
 }
 
+// A random effect makes the most likely count 0 and the tail long: each count is there.
+TEST(CountOutcomes, OfUnitsThatDifferAreAllCounts) {
+  Source source = counts_source(
+      "area = \"area\"\nrig = \"rig\"\n", "family = \"poisson\"\nmean = \"rate*area\"\n",
+      "rate = { distribution = \"gamma\", shape = 2, scale = 0.5 }\n"
+      "s = { distribution = \"half-normal\", scale = 0.5 }\n"
+      "[random_effects.rig]\nrate = { distribution = \"lognormal\", log_sd = \"s\" }\n",
+      {numbers_column("found", {3, 4, 1, 3, 5}),
+       numbers_column("area", {20, 30, 20, 40, 25}),
+       {"rig", false, {}, {"rig A", "rig A", "rig B", "rig B", "rig C"}}});
+  const TestStudy study = test_study(source, reading());
+  const Table conditions =
+      table_of("asked", {numbers_column("area", {20}), {"rig", false, {}, {""}}});
+  const PlannedTest tests[] = {{0, {}}};
+  Points nodes(3, 2);
+  nodes << 0.05, 0.2, 0.1, 0.8, 0.2, 1.5;
+  const double weights[] = {0.3, 0.4, 0.3};
+  const Outcomes found = count_outcomes(study, conditions, tests, nodes, weights)[0];
+  EXPECT_LT(found.defect, 1e-3);
+  for (std::size_t m = 0; m < 10; ++m) EXPECT_EQ(found.value[m], static_cast<double>(m));
+  // Mean of exp(-20 rate exp(s z)) over a standard normal z.
+  double none = 0;
+  for (double z = -8; z < 8; z += 0.01)
+    none += 0.01 * std::exp(-0.5 * z * z - 20 * 0.1 * std::exp(0.8 * z)) / std::sqrt(2 * M_PI);
+  EXPECT_NEAR(std::exp(static_cast<double>(found.log_probability(1, 0))), none, 1e-3);
+}
+
 // Blocks of counts stand for all of them: probabilities, mean and variance of a wide distribution.
 TEST(CountOutcomes, BlocksKeepMeanAndVariance) {
   const Source source =

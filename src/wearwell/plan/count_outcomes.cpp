@@ -21,8 +21,8 @@ constexpr double no_count = 17;   // a log probability so far below the highest 
 constexpr double highest = 1e12;  // count
 constexpr std::size_t most_values = 6000;
 
-// The counts of a test: where they lie, and the least of sd / sqrt(1 + count) over the nodes; that
-// of a Poisson distribution is about 1 everywhere.
+// The counts of a test: where they lie, and the least of sd / sqrt(1 + count) over the nodes, at most
+// 1: that of a Poisson distribution is about 1 everywhere.
 struct CountRange {
   double low = 0, high = highest, relative_sd = 1, impossible = 0;
   double allowed = highest;  // number of trials
@@ -159,7 +159,7 @@ class CountTests {
   bool narrow(std::size_t test, const std::vector<double>& counts, const Points& log_p, Index first,
               const Scouts& scouts) {
     CountRange& range = ranges_[test];
-    CountRange found{infinity, -infinity, infinity, 0, range.allowed};
+    CountRange found{infinity, -infinity, 1, 0, range.allowed};
     std::vector<double> by_count(counts.size());
     for (Index j = 0; j < scouts.nodes.rows(); ++j) {
       for (std::size_t m = 0; m < counts.size(); ++m)
@@ -172,7 +172,7 @@ class CountTests {
     const bool inside = found.low >= range.low && found.high <= range.high;
     const bool little = inside && found.high - found.low > 0.6 * (range.high - range.low);
     range.low = found.low, range.high = found.high;
-    if (std::isfinite(found.relative_sd)) range.relative_sd = found.relative_sd;
+    range.relative_sd = found.relative_sd;
     return same || little || (inside && found.high - found.low < grid_counts);
   }
 
@@ -181,7 +181,7 @@ class CountTests {
     outcomes.counted = true;
     constexpr double part = 0.5;  // of a standard deviation
     for (double begin = range.low; begin <= range.high && outcomes.value.size() <= most_values;) {
-      const double wide = part * std::min(range.relative_sd, 1e6) * root(begin);
+      const double wide = part * range.relative_sd * root(begin);
       const double half = std::floor(0.5 * std::max(0.0, wide - 1));
       const double size = std::min(2 * half + 1, range.allowed - begin + 1);
       const double middle = begin + std::floor(0.5 * (size - 1));
