@@ -184,6 +184,42 @@ TEST(Expression, FunctionsOfDistributionsHaveUnits) {
   EXPECT_THAT(message("weibul_cdf(2, 3, 1)"), HasSubstr("did you mean 'weibull_cdf'?"));
 }
 
+struct OfRelation {
+  const char* text;
+  double ratio;
+};
+
+// Values of tests/golden/defined_functions.R.
+constexpr OfRelation relations_by_r[] = {
+    {"arrhenius(313.15 [K], 353.15 [K], 0.7 [eV])", 18.8808271117541},
+    {"eyring(313.15 [K], 353.15 [K], 0.7 [eV])", 21.2925565847547},
+    {"inverse_power(24 [kV], 30000 [V], 15.5)", 31.7764371615651},
+    {"voltage_temperature(12 [V], 24 [V], 3, 313.15 [K], 353.15 [K], 0.7 [eV])", 151.046616894032},
+    {"peck(40 [%], 0.85, 2.66, 303.15 [K], 358.15 [K], 0.79 [eV])", 772.055172020071},
+    {"coffin_manson(35 [K], 140 [K], 2)", 16},
+    {"norris_landzberg(35 [K], 100 [K], 1.9, 2 [1/day], 48 [1/day], 1/3, 333.15 [K], 373.15 [K], "
+     "0.122 [eV])",
+     4.0182551756436},
+};
+
+TEST(Expression, RelationsBetweenLifeAndStressAreTheirFormulas) {
+  const Laboratory laboratory;
+  for (const OfRelation& each : relations_by_r)
+    EXPECT_NEAR(laboratory.value(each.text), each.ratio, 1e-12 * each.ratio) << each.text;
+  EXPECT_EQ(laboratory.value("arrhenius(353.15 [K], 353.15 [K], 0.7 [eV])"), 1);
+  const auto message = [&](const char* text) {
+    return message_of<InputError>([&] { laboratory.value(text); });
+  };
+  EXPECT_THAT(message("arrhenius(40, 353.15 [K], 0.7 [eV])"),
+              HasSubstr("temperature of arrhenius needs K, but '40' is a pure number"));
+  EXPECT_THAT(message("arrhenius(313 [K], 353 [K], 68 [kJ/mol])"),
+              AllOf(HasSubstr("energy of arrhenius needs"), HasSubstr("6.02214076e23 [1/mol]")));
+  EXPECT_THAT(message("inverse_power(24 [kV], 30 [mm], 2)"),
+              HasSubstr("arguments of inverse_power"));
+  EXPECT_THAT(message("peck(40, 85 [m], 2, 300 [K], 350 [K], 0.7 [eV])"),
+              HasSubstr("reference_humidity of peck"));
+}
+
 // A parameter may be named gamma, but not where the function is called.
 TEST(Expression, AFunctionMayHaveTheNameOfAParameter) {
   Laboratory laboratory;

@@ -12,3 +12,16 @@ sev <- function(x, l) pexp(exp((x - 1.5) / 2), 1, l)
 of("smallest_extreme_value", "1.5, 2", c(-20, 1, 6), sev, function(x) { z <- (x - 1.5) / 2; exp(z - exp(z)) / 2 })
 of("largest_extreme_value", "1.5, 2", c(-4, 1, 20), function(x, l) pexp(exp(-(x - 1.5) / 2), 1, !l),
    function(x) { z <- -(x - 1.5) / 2; exp(z - exp(z)) / 2 })
+# Relations between life and stress (k: Boltzmann's constant in eV/K).
+k <- 8.617333262e-5
+heat <- function(temperature, reference, energy) exp(energy / k * (1 / temperature - 1 / reference))
+relations <- c(
+  "arrhenius(313.15 [K], 353.15 [K], 0.7 [eV])" = heat(313.15, 353.15, 0.7),
+  "eyring(313.15 [K], 353.15 [K], 0.7 [eV])" = 353.15 / 313.15 * heat(313.15, 353.15, 0.7),
+  "inverse_power(24 [kV], 30000 [V], 15.5)" = (24 / 30)^-15.5,
+  "voltage_temperature(12 [V], 24 [V], 3, 313.15 [K], 353.15 [K], 0.7 [eV])" = 8 * heat(313.15, 353.15, 0.7),
+  "peck(40 [%], 0.85, 2.66, 303.15 [K], 358.15 [K], 0.79 [eV])" = (40 / 85)^-2.66 * heat(303.15, 358.15, 0.79),
+  "coffin_manson(35 [K], 140 [K], 2)" = 16,
+  "norris_landzberg(35 [K], 100 [K], 1.9, 2 [1/day], 48 [1/day], 1/3, 333.15 [K], 373.15 [K], 0.122 [eV])" =
+    (35 / 100)^-1.9 * (2 / 48)^(1 / 3) * heat(333.15, 373.15, 0.122))
+for (i in seq_along(relations)) cat(sprintf('    {"%s", %.15g},\n', names(relations)[i], relations[[i]]))

@@ -44,27 +44,63 @@ const std::vector<Family>& families() {
   return all;
 }
 
-std::vector<DefinedFunction> of_all_families() {
-  std::vector<DefinedFunction> all;
+void add_families(std::vector<DefinedFunction>& all) {
   for (const Family& family : families()) {
     const auto add = [&](const std::string& what, const DefinedFunction::Argument& of,
                          const std::string& body) {
-      DefinedFunction function{family.name + "_" + what, {of, {family.first, false}}, body};
-      if (!family.second.empty()) function.arguments.push_back({family.second, family.second_pure});
+      DefinedFunction function{
+          family.name + "_" + what, {of, {family.first, of.name == "x" ? "x" : ""}}, body};
+      if (!family.second.empty())
+        function.arguments.push_back({family.second, family.second_pure ? "1" : family.first});
       all.push_back(std::move(function));
     };
-    add("cdf", {"x", false}, family.cdf);
-    add("survival", {"x", false}, family.survival);
-    add("pdf", {"x", false}, family.pdf);
-    add("quantile", {"p", true}, family.quantile);
+    add("cdf", {"x"}, family.cdf);
+    add("survival", {"x"}, family.survival);
+    add("pdf", {"x"}, family.pdf);
+    add("quantile", {"p", "1"}, family.quantile);
   }
-  return all;
+}
+
+// Boltzmann's constant: CODATA 2018.
+constexpr const char* arrhenius =
+    "exp(energy/8.617333262e-5 [eV/K]*(1/temperature - 1/reference_temperature))";
+
+void add_relations(std::vector<DefinedFunction>& all) {
+  using Arguments = std::vector<DefinedFunction::Argument>;
+  const Arguments heat = {{"temperature", "K"}, {"reference_temperature", "K"}, {"energy", "eV"}};
+  const auto with_heat = [&](Arguments arguments) {
+    arguments.insert(arguments.end(), heat.begin(), heat.end());
+    return arguments;
+  };
+  const std::string by_heat = std::string("*") + arrhenius;
+  all.push_back({"arrhenius", heat, arrhenius});
+  all.push_back({"eyring", heat, "reference_temperature/temperature" + by_heat});
+  const Arguments stress = {{"stress"}, {"reference_stress", "stress"}, {"exponent", "1"}};
+  const std::string power = "(reference_stress/stress)^exponent";
+  all.push_back({"inverse_power", stress, power});
+  all.push_back({"voltage_temperature", with_heat(stress), power + by_heat});
+  all.push_back({"peck",
+                 with_heat({{"humidity", "1"}, {"reference_humidity", "1"}, {"exponent", "1"}}),
+                 "(reference_humidity/humidity)^exponent" + by_heat});
+  const Arguments range = {{"range"}, {"reference_range", "range"}, {"exponent", "1"}};
+  const std::string cycles = "(reference_range/range)^exponent";
+  all.push_back({"coffin_manson", range, cycles});
+  Arguments solder = range;
+  solder.insert(solder.end(),
+                {{"frequency"}, {"reference_frequency", "frequency"}, {"frequency_exponent", "1"}});
+  all.push_back({"norris_landzberg", with_heat(solder),
+                 cycles + "*(frequency/reference_frequency)^frequency_exponent" + by_heat});
 }
 
 }  // namespace
 
 const std::vector<DefinedFunction>& defined_functions() {
-  static const std::vector<DefinedFunction> all = of_all_families();
+  static const std::vector<DefinedFunction> all = [] {
+    std::vector<DefinedFunction> list;
+    add_families(list);
+    add_relations(list);
+    return list;
+  }();
   return all;
 }
 

@@ -6,11 +6,13 @@
 
 namespace wearwell::formula {
 
-/// A function that is written in the language itself: of distributions.
+/// A function that is written in the language itself: of distributions, and of lives under stress.
 struct DefinedFunction {
   struct Argument {
     std::string name;
-    bool pure = true;  ///< a pure number; the others share one dimension
+    /// Its dimension: that of an earlier argument of this name, or of this unit ("1" for a pure
+    /// number); any if empty.
+    std::string like = {};
   };
   std::string name;
   std::vector<Argument> arguments;
@@ -18,7 +20,9 @@ struct DefinedFunction {
 };
 
 /// FAMILY_cdf, FAMILY_survival, FAMILY_pdf and FAMILY_quantile for each family whose functions are
-/// elementary or of the normal distribution, with the parameters of docs/reference/distributions.md.
+/// elementary or of the normal distribution, with the parameters of docs/reference/distributions.md;
+/// and the ratios of a life to that under reference conditions by the usual relations between life and
+/// stress (Meeker and Escobar 1998, ch. 18; Norris and Landzberg 1969; Peck 1986).
 const std::vector<DefinedFunction>& defined_functions();
 const DefinedFunction* find_defined_function(std::string_view name);
 

@@ -175,6 +175,7 @@ void Naming::unknown(const Token& token) {
   const std::string name = shortened(token.text);
   std::string hint = likely(name, known);
   if (name == "ln") hint = "write log for the natural logarithm";
+  if (name == "power" && called) hint = "did you mean 'pow'?";
   if (name == "if") hint = "write where(condition, yes, no) for a choice";
   if (name == "e" && !called) hint = "write exp(1) for e";
   for (const LabelSymbol& label : names_.symbols.labels) {

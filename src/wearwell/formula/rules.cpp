@@ -314,27 +314,4 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
   return made(result, a, last, at);
 }
 
-void Rules::check_arguments(const DefinedFunction& function, const std::vector<Term>& arguments,
-                            std::size_t start) const {
-  std::string list;
-  for (const auto& each : function.arguments) list += (list.empty() ? "" : ", ") + each.name;
-  if (arguments.size() != function.arguments.size())
-    complain(text_, start,
-             fmt::format("{} needs {} arguments, but has {}", function.name,
-                         function.arguments.size(), arguments.size()),
-             fmt::format("write {}({})", function.name, list));
-  const Term* first = nullptr;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (function.arguments[i].pure) {
-      demand_pure(arguments[i], fmt::format("{} of {}", function.arguments[i].name, function.name),
-                  arguments[i].at);
-    } else if (first == nullptr) {
-      demand_value(arguments[i]);
-      first = &arguments[i];
-    } else {
-      common(*first, arguments[i], "arguments of " + function.name, arguments[i].at);
-    }
-  }
-}
-
 }  // namespace wearwell::formula

@@ -55,6 +55,7 @@ class Rules {
 
   void demand_truth(const Term& term, const std::string& of) const;
   void demand_pure(const Term& term, const std::string& of, std::size_t at) const;
+  void demand_unit(const Term& term, const std::string& unit, const std::string& of) const;
   int common(const Term& a, const Term& b, const std::string& what, std::size_t at) const;
   int bounded(int powers, std::size_t at) const;
   int label_is(const Term& label, const Term& level);

@@ -15,6 +15,8 @@ struct Source {
   TextFile study;  ///< its path is used in messages and to find files beside it
   /// By the name of the data in the study; these take precedence over files.
   std::map<std::string, Table> tables = {};
+  /// Parameters of a fit of the same study, in SI: a model starts from them and does not search.
+  std::map<std::string, double> starts = {};
 
   std::filesystem::path folder() const { return study.path.parent_path(); }
 };

@@ -22,7 +22,10 @@ class JoinedStudy {
  public:
   JoinedStudy(const TestStudy& study, const Table& tests, const Points& nodes)
       : study_(study), histories_(with_histories(study, tests)), nodes_(nodes) {
-    const auto read = study.read(with_rows(study, histories_.rows));
+    Source source = with_rows(study, histories_.rows);
+    for (std::size_t i = 0; i < study.parameters.size(); ++i)
+      source.starts[study.parameters[i]] = nodes(0, static_cast<Index>(i));
+    const auto read = study.read(source);
     const PosteriorStudy& joined = require_posterior_study(*read);
     find_places(joined.parameters);
     likelihood_ = joined.likelihood(joined.data_rows);

@@ -157,6 +157,15 @@ std::optional<std::vector<double>> likeliest(const LogDensity& likelihood,
 
 }  // namespace
 
+void start_at(const std::map<std::string, double>& known, std::vector<Parameter>& parameters) {
+  std::vector<double> x;
+  for (const Parameter& each : parameters) {
+    const auto value = known.find(each.name);
+    x.push_back(value == known.end() ? each.start : value->second);
+  }
+  parameters = started_at(std::move(parameters), x);
+}
+
 void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters) {
   constexpr std::size_t climbs = 4;
   const std::vector<Candidate> from = candidates(likelihood, parameters);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <memory>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "wearwell/bayes/log_density.h"
@@ -12,5 +13,8 @@ namespace wearwell::formula_model {
 /// values of a user's formula are not known in advance. From the middle of the priors and points
 /// spread over them, the best climb to a mode. Changes nothing if it finds nothing better.
 void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters);
+
+/// Starts at the values known by name, SI, without a search.
+void start_at(const std::map<std::string, double>& known, std::vector<Parameter>& parameters);
 
 }  // namespace wearwell::formula_model

@@ -281,7 +281,11 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   const auto bound = std::make_shared<FormulaRows>(model, study.data_rows, true);
   const std::shared_ptr<const FormulaRows> rows = bound;
   const auto likelihood = formula_model::formula_likelihood(rows);
-  formula_model::find_starts(*likelihood, model->parameters);
+  if (source.starts.empty()) {
+    formula_model::find_starts(*likelihood, model->parameters);
+  } else {
+    formula_model::start_at(source.starts, model->parameters);
+  }
   std::vector<double> start;
   for (const Parameter& each : model->parameters) start.push_back(each.start);
   bound->keep_gathered_at(start.data());
