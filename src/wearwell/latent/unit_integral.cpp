@@ -233,6 +233,7 @@ class Lattice {
         units_(terms.units()),
         effects_(static_cast<std::size_t>(terms.effects())),
         wanted_(units_),
+        log_area_(units_),
         sums_(units_) {}
 
   void run() {
@@ -240,6 +241,7 @@ class Lattice {
     result_.settled = true;
     result_.unsettled = 0;
     used_ = 0;
+    for (std::size_t u = 0; u < units_; ++u) note_area(u);
     effects_ == 1 ? line() : plane();
     result_.sweeps.resize(used_);
     for (Sweep& sweep : result_.sweeps) {
@@ -251,6 +253,13 @@ class Lattice {
   }
 
  private:
+  double area(std::size_t u) const {
+    const LaplaceApproximation& approximation = approximations_[u];
+    return effects_ == 1 ? approximation.across[0][0]
+                         : approximation.across[0][0] * approximation.across[1][1];
+  }
+  void note_area(std::size_t u) { log_area_[u] = std::log(area(u)); }
+
   // Nodes (i, j) widths from the mode of each wanted unit; `weight` keeps the log of the area of a
   // cell.
   Sweep& sweep(double i, double j, double log_cell) {
@@ -261,9 +270,7 @@ class Lattice {
     s.weight.resize(units_);
     for (std::size_t u = 0; u < units_; ++u) {
       const LaplaceApproximation& approximation = approximations_[u];
-      double area = effects_ == 1 ? approximation.across[0][0]
-                                  : approximation.across[0][0] * approximation.across[1][1];
-      s.weight[u] = log_cell + std::log(area);
+      s.weight[u] = log_cell + log_area_[u];
       for (std::size_t e = 0; e < effects_; ++e) {
         double& z = s.z[u * effects_ + e];
         z = approximation.center[e] + i * approximation.across[0][e] +
@@ -334,6 +341,7 @@ class Lattice {
     for (std::size_t u = 0; u < units_; ++u) {
       if (!whose[u]) continue;
       approximations_[u] = approximations[u];
+      note_area(u);
       sums_[u] = {};
       for (std::size_t n = 0; n < used_; ++n) result_.sweeps[n].log_f[u] = -infinity;
     }
@@ -381,11 +389,8 @@ class Lattice {
   }
 
   void finish(std::size_t u, double step) {
-    const LaplaceApproximation& approximation = approximations_[u];
-    const double area = effects_ == 1
-                            ? step * approximation.across[0][0]
-                            : step * step * approximation.across[0][0] * approximation.across[1][1];
-    result_.log_likelihood[u] = sums_[u].highest + std::log((sums_[u].even + sums_[u].odd) * area);
+    const double cell = effects_ == 1 ? step * area(u) : step * step * area(u);
+    result_.log_likelihood[u] = sums_[u].highest + std::log((sums_[u].even + sums_[u].odd) * cell);
   }
 
   // Two effects: rings about the mode until one adds nothing. The step is reduced if the sums over
@@ -441,7 +446,7 @@ class Lattice {
   UnitIntegrals& result_;
   std::size_t units_, effects_, used_ = 0;
   std::vector<std::uint8_t> wanted_;
-  std::vector<double> value_;
+  std::vector<double> value_, log_area_;  // of each unit
   std::vector<Sum> sums_;
 };
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <boost/math/special_functions/gamma.hpp>
-
-#include "wearwell/math/boost_policy.h"
 #include "wearwell/prob/family.h"
+#include "wearwell/prob/log_factorial.h"
 
 namespace wearwell::families {
 
@@ -15,9 +13,7 @@ struct Binomial : OnLine {
 
   template <class T>
   static T log_density(double y, const T* s, double trials) {
-    const double ways = boost::math::lgamma(trials + 1, Quiet()) -
-                        boost::math::lgamma(y + 1, Quiet()) -
-                        boost::math::lgamma(trials - y + 1, Quiet());
+    const double ways = log_factorial(trials) - log_factorial(y) - log_factorial(trials - y);
     const double p = scalar(s[0]);
     if ((p == 0 && y > 0) || (p == 1 && y < trials)) return T(-infinity);
     T sum(ways);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <boost/math/special_functions/gamma.hpp>
-
-#include "wearwell/math/boost_policy.h"
 #include "wearwell/prob/family.h"
+#include "wearwell/prob/log_factorial.h"
 
 namespace wearwell::families {
 
@@ -16,7 +14,7 @@ struct Poisson : OnLine {
   template <class T>
   static T log_density(double y, const T* s, double /*trials*/) {
     if (scalar(s[0]) == 0) return y == 0 ? T(-s[0]) : T(-infinity);
-    return y * log(s[0]) - s[0] - boost::math::lgamma(y + 1, Quiet());
+    return y * log(s[0]) - s[0] - log_factorial(y);
   }
   static double mean(const double* s) { return s[0]; }
 };
