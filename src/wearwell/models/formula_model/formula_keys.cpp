@@ -77,6 +77,8 @@ StudyKeys formula_keys() {
       keys,
       {needed_key("likelihood.*.trials", "\"trials\"", "column of their numbers", {},
                   {".family=binomial"}),
+       {"likelihood.*.steps", "\"specimen\"",
+        "column of the specimens of a step-stress test, whose rows are the steps"},
        {"prior.*", "{ distribution = \"lognormal\", median = \"1e-6 mm^3/(N m)\", log_sd = 2 }",
         "one per parameter; `k` or `\"k[PTFE]\"` for one of each level"},
        {"random_effects.*", "{ k = { distribution = \"lognormal\", log_sd = \"k_scatter\" } }",

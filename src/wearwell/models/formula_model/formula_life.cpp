@@ -37,7 +37,9 @@ std::string per_unit(const Unit& unit) {
 }
 
 Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured) {
-  return {std::move(family_parameters), measured.family_parameter, measured.form->family,
+  std::vector<std::size_t> places = measured.family_parameter;
+  places.resize(family_parameters->program.outputs().size());
+  return {std::move(family_parameters), std::move(places), measured.form->family,
           measured.form->positive};
 }
 

@@ -10,6 +10,7 @@
 #include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/formula_process.h"
+#include "wearwell/models/formula_model/step_stress.h"
 #include "wearwell/prob/response.h"
 
 namespace wearwell::formula_model {
@@ -80,6 +81,9 @@ struct FormulaModel {
   std::optional<FailureModes> modes;
   Observed lives;                   ///< of the parts, by row, if there are modes
   std::vector<JointFailure> joint;  ///< what `measured` lacks
+
+  std::optional<StepStress>
+      steps;  ///< of a step-stress test: the last of `wanted` is its threshold
 
   FormulaData data;
   /// Rows in the order of the programs: unit by unit, along the axis.

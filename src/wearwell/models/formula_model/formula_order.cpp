@@ -15,7 +15,9 @@ void order_rows(FormulaModel& model, const TomlReader& root) {
   const bool paths =
       std::any_of(model.measured.begin(), model.measured.end(),
                   [](const Measured& m) { return m.program.has_paths() || m.process; });
-  const LabelColumn* label = model.label ? model.data.label(*model.label) : nullptr;
+  const LabelColumn* label = model.label   ? model.data.label(*model.label)
+                             : model.steps ? model.data.label(model.steps->label)
+                                           : nullptr;
   if (!label && paths && model.symbols.labels.size() == 1) {
     label = model.data.label(model.symbols.labels.front().name);
   } else if (!label && paths && model.symbols.labels.size() > 1) {
@@ -31,7 +33,9 @@ void order_rows(FormulaModel& model, const TomlReader& root) {
   } else {
     model.units = {""};
   }
-  const NumberColumn* axis = model.along ? model.data.number(*model.along) : nullptr;
+  const NumberColumn* axis = model.along   ? model.data.number(*model.along)
+                             : model.steps ? model.data.number(model.measured.front().column)
+                                           : nullptr;
   if (paths && !axis) {
     root.required_table("predict").fail("along",
                                         "is missing: the column that orders a unit's rows");

@@ -18,6 +18,7 @@
 #include "wearwell/models/formula_model/formula_likelihood.h"
 #include "wearwell/models/formula_model/formula_order.h"
 #include "wearwell/models/formula_model/linear_form.h"
+#include "wearwell/models/formula_model/step_stress.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of earlier
 // ones.
@@ -104,6 +105,7 @@ class Reader {
   std::shared_ptr<FormulaModel> read() {
     read_texts();
     model_->data = read_own_data(root_, source_, label_names());
+    read_steps();
     read_modes();
     choose_units();
     read_along();
@@ -180,8 +182,10 @@ class Reader {
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
     // Not by table.has, which would mark a key that the form does not have as used.
     const std::vector<std::string> keys = table.keys();
+    const bool steps = std::find(keys.begin(), keys.end(), "steps") != keys.end();
     const auto has = [&](std::string_view name) {
-      return std::find(keys.begin(), keys.end(), name) != keys.end();
+      return std::find(keys.begin(), keys.end(), name) != keys.end() ||
+             (steps && name == "threshold" && !scale_parameter(*family).empty());
     };
     const ResponseForm* form = given_form(response_forms(), *family, has);
     const ProcessForm* process = nullptr;
@@ -201,8 +205,34 @@ class Reader {
       result.family_parameters.emplace_back(s, expression(table, name));
       texts_.push_back(result.family_parameters.back().second);
     }
+    if (steps) add_steps(table, *family, result);
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
     return result;
+  }
+
+  // The age before the last step as the threshold of a likelihood.
+  void add_steps(const TomlReader& table, const std::string& family,
+                 WrittenLikelihood& likelihood) {
+    const std::string scale = scale_parameter(family);
+    std::string text;
+    for (const auto& [at, each] : likelihood.family_parameters)
+      if (likelihood.form->family_parameters[at].name == scale) text = each;
+    model_->steps = read_step_stress(table, family, text);
+    const auto& parameters = likelihood.form->family_parameters;
+    likelihood.family_parameters.emplace_back(parameters.size() - 1, threshold_of(*model_->steps));
+  }
+
+  void read_steps() {
+    if (!model_->steps) return;
+    const WrittenLikelihood& life = written_.front();
+    const TomlReader table = root_.required_table("likelihood").required_table(life.column);
+    for (const char* other : {"failure_modes", "random_effects"})
+      if (root_.has(other)) table.fail("steps", fmt::format("is not possible with [{}]", other));
+    if (written_.size() > 1) table.fail("steps", "needs one measured column, the life");
+    if (!model_->data.label(model_->steps->label))
+      table.fail("steps", "must name the column of the specimens under data.columns");
+    if (!model_->data.number(life.column)) fail_without_column(life);
+    add_durations(*model_->steps, life.column, model_->data);
   }
 
   // Replaces the one likelihood by those of the failure modes, and the lines that depend on the mode by
@@ -390,6 +420,7 @@ class Reader {
     std::vector<std::string> names;
     for (const WrittenEffects& each : varies_) names.push_back(each.label);
     names.emplace_back("status");
+    if (model_->steps) names.push_back(model_->steps->label);
     if (const auto unit = idle_column(); unit && varies_.empty()) names.push_back(*unit);
     static const std::regex indexed(R"(([A-Za-z_]\w*)\s*\[\s*([A-Za-z_]\w*)\s*\])");
     static const std::regex compared(R"re(([A-Za-z_]\w*)\s*(==|!=)\s*")re");
@@ -747,6 +778,9 @@ class Reader {
       measured.observed = model_->modes ? std::move(observed_of_modes_[model_->measured.size()])
                                         : read_observed(model_->data, written.column, *written.form,
                                                         special, written.trials, may_lack);
+      if (model_->steps)
+        measured.observed =
+            last_steps(*model_->steps, written.column, model_->data, measured.observed);
       if (model_->modes && measured.program.has_paths())
         table.fail(
             "",

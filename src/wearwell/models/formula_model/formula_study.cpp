@@ -35,7 +35,8 @@ std::string description(const FormulaModel& model) {
   std::vector<std::string> parts;
   for (const Measured& each : model.measured) {
     std::vector<std::string> family_parameters;
-    for (std::size_t o = 0; o < each.wanted.size(); ++o) {
+    const std::size_t written = each.wanted.size() - (model.steps ? 1 : 0);
+    for (std::size_t o = 0; o < written; ++o) {
       family_parameters.push_back(
           fmt::format("{} = {}", each.form->family_parameters[each.family_parameter[o]].name,
                       each.program.text(o)));
@@ -44,6 +45,9 @@ std::string description(const FormulaModel& model) {
                                 each.mode.empty() ? "" : " by " + each.mode, each.form->name,
                                 fmt::join(family_parameters, ", ")));
   }
+  if (model.steps)
+    parts.push_back(
+        fmt::format("by cumulative exposure over the steps of each {}", model.steps->label));
   if (model.modes)
     parts.push_back(
         fmt::format("{} of a part is the earliest of these", model.measured.front().column));
@@ -160,6 +164,9 @@ std::vector<std::string> notes(const FormulaModel& model) {
           each.column));
     }
   }
+  if (model.steps)
+    all.push_back(fmt::format("steps of {} {}: the last row of each is its observation",
+                              model.units.size(), prognosis::plural(model.steps->label)));
   if (model.has_random_effects())
     all.push_back(fmt::format("{} {}", model.units.size(), prognosis::plural(*model.label)));
   for (const formula_model::DrawnEffect& each : model.drawn) {

@@ -118,8 +118,9 @@ std::shared_ptr<const LifeDistribution> life_distribution(
   for (std::size_t k = 0; k < (model->modes ? model->measured.size() : 1); ++k) {
     if (!(modes >> k & 1)) continue;
     const Measured& measured = model->measured[k];
-    risks.push_back(
-        risk_of(make_path(model, table, key, measured.wanted, false, conditions), measured));
+    std::vector<formula::Wanted> wanted = measured.wanted;
+    if (model->steps) wanted.pop_back();  // a new item has no age
+    risks.push_back(risk_of(make_path(model, table, key, wanted, false, conditions), measured));
   }
   return std::make_shared<const LifeDistribution>(std::move(risks));
 }
