@@ -7,6 +7,7 @@
 
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/models/formula_model/formula_fit_data.h"
 #include "wearwell/models/formula_model/formula_life.h"
 #include "wearwell/models/formula_model/formula_likelihood.h"
 #include "wearwell/models/formula_model/formula_reader.h"
@@ -168,6 +169,15 @@ TEST_F(StepStressTest, LivesBeginAtZero) {
   draws.weights = Eigen::VectorXd::Ones(1);
   const double expected = 3600 * 100 * std::pow(-std::log(0.9), 1 / 1.7);
   EXPECT_NEAR(life->next(draws).quantile(0.1), expected, 1e-6 * expected);
+}
+
+// Weak specimens fail at low stress; that is no misfit.
+TEST_F(StepStressTest, StressAtFailureIsNoDriver) {
+  const auto own = model(table_of_steps, with_interval);
+  const auto checked = fit_data(std::make_shared<const FormulaRows>(own, own->data.table.rows));
+  ASSERT_TRUE(checked);
+  EXPECT_TRUE(checked->drivers.empty());
+  EXPECT_TRUE(checked->labels.empty());
 }
 
 TEST_F(StepStressTest, RefusesRowsThatAreNoSteps) {

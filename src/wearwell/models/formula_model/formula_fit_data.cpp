@@ -106,11 +106,17 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
   }
 }
 
+// In which step a specimen fails is a result, not a condition: weak ones fail early.
+bool changes(const FormulaModel& model, std::span<const double> values) {
+  return model.steps && changes_between_steps(*model.steps, values, model.data);
+}
+
 // The columns that any expression depends on, if all observations have them.
 std::vector<Driver> drivers_of(const FormulaModel& model) {
   std::vector<Driver> all;
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
     const std::string& name = model.row_symbols.columns[c].name;
+    if (changes(model, model.data.number(name)->values)) continue;
     bool used = false, whole = true;
     Driver driver{name, {}};
     for (const Measured& measured : model.measured) {
@@ -130,7 +136,9 @@ std::vector<Driver> drivers_of(const FormulaModel& model) {
 std::vector<Label> labels_of(const FormulaModel& model) {
   std::vector<Label> all;
   for (const LabelColumn& column : model.data.labels) {
-    if (column.name == "status") continue;
+    if (column.name == "status" || (model.steps && model.steps->label == column.name) ||
+        changes(model, std::vector<double>(column.at.begin(), column.at.end())))
+      continue;
     Label label{column.name, {}};
     for (const Measured& measured : model.measured) {
       for (const std::size_t row : measured.observed.rows)
@@ -252,7 +260,7 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   };
   data.drivers = drivers_of(model);
   data.labels = labels_of(model);
-  data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
+  if (!model.steps) data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
   if (!model.has_process()) {
     data.measured = measured_values(model);
     data.measured.log_density = [rows](const double* x) { return log_densities(*rows, x); };

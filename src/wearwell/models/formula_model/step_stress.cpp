@@ -86,6 +86,18 @@ void add_durations(const StepStress& steps, const std::string& life, FormulaData
   data.numbers.push_back(std::move(column));
 }
 
+bool changes_between_steps(const StepStress& steps, std::span<const double> values,
+                           const FormulaData& data) {
+  const LabelColumn& label = *data.label(steps.label);
+  std::vector<double> first(label.levels.size(), std::nan(""));
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    double& of_specimen = first[static_cast<std::size_t>(label.at[row])];
+    if (std::isnan(of_specimen)) of_specimen = values[row];
+    if (values[row] != of_specimen) return true;
+  }
+  return false;
+}
+
 Observed last_steps(const StepStress& steps, const std::string& life, const FormulaData& data,
                     const Observed& all) {
   const NumberColumn& ages = *data.number(life);

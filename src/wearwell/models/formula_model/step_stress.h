@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "wearwell/input/toml_reader.h"
@@ -31,6 +32,10 @@ std::string threshold_of(const StepStress& steps);
 /// Adds the column of durations. `life` is the measured column. Throws InputError that names the row: two steps
 /// of a specimen with one end, an age that is not known.
 void add_durations(const StepStress& steps, const std::string& life, FormulaData& data);
+
+/// Whether a value of each row differs between the steps of any specimen.
+bool changes_between_steps(const StepStress& steps, std::span<const double> values,
+                           const FormulaData& data);
 
 /// Keeps the last step of each specimen, with its duration in place of its age. Throws InputError that names the
 /// row: a failure before the last step, an interval that begins before the last step.
