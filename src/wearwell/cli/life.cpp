@@ -15,6 +15,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
+#include "wearwell/cli/life_against.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/present/number.h"
@@ -38,7 +39,8 @@ using prognosis::UnitLife;
 
 struct LifeOptions {
   std::filesystem::path result, output, readings, path;
-  std::string unit, survived, horizon, risk;
+  std::filesystem::path against;
+  std::string unit, survived, horizon, risk, confidence;
   bool json = false;
 };
 
@@ -240,7 +242,22 @@ UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::
   return prognosis::unit_life(state.source, read, state.posterior, question);
 }
 
+int run_against(const LifeOptions& options, Models models) {
+  const std::pair<const char*, bool> others[] = {{"--survived", !options.survived.empty()},
+                                                 {"--readings", !options.readings.empty()},
+                                                 {"--risk", !options.risk.empty()},
+                                                 {"--output", !options.output.empty()},
+                                                 {"--path", !options.path.empty()}};
+  for (const auto& [name, given] : others)
+    if (given) throw InputError(fmt::format("{}: is not possible with --against", name));
+  return run_life_against({options.result, options.against, printable(options.unit),
+                           options.horizon, options.confidence, options.json},
+                          models);
+}
+
 int run_life(const LifeOptions& options, Models models) {
+  if (!options.against.empty()) return run_against(options, models);
+  if (!options.confidence.empty()) throw InputError("--confidence: needs --against");
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
                      {{"--output", options.output}, {"--path", options.path}});
   prognosis::LifeQuestion question;
@@ -287,6 +304,12 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
                    "Reports the probability that the end is reached within this use, from now on");
   life->add_option("--risk", options->risk,
                    "Risk tolerated until the next inspection (default: as in the study, or 1 %)");
+  life->add_option("--against", options->against,
+                   "Compare new units with those of another result: ratios of B-lives, the "
+                   "probability to outlive one of them, with --horizon the difference of survival")
+      ->type_name("RESULT");
+  life->add_option("--confidence", options->confidence,
+                   "Of the column 'at least' of --against (default: 90 %)");
   life->add_option("-o,--output", options->output, "Write the survival curve as CSV")
       ->type_name("FILE");
   life->add_option("--path", options->path,
@@ -303,7 +326,9 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell life fluid-results --horizon \"100 h\"      (does the next one fail within 100 "
       "h?)\n"
       "  wearwell life fluid-results --survived \"100 h\"     (probability of an earlier end, and "
-      "the RUL)\n\n"
+      "the RUL)\n"
+      "  wearwell life new-results --against old-results --horizon \"100 h\"     (is the new one "
+      "better?)\n\n"
       "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
       "the machine failed.");
   life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });
