@@ -1,0 +1,183 @@
+#include "wearwell/infer/maximum_likelihood.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "wearwell/math/root.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+// Curvature in units of the widths below which a direction is a plateau.
+constexpr double least_information = 1e-7;
+
+// A logarithm farther than this from every start is on its way to 0 or infinity.
+constexpr double farthest_logarithm = 40;
+
+constexpr double greatest_logarithm = 690;
+
+// A search that ends this much higher than the maximum ended elsewhere.
+constexpr double clearly_higher = 0.01;
+
+// A root nearer than this to its bracket's end, in standard errors, is none.
+constexpr double widest_root = 1e4;
+
+bool is_concave(const Maximum& summit, const Eigen::VectorXd& unit) {
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * summit.curvature * unit.asDiagonal();
+  return scaled.allFinite() &&
+         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] >
+             least_information;
+}
+
+}  // namespace
+
+// The likelihood as a function of the parameters on their scales.
+class MaximumLikelihood::OnScale final : public LogDensity {
+ public:
+  OnScale(std::shared_ptr<const LogDensity> likelihood, std::vector<NormalScale> scales)
+      : likelihood_(std::move(likelihood)), scales_(std::move(scales)) {}
+
+  int dimension() const override { return likelihood_->dimension(); }
+
+  double value(std::span<const double> z) const override {
+    const Eigen::VectorXd x = natural(z);
+    return x.allFinite() ? likelihood_->value(view(x)) : -std::numeric_limits<double>::infinity();
+  }
+
+  double value_and_gradient(std::span<const double> z, std::span<double> gradient) const override {
+    const Eigen::VectorXd x = natural(z);
+    if (!x.allFinite()) return -std::numeric_limits<double>::infinity();
+    const double value = likelihood_->value_and_gradient(view(x), gradient);
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (is_logarithm(i)) gradient[i] *= x[static_cast<Eigen::Index>(i)];
+    }
+    return value;
+  }
+
+  bool is_logarithm(std::size_t i) const { return scales_[i] == NormalScale::logarithm; }
+
+  Eigen::VectorXd natural(std::span<const double> z) const {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(z.size()));
+    for (std::size_t i = 0; i < z.size(); ++i)
+      x[static_cast<Eigen::Index>(i)] = is_logarithm(i) ? std::exp(z[i]) : z[i];
+    return x;
+  }
+
+  Eigen::VectorXd on_scale(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd z = x;
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      if (is_logarithm(static_cast<std::size_t>(i))) z[i] = std::log(x[i]);
+    }
+    return z;
+  }
+
+ private:
+  std::shared_ptr<const LogDensity> likelihood_;
+  std::vector<NormalScale> scales_;
+};
+
+MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihood,
+                                     std::vector<NormalScale> scales,
+                                     const std::vector<Eigen::VectorXd>& starts,
+                                     const Eigen::VectorXd& widths)
+    : density_(std::make_shared<const OnScale>(std::move(likelihood), std::move(scales))) {
+  const Eigen::Index n = widths.size();
+  Box box{Eigen::VectorXd::Constant(n, -std::numeric_limits<double>::infinity()),
+          Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity())};
+  Eigen::VectorXd unit = widths;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!density_->is_logarithm(static_cast<std::size_t>(i))) continue;
+    unit[i] = 1;
+    box.lower[i] = -greatest_logarithm;
+    box.upper[i] = greatest_logarithm;
+  }
+  std::optional<Maximum> best, highest;
+  for (const Eigen::VectorXd& start : starts) {
+    const Eigen::VectorXd from = density_->on_scale(start);
+    if (!from.allFinite()) continue;
+    Maximum summit = maximize(*density_, from, unit, box);
+    if (!std::isfinite(summit.value)) continue;
+    if (!highest || summit.value > highest->value) highest = summit;
+    bool near = summit.converged && summit.curvature.allFinite() && is_concave(summit, unit);
+    for (Eigen::Index i = 0; near && i < n; ++i)
+      near = !density_->is_logarithm(static_cast<std::size_t>(i)) ||
+             std::abs(summit.x[i] - from[i]) < farthest_logarithm;
+    if (near && (!best || summit.value > best->value)) best = std::move(summit);
+  }
+  if (!best) {
+    if (highest && highest->gradient.allFinite())
+      highest->gradient.cwiseProduct(unit).cwiseAbs().maxCoeff(&rising_);
+    return;
+  }
+  found_ = true;
+  higher_elsewhere_ = highest->value > best->value + clearly_higher;
+  covariance_ = best->curvature.inverse();
+  maximum_ = {best->x, best->value, covariance_.diagonal().cwiseSqrt(), std::move(box)};
+  position_ = density_->natural(view(best->x));
+}
+
+ClassicalBounds MaximumLikelihood::of_parameter(Eigen::Index i, double level) const {
+  const double z = boost::math::quantile(boost::math::normal(), 0.5 * (1 + level));
+  const double at = maximum_.position[i], error = maximum_.unit[i];
+  return {at, error, at - z * error, at + z * error,
+          profile_interval(*density_, maximum_, i, level)};
+}
+
+// Of a function of the parameters on their scales, by central differences.
+Eigen::VectorXd MaximumLikelihood::gradient(const Quantity& at_scale) const {
+  Eigen::VectorXd slopes(maximum_.position.size()), z = maximum_.position;
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    const double middle = z[i], step = 1e-3 * maximum_.unit[i];
+    const auto at = [&](double by) {
+      z[i] = middle + by;
+      return at_scale(z.data());
+    };
+    // Of fourth order.
+    slopes[i] = (8 * (at(step) - at(-step)) - (at(2 * step) - at(-2 * step))) / (12 * step);
+    z[i] = middle;
+  }
+  return slopes;
+}
+
+ClassicalBounds MaximumLikelihood::of(const Quantity& quantity, double level) const {
+  const auto n = static_cast<std::size_t>(maximum_.position.size());
+  const Quantity at_scale = [&](const double* z) {
+    const Eigen::VectorXd x = density_->natural({z, n});
+    return quantity(x.data());
+  };
+  ClassicalBounds bounds;
+  bounds.estimate = at_scale(maximum_.position.data());
+  const Eigen::VectorXd slopes = gradient(at_scale);
+  bounds.error = std::sqrt(slopes.dot(covariance_ * slopes));
+  const double deviate = boost::math::quantile(boost::math::normal(), 0.5 * (1 + level));
+  bounds.lower = bounds.estimate - deviate * bounds.error;
+  bounds.upper = bounds.estimate + deviate * bounds.error;
+  // The parameter that moves the quantity most is solved for.
+  Eigen::Index solved = 0;
+  slopes.cwiseProduct(maximum_.unit).cwiseAbs().maxCoeff(&solved);
+  const double sign = slopes[solved] < 0 ? -1 : 1, unit = maximum_.unit[solved];
+  const double middle = maximum_.position[solved];
+  const double low = std::max(middle - widest_root * unit, maximum_.box.lower[solved]);
+  const double high = std::min(middle + widest_root * unit, maximum_.box.upper[solved]);
+  ProfiledQuantity profiled{solved, at_scale, {}};
+  profiled.solve = [&, z = Eigen::VectorXd(maximum_.position)](const double* others,
+                                                               double value) mutable {
+    std::copy_n(others, n, z.data());
+    const double root = solve_increasing(
+        [&](double own) {
+          z[solved] = own;
+          return sign * (at_scale(z.data()) - value);
+        },
+        middle, 0.1 * unit, {.absolute = 1e-14 * unit, .relative = 1e-15}, low, high);
+    return root > low && root < high ? root : std::nan("");
+  };
+  bounds.likelihood_ratio = profile_interval(*density_, maximum_, profiled, level);
+  return bounds;
+}
+
+}  // namespace wearwell

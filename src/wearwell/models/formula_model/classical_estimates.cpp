@@ -1,0 +1,289 @@
+#include "wearwell/models/formula_model/classical_estimates.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "wearwell/models/formula_model/formula_asked.h"
+#include "wearwell/prob/standard_distribution.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr Eigen::Index classical_starts = 8;
+
+// Items with a rank each; a rank costs a quantile of a beta distribution.
+constexpr double most_ranked = 20000;
+
+std::string without_level(const std::string& name) {
+  return name.substr(0, name.find('['));
+}
+
+// The scale of a parameter: that of its place in the family, or by the support of its prior.
+NormalScale scale_of(const FormulaModel& model, const Parameter& parameter) {
+  for (const Measured& measured : model.measured) {
+    for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
+      if (without_level(measured.wanted[o].text) != without_level(parameter.name)) continue;
+      const ParameterForm& place = measured.form->family_parameters[measured.family_parameter[o]];
+      const bool positive =
+          place.kind == ParameterKind::scale || place.kind == ParameterKind::number;
+      return positive && place.name != "threshold" ? NormalScale::logarithm : NormalScale::natural;
+    }
+  }
+  return parameter.prior.lower >= 0 ? NormalScale::logarithm : NormalScale::natural;
+}
+
+MaximumLikelihood maximum_of(const AskedOfClassics& asked, const std::vector<NormalScale>& scales,
+                             const Fit& fit) {
+  const Points& draws = fit.pooled.values;
+  const auto n = static_cast<Eigen::Index>(scales.size());
+  std::vector<Eigen::VectorXd> starts(1, Eigen::VectorXd(n));
+  Eigen::VectorXd widths(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Parameter& parameter = asked.model->parameters[static_cast<std::size_t>(i)];
+    starts[0][i] = parameter.start;
+    const Eigen::ArrayXd own = draws.col(i).array();
+    const double sd = std::sqrt((own - own.mean()).square().mean());
+    widths[i] = sd > 0 && std::isfinite(sd) ? sd : parameter.scale;
+  }
+  for (Eigen::Index i = 0; i < classical_starts; ++i)
+    starts.push_back(draws.row((2 * i + 1) * draws.rows() / (2 * classical_starts)));
+  return {asked.likelihood, scales, starts, widths};
+}
+
+// A quantity on the scale of its normal approximation, and back to SI.
+struct Scaled {
+  std::string name, of, at;
+  Unit unit;
+  std::string scale;
+  std::function<MaximumLikelihood::Quantity()> make;  // one for each thread
+  std::function<double(double)> si;
+  bool increasing = true;
+};
+
+double same(double y) {
+  return y;
+}
+double exponential(double y) {
+  return std::exp(y);
+}
+
+Scaled life_quantity(const ClassicalLife& own, const std::string& name, const Measured& measured,
+                     double (*value)(const LifeAtPoint&, double), double argument) {
+  const bool positive = measured.form->positive;
+  return {name,
+          own.of,
+          own.at,
+          measured.unit,
+          positive ? "log" : "natural",
+          [life = own.life, value, argument, positive]() -> MaximumLikelihood::Quantity {
+            return [at = std::make_shared<LifeAtPoint>(life->at_point()), life, value, argument,
+                    positive](const double* x) {
+              at->move_to(x);
+              const double found = value(*at, argument);
+              return positive ? std::log(found) : found;
+            };
+          },
+          positive ? exponential : same};
+}
+
+// The share that survives, on the axis of the family's probability paper: there the bounds of
+// survival and those of life are the same lines for a location-scale family.
+Scaled survival_quantity(const ClassicalLife& own, const Quantity& life, const Measured& measured) {
+  const bool several = own.life->is_earliest_of_several();
+  const StandardDistribution paper =
+      several ? StandardDistribution::smallest_extreme_value : measured.form->paper.distribution;
+  return {"survival to " + description(life),
+          own.of,
+          own.at,
+          Unit{"%", 0.01, 0},
+          several ? "Weibull paper" : fmt::format("{} paper", measured.form->paper.name),
+          [distribution = own.life, at_life = life.si(), paper]() -> MaximumLikelihood::Quantity {
+            return [at = std::make_shared<LifeAtPoint>(distribution->at_point()), distribution,
+                    at_life, paper](const double* x) {
+              at->move_to(x);
+              const double log_left = at->log_survival(at_life);
+              if (paper == StandardDistribution::smallest_extreme_value) return std::log(-log_left);
+              const double failed = at->cdf(at_life);
+              return failed < 0.5 ? quantile(paper, failed)
+                                  : upper_quantile(paper, std::exp(log_left));
+            };
+          },
+          [paper](double z) { return std::exp(log_survival_and_slope(paper, z).value); },
+          false};
+}
+
+std::vector<Scaled> scaled_quantities(const AskedOfClassics& asked) {
+  const Measured& measured = asked.model->measured.front();
+  std::vector<Scaled> all;
+  for (const ClassicalLife& own : asked.lives) {
+    for (const double percent : asked.percents) {
+      all.push_back(life_quantity(
+          own, b_life_name(percent), measured,
+          [](const LifeAtPoint& at, double p) { return at.quantile(p); }, percent / 100));
+    }
+    if (asked.mean)
+      all.push_back(life_quantity(
+          own, "mean life", measured,
+          [](const LifeAtPoint& at, double from) { return at.mean_beyond(from); }, 0));
+    for (const Quantity& each : asked.survival)
+      all.push_back(survival_quantity(own, each, measured));
+  }
+  return all;
+}
+
+// In the unit of the report.
+ClassicalEstimate reported(const Scaled& quantity, const ClassicalBounds& bounds) {
+  const auto shown = [&](double y) { return from_si(quantity.unit, quantity.si(y)); };
+  const double by = 1e-4 * bounds.error;
+  const auto end = [&](const ProfileEnd& open) {
+    return open.open.empty() ? ProfileEnd{shown(open.value), ""} : open;
+  };
+  ClassicalEstimate estimate{
+      quantity.name,
+      quantity.of,
+      quantity.at,
+      quantity.unit.text,
+      shown(bounds.estimate),
+      std::abs(shown(bounds.estimate + by) - shown(bounds.estimate - by)) / (2 * by) * bounds.error,
+      quantity.scale,
+      shown(bounds.lower),
+      shown(bounds.upper),
+      end(bounds.likelihood_ratio.lower),
+      end(bounds.likelihood_ratio.upper)};
+  if (quantity.increasing) return estimate;
+  std::swap(estimate.lower, estimate.upper);
+  std::swap(estimate.ratio_lower, estimate.ratio_upper);
+  return estimate;
+}
+
+void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstimates& result) {
+  const FormulaModel& model = *asked.model;
+  std::vector<NormalScale> scales;
+  for (const Parameter& each : model.parameters) scales.push_back(scale_of(model, each));
+  const MaximumLikelihood maximum = maximum_of(asked, scales, fit);
+  if (!maximum.found()) {
+    result.problem = fmt::format(
+        "the likelihood has no maximum: it still rises along {}; too few failures differ",
+        model.parameters[static_cast<std::size_t>(maximum.rising())].name);
+    return;
+  }
+  if (maximum.higher_elsewhere())
+    result.notes.push_back(
+        "The likelihood has no bound elsewhere (a threshold near the first life); the estimate is "
+        "its local maximum.");
+  result.position = maximum.position();
+  result.log_likelihood = maximum.log_likelihood();
+  const double level = asked.level.within();
+  const std::vector<Scaled> quantities = scaled_quantities(asked);
+  const std::size_t parameters = scales.size();
+  std::vector<ClassicalEstimate> found(parameters + quantities.size());
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    if (i >= parameters) {
+      const Scaled& quantity = quantities[i - parameters];
+      found[i] = reported(quantity, maximum.of(quantity.make(), level));
+      return;
+    }
+    const bool logarithm = scales[i] == NormalScale::logarithm;
+    const Parameter& parameter = model.parameters[i];
+    const Scaled own{parameter.name,
+                     "",
+                     "",
+                     parameter.unit,
+                     logarithm ? "log" : "natural",
+                     {},
+                     logarithm ? exponential : same};
+    found[i] = reported(own, maximum.of_parameter(static_cast<Eigen::Index>(i), level));
+  });
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(parameters);
+  result.parameters.assign(found.begin(), middle);
+  result.quantities.assign(middle, found.end());
+}
+
+ClassicalGroup classical_group(const AskedOfClassics& asked, const LifeGroup& group) {
+  ClassicalGroup found{
+      group.conditions.words, survival_estimate(group.responses, group.counts), 0, {}, group.life};
+  bool plain = true;
+  double items = 0;
+  for (std::size_t i = 0; i < group.responses.size(); ++i) {
+    const Response& y = group.responses[i];
+    found.longest = std::max(found.longest, y.seen == Censoring::interval ? y.until : y.at);
+    plain = plain && (y.seen == Censoring::none || y.seen == Censoring::right) &&
+            !(y.entry > -infinity);
+    items += group.counts[i];
+  }
+  const ResponseForm& form = *asked.model->measured.front().form;
+  if (!plain || items > most_ranked || !form.paper.straight) return found;
+  for (const MedianRanks ranks : {MedianRanks::exact, MedianRanks::benard}) {
+    const auto fit = rank_regression(ranked_failures(group.responses, group.counts, ranks),
+                                     form.paper.distribution, form.positive);
+    if (!fit) return found;
+    const auto family_parameters = family_parameters_of(form.family, *fit);
+    if (!family_parameters) return found;
+    found.lines.push_back({ranks, *fit, *family_parameters, {}});
+    for (const double percent : asked.percents)
+      found.lines.back().b_lives.push_back(
+          quantile(form.family, percent / 100, family_parameters->data()));
+  }
+  return found;
+}
+
+// Why conditions have no line or no steps.
+void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
+  if (asked.groups.empty()) return;
+  const ResponseForm& form = *asked.model->measured.front().form;
+  const RankRegression any{0, 1, 1};
+  const bool has_line = form.paper.straight && family_parameters_of(form.family, any).has_value();
+  bool no_line = false, no_steps = false, early_end = false;
+  for (const ClassicalGroup& each : result.groups) {
+    const std::vector<SurvivalStep>& steps = each.survival.steps;
+    no_line |= each.lines.empty();
+    no_steps |= each.survival.method == SurvivalMethod::none;
+    early_end |= !steps.empty() && each.survival.method == SurvivalMethod::kaplan_meier &&
+                 std::any_of(steps.begin(), steps.end() - 1,
+                             [](const SurvivalStep& step) { return step.survival <= 0; });
+  }
+  if (!has_line)
+    result.notes.push_back(
+        "Rank regression needs a family of two parameters that is a straight line on its "
+        "probability paper: weibull, lognormal, loglogistic, log10-normal, normal or an "
+        "extreme-value family, without a threshold.");
+  else if (no_line)
+    result.notes.push_back(fmt::format(
+        "Rank regression needs at least two failures that differ, of exact lives and run-outs "
+        "without delayed entries, up to {} items: other conditions have none.",
+        most_ranked));
+  if (no_steps)
+    result.notes.push_back(
+        "Delayed entries and intervals together have no nonparametric estimate here.");
+  if (early_end)
+    result.notes.push_back(
+        "A Kaplan-Meier estimate is 0 from a life on at which every item then under observation "
+        "failed, although others, with later entries, lived longer.");
+}
+
+}  // namespace
+
+ClassicalEstimates classical_estimates(const AskedOfClassics& asked, const Fit& fit) {
+  ClassicalEstimates result;
+  result.notes = asked.notes;
+  double failures = 0;
+  for (const Measured& each : asked.model->measured)
+    failures += static_cast<double>(each.observed.failures);
+  if (asked.model->modes) failures = static_cast<double>(asked.model->lives.failures);
+  if (failures > 0) {
+    add_estimates(asked, fit, result);
+  } else {
+    result.problem =
+        "no failure was observed, so the likelihood has no maximum; with a given shape a lower "
+        "bound exists (Weibayes)";
+  }
+  for (const LifeGroup& each : asked.groups) result.groups.push_back(classical_group(asked, each));
+  add_notes(asked, result);
+  return result;
+}
+
+}  // namespace wearwell::formula_model
