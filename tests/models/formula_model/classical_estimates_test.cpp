@@ -193,6 +193,27 @@ TEST_F(ClassicalEstimatesTest, PriorsHaveNoPart) {
   }
 }
 
+// At any level, of parameters and quantities: 5 and 95 % are those of the other tables.
+TEST_F(ClassicalEstimatesTest, PosteriorBoundsAreItsQuantiles) {
+  write("d.csv", "life\n31\n54\n70\n82\n90\n");
+  const PosteriorSummary result = run(study("life = { column = \"life\", unit = \"h\" }\n", weibull,
+                                            vague, two_sided + "survival_to = \"40 h\"\n"));
+  const Json& ml = result.added.body.at("classical").at("maximum_likelihood");
+  const ExactSummary eta = result.parameters.front().best();
+  const Json& bounds = named(ml.at("parameters"), "eta").at("posterior");
+  EXPECT_NEAR(bounds.at("lower").get<double>(), eta.q05, 1e-9 * eta.q05);
+  EXPECT_NEAR(bounds.at("upper").get<double>(), eta.q95, 1e-9 * eta.q95);
+  int seen = 0;
+  for (const QuantitySummary& each : result.quantities) {
+    if (each.name != "B10 life" && each.name != "survival to 40 h") continue;
+    const Json& own = named(ml.at("quantities"), each.name).at("posterior");
+    EXPECT_NEAR(own.at("lower").get<double>(), each.best().q05, 1e-9 * each.best().q05);
+    EXPECT_NEAR(own.at("upper").get<double>(), each.best().q95, 1e-9 * each.best().q95);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 2);
+}
+
 // One-sided bounds of a level are the two-sided ones of 2 level - 1.
 TEST_F(ClassicalEstimatesTest, SidesAndLevelsAgree) {
   write("d.csv", "life\n31\n54\n70\n82\n90\n");

@@ -15,6 +15,9 @@ namespace {
 
 constexpr Eigen::Index classical_starts = 8;
 
+// Longer lists of steps are thinned; more are not distinct in a plot or table.
+constexpr std::size_t most_steps_listed = 10000;
+
 // Items with a rank each; a rank costs a quantile of a beta distribution.
 constexpr double most_ranked = 20000;
 
@@ -61,8 +64,12 @@ struct Scaled {
   std::string scale;
   std::function<MaximumLikelihood::Quantity()> make;  // one for each thread
   std::function<double(double)> si;
+  std::function<QuantityDistribution(const WeightedDraws&)> posterior;  // SI
   bool increasing = true;
 };
+
+using LifeValue = LifeDistribution::Known (*)(const LifeDistribution&, const WeightedDraws&,
+                                              double);
 
 double same(double y) {
   return y;
@@ -72,7 +79,8 @@ double exponential(double y) {
 }
 
 Scaled life_quantity(const ClassicalLife& own, const std::string& name, const Measured& measured,
-                     double (*value)(const LifeAtPoint&, double), double argument) {
+                     double (*value)(const LifeAtPoint&, double), LifeValue posterior,
+                     double argument) {
   const bool positive = measured.form->positive;
   return {name,
           own.of,
@@ -87,7 +95,10 @@ Scaled life_quantity(const ClassicalLife& own, const std::string& name, const Me
               return positive ? std::log(found) : found;
             };
           },
-          positive ? exponential : same};
+          positive ? exponential : same,
+          [life = own.life, posterior, argument](const WeightedDraws& draws) {
+            return posterior(*life, draws, argument).distribution;
+          }};
 }
 
 // The share that survives, on the axis of the family's probability paper: there the bounds of
@@ -113,6 +124,9 @@ Scaled survival_quantity(const ClassicalLife& own, const Quantity& life, const M
             };
           },
           [paper](double z) { return std::exp(log_survival_and_slope(paper, z).value); },
+          [distribution = own.life, at_life = life.si()](const WeightedDraws& draws) {
+            return distribution->survival(draws, at_life).distribution;
+          },
           false};
 }
 
@@ -123,12 +137,20 @@ std::vector<Scaled> scaled_quantities(const AskedOfClassics& asked) {
     for (const double percent : asked.percents) {
       all.push_back(life_quantity(
           own, b_life_name(percent), measured,
-          [](const LifeAtPoint& at, double p) { return at.quantile(p); }, percent / 100));
+          [](const LifeAtPoint& at, double p) { return at.quantile(p); },
+          [](const LifeDistribution& life, const WeightedDraws& draws, double p) {
+            return life.quantile(draws, p);
+          },
+          percent / 100));
     }
     if (asked.mean)
       all.push_back(life_quantity(
           own, "mean life", measured,
-          [](const LifeAtPoint& at, double from) { return at.mean_beyond(from); }, 0));
+          [](const LifeAtPoint& at, double from) { return at.mean_beyond(from); },
+          [](const LifeDistribution& life, const WeightedDraws& draws, double from) {
+            return life.mean_beyond(draws, from);
+          },
+          0));
     for (const Quantity& each : asked.survival)
       all.push_back(survival_quantity(own, each, measured));
   }
@@ -160,6 +182,21 @@ ClassicalEstimate reported(const Scaled& quantity, const ClassicalBounds& bounds
   return estimate;
 }
 
+// A parameter, and the bounds of its posterior.
+Scaled scaled_parameter(const Parameter& parameter, std::size_t i, NormalScale scale) {
+  const bool logarithm = scale == NormalScale::logarithm;
+  return {parameter.name,
+          "",
+          "",
+          parameter.unit,
+          logarithm ? "log" : "natural",
+          {},
+          logarithm ? exponential : same,
+          [i](const WeightedDraws& draws) {
+            return QuantityDistribution(draws, [i](const double* x) { return x[i]; });
+          }};
+}
+
 void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstimates& result) {
   const FormulaModel& model = *asked.model;
   std::vector<NormalScale> scales;
@@ -177,35 +214,40 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
         "its local maximum.");
   result.position = maximum.position();
   result.log_likelihood = maximum.log_likelihood();
+  std::vector<Scaled> all;
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    all.push_back(scaled_parameter(model.parameters[i], i, scales[i]));
+  for (Scaled& each : scaled_quantities(asked)) all.push_back(std::move(each));
+  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
   const double level = asked.level.within();
-  const std::vector<Scaled> quantities = scaled_quantities(asked);
-  const std::size_t parameters = scales.size();
-  std::vector<ClassicalEstimate> found(parameters + quantities.size());
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-    if (i >= parameters) {
-      const Scaled& quantity = quantities[i - parameters];
-      found[i] = reported(quantity, maximum.of(quantity.make(), level));
-      return;
-    }
-    const bool logarithm = scales[i] == NormalScale::logarithm;
-    const Parameter& parameter = model.parameters[i];
-    const Scaled own{parameter.name,
-                     "",
-                     "",
-                     parameter.unit,
-                     logarithm ? "log" : "natural",
-                     {},
-                     logarithm ? exponential : same};
-    found[i] = reported(own, maximum.of_parameter(static_cast<Eigen::Index>(i), level));
+  std::vector<ClassicalEstimate> found(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    found[i] = reported(all[i], i < scales.size()
+                                    ? maximum.of_parameter(static_cast<Eigen::Index>(i), level)
+                                    : maximum.of(all[i].make(), level));
+    const QuantityDistribution posterior = all[i].posterior(draws);
+    found[i].posterior_lower = from_si(all[i].unit, posterior.quantile(asked.level.outside()));
+    found[i].posterior_upper = from_si(all[i].unit, posterior.quantile(1 - asked.level.outside()));
   });
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(parameters);
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(scales.size());
   result.parameters.assign(found.begin(), middle);
   result.quantities.assign(middle, found.end());
+}
+
+// Keeps evenly chosen steps, the first and the last among them.
+void thin(std::vector<SurvivalStep>& steps) {
+  if (steps.size() <= most_steps_listed) return;
+  std::vector<SurvivalStep> kept;
+  const double apart = static_cast<double>(steps.size() - 1) / (most_steps_listed - 1);
+  for (std::size_t i = 0; i < most_steps_listed; ++i)
+    kept.push_back(steps[static_cast<std::size_t>(std::lround(apart * static_cast<double>(i)))]);
+  steps = std::move(kept);
 }
 
 ClassicalGroup classical_group(const AskedOfClassics& asked, const LifeGroup& group) {
   ClassicalGroup found{
       group.conditions.words, survival_estimate(group.responses, group.counts), 0, {}, group.life};
+  thin(found.survival.steps);
   bool plain = true;
   double items = 0;
   for (std::size_t i = 0; i < group.responses.size(); ++i) {
@@ -237,11 +279,12 @@ void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
   const ResponseForm& form = *asked.model->measured.front().form;
   const RankRegression any{0, 1, 1};
   const bool has_line = form.paper.straight && family_parameters_of(form.family, any).has_value();
-  bool no_line = false, no_steps = false, early_end = false;
+  bool no_line = false, no_steps = false, early_end = false, thinned = false;
   for (const ClassicalGroup& each : result.groups) {
     const std::vector<SurvivalStep>& steps = each.survival.steps;
     no_line |= each.lines.empty();
     no_steps |= each.survival.method == SurvivalMethod::none;
+    thinned |= steps.size() == most_steps_listed;
     early_end |= !steps.empty() && each.survival.method == SurvivalMethod::kaplan_meier &&
                  std::any_of(steps.begin(), steps.end() - 1,
                              [](const SurvivalStep& step) { return step.survival <= 0; });
@@ -259,6 +302,10 @@ void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
   if (no_steps)
     result.notes.push_back(
         "Delayed entries and intervals together have no nonparametric estimate here.");
+  if (thinned)
+    result.notes.push_back(fmt::format(
+        "Of more than {} steps of a nonparametric estimate {} are listed, evenly chosen.",
+        most_steps_listed, most_steps_listed));
   if (early_end)
     result.notes.push_back(
         "A Kaplan-Meier estimate is 0 from a life on at which every item then under observation "

@@ -22,6 +22,8 @@ struct ClassicalLevel {
 
   /// The probability between a lower and an upper bound.
   double within() const { return two_sided ? level : 2 * level - 1; }
+  /// The probability below a lower bound, and that above an upper one.
+  double outside() const { return 0.5 * (1 - within()); }
   /// The number of standard errors of a normal bound.
   double deviate() const { return quantile(StandardDistribution::normal, 0.5 * (1 + within())); }
 };
@@ -51,7 +53,8 @@ struct ClassicalEstimate {
   double value = 0, standard_error = 0;
   std::string scale;  ///< of the normal approximation: "log", "natural", "Weibull paper"
   double lower = 0, upper = 0;
-  ProfileEnd ratio_lower, ratio_upper;  ///< likelihood ratio
+  ProfileEnd ratio_lower, ratio_upper;              ///< likelihood ratio
+  double posterior_lower = 0, posterior_upper = 0;  ///< quantiles of the posterior
 };
 
 /// Observations under one condition.

@@ -64,13 +64,16 @@ present::Table estimate_table(const AskedOfClassics& asked, const ClassicalEstim
                         {"Normal, lower"},
                         {"Normal, upper"},
                         {"Likelihood ratio, lower"},
-                        {"Likelihood ratio, upper"}}};
+                        {"Likelihood ratio, upper"},
+                        {"Posterior, lower"},
+                        {"Posterior, upper"}}};
   const auto end = [](const ProfileEnd& each) -> Cell {
     return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
   };
   each_estimate(found, [&](const ClassicalEstimate& each) {
     table.rows.push_back({full_name(each), each.unit, each.value, each.standard_error, each.scale,
-                          each.lower, each.upper, end(each.ratio_lower), end(each.ratio_upper)});
+                          each.lower, each.upper, end(each.ratio_lower), end(each.ratio_upper),
+                          each.posterior_lower, each.posterior_upper});
   });
   return table;
 }
@@ -139,7 +142,8 @@ std::vector<std::string> explanations(const ClassicalEstimates& found, bool has_
     all.push_back(
         "Maximum likelihood uses the data alone, not the priors. Normal bounds (Fisher, Wald) hold "
         "on the scale that is named; likelihood-ratio bounds do not depend on a scale. Both rest "
-        "on large samples: with few failures they are too narrow.");
+        "on large samples: with few failures they are too narrow. The posterior has its quantiles "
+        "at the same level.");
   }
   if (has_steps)
     all.push_back(
@@ -149,17 +153,25 @@ std::vector<std::string> explanations(const ClassicalEstimates& found, bool has_
   return all;
 }
 
-std::string estimate_text(const ClassicalEstimates& found) {
-  if (!found.problem.empty()) return "";
-  std::vector<std::vector<std::string>> rows = {{"", "estimate", "standard error", "normal, lower",
-                                                 "upper", "likelihood ratio, lower", "upper"}};
+// "68.9 to 97.3"; "open" for an end that does not close.
+std::string ends_text(const ProfileEnd& lower, const ProfileEnd& upper) {
+  if (lower.open.empty() && upper.open.empty()) return plain_range(lower.value, upper.value);
   const auto end = [](const ProfileEnd& each) {
     return each.open.empty() ? plain_number(each.value) : std::string("open");
   };
+  return end(lower) + " to " + end(upper);
+}
+
+std::string estimate_text(const ClassicalEstimates& found) {
+  if (!found.problem.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"", "estimate", "standard error", "normal", "likelihood ratio", "posterior"}};
   each_estimate(found, [&](const ClassicalEstimate& each) {
-    rows.push_back({printable_heading(full_name(each), each.unit), plain_number(each.value),
-                    plain_number(each.standard_error), plain_number(each.lower),
-                    plain_number(each.upper), end(each.ratio_lower), end(each.ratio_upper)});
+    rows.push_back({printable_heading(numbers_text(full_name(each), Script::terminal), each.unit),
+                    plain_number(each.value), plain_number(each.standard_error),
+                    plain_range(each.lower, each.upper),
+                    ends_text(each.ratio_lower, each.ratio_upper),
+                    plain_range(each.posterior_lower, each.posterior_upper)});
   });
   return text_table(rows);
 }
@@ -209,7 +221,8 @@ Json estimate_json(const ClassicalEstimate& each) {
                {"standard_error", each.standard_error},
                {"normal_scale", each.scale},
                {"normal", {{"lower", each.lower}, {"upper", each.upper}}},
-               {"likelihood_ratio", end_json(each.ratio_lower, each.ratio_upper)}});
+               {"likelihood_ratio", end_json(each.ratio_lower, each.ratio_upper)},
+               {"posterior", {{"lower", each.posterior_lower}, {"upper", each.posterior_upper}}}});
   return json;
 }
 
