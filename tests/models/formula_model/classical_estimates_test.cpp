@@ -239,7 +239,7 @@ TEST_F(ClassicalEstimatesTest, OneFailureOfAnExponentialDistribution) {
   write("d.csv", "life,status\n40,failure\n100,runout\n100,runout\n");
   const Json found = classical(
       study("life = { column = \"life\", unit = \"h\" }\nstatus = \"status\"\n",
-            "family = \"exponential\"\nscale = \"m\"\n",
+            "family = \"exponential\"\nmean = \"m\"\n",
             "m = { distribution = \"lognormal\", median = \"100 h\", log_sd = 2 }\n", two_sided));
   const Json& m = named(found.at("maximum_likelihood").at("parameters"), "m");
   EXPECT_NEAR(m.at("value").get<double>(), 240, 1e-5);
@@ -274,7 +274,7 @@ TEST_F(ClassicalEstimatesTest, LateEntriesCount) {
   write("d.csv", "life,since\n40,10\n60,20\n90,0\n");
   const Json found = classical(study(
       "life = { column = \"life\", unit = \"h\" }\nentry = { column = \"since\", unit = \"h\" }\n",
-      "family = \"exponential\"\nscale = \"m\"\n",
+      "family = \"exponential\"\nmean = \"m\"\n",
       "m = { distribution = \"lognormal\", median = \"100 h\", log_sd = 2 }\n", two_sided));
   EXPECT_NEAR(named(found.at("maximum_likelihood").at("parameters"), "m").at("value").get<double>(),
               160.0 / 3, 1e-5);
@@ -392,7 +392,7 @@ TEST_F(ClassicalEstimatesTest, RandomEffectsAndCountsAreRefused) {
 
 // ---- Weibayes: a given shape.
 
-// With r failures and a flat prior of the failure rate eta^-shape the lower bound is the classical one: (2 sum(t^shape)/chi-square(2r + 2))^(1/shape)
+// With r failures and a nearly flat prior of the failure rate eta^-shape the lower bound is the classical one: (2 sum(t^shape)/chi-square(2r + 2))^(1/shape)
 // (Abernethy 2006, ch. 6).
 TEST_F(ClassicalEstimatesTest, WeibayesIsThePosteriorOfAFlatRate) {
   const std::string columns = "life = { column = \"life\", unit = \"h\" }\nstatus = \"status\"\n";
@@ -409,7 +409,7 @@ TEST_F(ClassicalEstimatesTest, WeibayesIsThePosteriorOfAFlatRate) {
         "model = \"formula\"\n[data]\nfile = \"d.csv\"\n[data.columns]\n" + columns +
         "[constants]\nunit_life = \"1000 h\"\n[formula]\neta = \"unit_life * rate^(-1/2.5)\"\n"
         "[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta\"\nshape = 2.5\n[prior]\nrate = { "
-        "distribution = \"flat\", lower = 0 }\n[predict]\nb_lives = [10]\ncredible_level = 0.9\n"
+        "distribution = \"exponential\", mean = 1e4 }\n[predict]\nb_lives = [10]\ncredible_level = 0.9\n"
         "quantities = { eta = \"eta\" }\n");
     const double chi2 = boost::math::quantile(boost::math::chi_squared(2 * failures + 2), 0.9);
     const double eta = std::pow(2 * sum / chi2, 1 / 2.5);

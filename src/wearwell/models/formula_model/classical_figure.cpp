@@ -30,7 +30,7 @@ Stairs stairs_of(const ClassicalGroup& group, const Unit& unit, double deviate) 
     stairs.x.push_back(at);
     stairs.y.push_back(survival);
   };
-  if (!steps.empty()) corner(std::min(0.0, from_si(unit, steps.front().at)), before);
+  corner(steps.empty() ? 0 : std::min(0.0, from_si(unit, steps.front().at)), before);
   SurvivalBand band{std::nan(""), std::nan("")};
   const auto band_corner = [&](double at) {
     if (std::isnan(band.lower)) return;
@@ -49,7 +49,7 @@ Stairs stairs_of(const ClassicalGroup& group, const Unit& unit, double deviate) 
     band_corner(at);
   }
   const double last = from_si(unit, group.longest);
-  if (!stairs.x.empty() && last > stairs.x.back()) {
+  if (last > stairs.x.back()) {
     corner(last, before);
     band_corner(last);
   }
@@ -80,7 +80,7 @@ html::Figure survival_figure(const AskedOfClassics& asked, const ClassicalEstima
     LifeAtPoint life = group.life->at_point();
     life.move_to(found.position.data());
     Numbers x, y;
-    const double begin = std::min(0.0, stairs.x.empty() ? 0.0 : stairs.x.front());
+    const double begin = stairs.x.front();
     for (std::size_t i = 0; i < points_of_line; ++i) {
       x.push_back(std::lerp(begin, longest, static_cast<double>(i) / (points_of_line - 1)));
       const double at = to_si(unit, x.back());

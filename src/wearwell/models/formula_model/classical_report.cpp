@@ -27,8 +27,9 @@ std::string confidence_text(const ClassicalLevel& level) {
                          : "one-sided bounds with " + percent + " confidence each";
 }
 
-std::string full_name(const ClassicalEstimate& each) {
-  return joined(each.name + (each.of.empty() ? "" : " of " + each.of), each.at);
+std::string full_name(const AskedOfClassics& asked, const ClassicalEstimate& each) {
+  const bool alone = each.of.empty() || asked.lives.size() == 1;
+  return joined(each.name + (alone ? "" : " of " + each.of), each.at);
 }
 
 const char* name_of(MedianRanks ranks) {
@@ -71,9 +72,9 @@ present::Table estimate_table(const AskedOfClassics& asked, const ClassicalEstim
     return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
   };
   each_estimate(found, [&](const ClassicalEstimate& each) {
-    table.rows.push_back({full_name(each), each.unit, each.value, each.standard_error, each.scale,
-                          each.lower, each.upper, end(each.ratio_lower), end(each.ratio_upper),
-                          each.posterior_lower, each.posterior_upper});
+    table.rows.push_back({full_name(asked, each), each.unit, each.value, each.standard_error,
+                          each.scale, each.lower, each.upper, end(each.ratio_lower),
+                          end(each.ratio_upper), each.posterior_lower, each.posterior_upper});
   });
   return table;
 }
@@ -162,32 +163,35 @@ std::string ends_text(const ProfileEnd& lower, const ProfileEnd& upper) {
   return end(lower) + " to " + end(upper);
 }
 
-std::string estimate_text(const ClassicalEstimates& found) {
+std::string estimate_text(const AskedOfClassics& asked, const ClassicalEstimates& found) {
   if (!found.problem.empty()) return "";
   std::vector<std::vector<std::string>> rows = {
       {"", "estimate", "standard error", "normal", "likelihood ratio", "posterior"}};
   each_estimate(found, [&](const ClassicalEstimate& each) {
-    rows.push_back({printable_heading(numbers_text(full_name(each), Script::terminal), each.unit),
-                    plain_number(each.value), plain_number(each.standard_error),
-                    plain_range(each.lower, each.upper),
-                    ends_text(each.ratio_lower, each.ratio_upper),
-                    plain_range(each.posterior_lower, each.posterior_upper)});
+    rows.push_back(
+        {printable_heading(numbers_text(full_name(asked, each), Script::terminal), each.unit),
+         plain_number(each.value), plain_number(each.standard_error),
+         plain_range(each.lower, each.upper), ends_text(each.ratio_lower, each.ratio_upper),
+         plain_range(each.posterior_lower, each.posterior_upper)});
   });
   return text_table(rows);
 }
 
+// Condition and method together, and r^2 without r: a terminal is narrow.
 std::string line_text(const present::Table& table) {
   if (table.rows.empty()) return "";
-  std::vector<std::vector<std::string>> rows(1);
-  for (std::size_t c = 0; c < table.columns.size(); ++c)
-    rows[0].push_back(c == 0 ? ""
-                             : printable_heading(table.columns[c].name, table.columns[c].unit));
+  std::vector<std::vector<std::string>> rows = {{""}};
+  const std::size_t r = table.columns.size() - 2;
+  for (std::size_t c = 2; c < table.columns.size(); ++c) {
+    if (c != r) rows[0].push_back(printable_heading(table.columns[c].name, table.columns[c].unit));
+  }
   for (const std::vector<Cell>& row : table.rows) {
-    rows.emplace_back();
-    for (const Cell& cell : row)
-      rows.back().push_back(std::holds_alternative<double>(cell)
-                                ? plain_number(std::get<double>(cell))
-                                : std::get<std::string>(cell));
+    const std::string& condition = std::get<std::string>(row[0]);
+    rows.push_back({fmt::format("  {}{} median ranks", condition == "all" ? "" : condition + ", ",
+                                std::get<std::string>(row[1]))});
+    for (std::size_t c = 2; c < row.size(); ++c) {
+      if (c != r) rows.back().push_back(plain_number(std::get<double>(row[c])));
+    }
   }
   return "\n" + table.caption + "\n" + text_table(rows);
 }
@@ -195,7 +199,7 @@ std::string line_text(const present::Table& table) {
 std::string classical_text(const AskedOfClassics& asked, const ClassicalEstimates& found,
                            const present::Table& lines, std::size_t steps) {
   std::string text = fmt::format("Classical estimates ({})\n", confidence_text(asked.level)) +
-                     estimate_text(found);
+                     estimate_text(asked, found);
   for (const std::string& each : explanations(found, steps > 0)) text += wrapped(each, 2, 4);
   text += line_text(lines);
   if (steps > 0)
