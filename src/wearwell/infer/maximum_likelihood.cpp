@@ -102,18 +102,17 @@ MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihoo
     if (!from.allFinite()) continue;
     Maximum summit = maximize(*density_, from, unit, box);
     if (!std::isfinite(summit.value)) continue;
-    if (!highest || summit.value > highest->value) highest = summit;
+    if (!highest || summit.value > highest->value) {
+      highest = summit;
+      (summit.x - from).cwiseQuotient(unit).cwiseAbs().maxCoeff(&rising_);
+    }
     bool near = summit.converged && summit.curvature.allFinite() && is_concave(summit, unit);
     for (Eigen::Index i = 0; near && i < n; ++i)
       near = !density_->is_logarithm(static_cast<std::size_t>(i)) ||
              std::abs(summit.x[i] - from[i]) < farthest_logarithm;
     if (near && (!best || summit.value > best->value)) best = std::move(summit);
   }
-  if (!best) {
-    if (highest && highest->gradient.allFinite())
-      highest->gradient.cwiseProduct(unit).cwiseAbs().maxCoeff(&rising_);
-    return;
-  }
+  if (!best) return;
   found_ = true;
   higher_elsewhere_ = highest->value > best->value + clearly_higher;
   covariance_ = best->curvature.inverse();

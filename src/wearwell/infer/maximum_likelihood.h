@@ -34,7 +34,7 @@ class MaximumLikelihood {
 
   /// Whether there is a maximum; without one only `rising` has a meaning.
   bool found() const { return found_; }
-  /// The parameter along which the search did not come to an end.
+  /// The parameter that the search moved farthest, in its width.
   Eigen::Index rising() const { return rising_; }
   /// Whether a search ended higher without a maximum there: a likelihood with a threshold has no
   /// bound as the threshold approaches the first life.

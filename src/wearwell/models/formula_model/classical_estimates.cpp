@@ -204,7 +204,8 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
   const MaximumLikelihood maximum = maximum_of(asked, scales, fit);
   if (!maximum.found()) {
     result.problem = fmt::format(
-        "the likelihood has no maximum: it still rises along {}; too few failures differ",
+        "the likelihood has no maximum: it rises without end along {}, because too few failures "
+        "differ",
         model.parameters[static_cast<std::size_t>(maximum.rising())].name);
     return;
   }
@@ -279,10 +280,11 @@ void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
   const ResponseForm& form = *asked.model->measured.front().form;
   const RankRegression any{0, 1, 1};
   const bool has_line = form.paper.straight && family_parameters_of(form.family, any).has_value();
-  bool no_line = false, no_steps = false, early_end = false, thinned = false;
+  bool no_line = false, any_line = false, no_steps = false, early_end = false, thinned = false;
   for (const ClassicalGroup& each : result.groups) {
     const std::vector<SurvivalStep>& steps = each.survival.steps;
     no_line |= each.lines.empty();
+    any_line |= !each.lines.empty();
     no_steps |= each.survival.method == SurvivalMethod::none;
     thinned |= steps.size() == most_steps_listed;
     early_end |= !steps.empty() && each.survival.method == SurvivalMethod::kaplan_meier &&
@@ -297,8 +299,9 @@ void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
   else if (no_line)
     result.notes.push_back(fmt::format(
         "Rank regression needs at least two failures that differ, of exact lives and run-outs "
-        "without delayed entries, up to {} items: other conditions have none.",
-        most_ranked));
+        "without delayed entries, up to {} items; {}.",
+        most_ranked,
+        any_line ? "conditions that are not in its table lack this" : "these data lack this"));
   if (no_steps)
     result.notes.push_back(
         "Delayed entries and intervals together have no nonparametric estimate here.");

@@ -168,9 +168,10 @@ class Predictions {
     study_.quantity_groups.push_back(std::move(group));
     if (model_->modes && model_->measured.size() > 1)
       add_mode_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
-    if (predict_.has("sides") && !predict_.has("classical"))
+    const bool classical = predict_.boolean("classical").value_or(false);
+    if (predict_.text("sides") && !classical)
       predict_.fail("sides", "is for the bounds of predict.classical");
-    if (predict_.boolean("classical").value_or(false))
+    if (classical)
       add_classical_estimates({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }
 
