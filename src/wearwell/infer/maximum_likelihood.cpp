@@ -143,7 +143,88 @@ Eigen::VectorXd MaximumLikelihood::gradient(const Quantity& at_scale) const {
   return slopes;
 }
 
-ClassicalBounds MaximumLikelihood::of(const Quantity& quantity, double level) const {
+// The likelihood with a quantity in the place of one parameter, which is solved for.
+class MaximumLikelihood::WithQuantity final : public LogDensity {
+ public:
+  WithQuantity(const OnScale& density, const ProfiledMaximum& maximum, const Comparison& above,
+               Eigen::Index solved, double sign, double error)
+      : density_(density),
+        maximum_(maximum),
+        above_(above),
+        solved_(solved),
+        sign_(sign),
+        error_(error) {}
+
+  int dimension() const override { return density_.dimension(); }
+
+  double value(std::span<const double> y) const override {
+    const Eigen::VectorXd z = solve(y);
+    return z.allFinite() ? density_.value(view(z)) : -std::numeric_limits<double>::infinity();
+  }
+
+  double value_and_gradient(std::span<const double> y, std::span<double> gradient) const override {
+    const Eigen::VectorXd z = solve(y);
+    if (!z.allFinite()) return -std::numeric_limits<double>::infinity();
+    Eigen::VectorXd slope(z.size());
+    const double value = density_.value_and_gradient(view(z), view(slope));
+    // By implicit differentiation: the comparison stays 0.
+    const double at = y[static_cast<std::size_t>(solved_)];
+    const Eigen::VectorXd by = slopes(z, at);
+    const double step = 1e-4 * error_;
+    const double by_value = (above(z, at + step) - above(z, at - step)) / (2 * step);
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      const double share = (i == solved_ ? by_value : by[i]) / by[solved_];
+      gradient[static_cast<std::size_t>(i)] =
+          (i == solved_ ? 0 : slope[i]) - slope[solved_] * share;
+    }
+    return value;
+  }
+
+ private:
+  double above(const Eigen::VectorXd& z, double value) const {
+    const Eigen::VectorXd x = density_.natural(view(z));
+    return above_(x.data(), value);
+  }
+
+  Eigen::VectorXd slopes(Eigen::VectorXd z, double value) const {
+    Eigen::VectorXd found(z.size());
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      const double middle = z[i], step = 1e-4 * maximum_.unit[i];
+      z[i] = middle + step;
+      const double up = above(z, value);
+      z[i] = middle - step;
+      const double down = above(z, value);
+      z[i] = middle;
+      found[i] = (up - down) / (2 * step);
+    }
+    return found;
+  }
+
+  Eigen::VectorXd solve(std::span<const double> y) const {
+    Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(y.data(), dimension());
+    const double value = z[solved_], middle = maximum_.position[solved_];
+    const double unit = maximum_.unit[solved_];
+    const double low = std::max(middle - widest_root * unit, maximum_.box.lower[solved_]);
+    const double high = std::min(middle + widest_root * unit, maximum_.box.upper[solved_]);
+    const double root = solve_increasing(
+        [&](double own) {
+          z[solved_] = own;
+          return sign_ * above(z, value);
+        },
+        middle, 0.5 * unit, {.absolute = 1e-13 * unit, .relative = 1e-15}, low, high);
+    z[solved_] = root > low && root < high ? root : std::nan("");
+    return z;
+  }
+
+  const OnScale& density_;
+  const ProfiledMaximum& maximum_;
+  const Comparison& above_;
+  Eigen::Index solved_;
+  double sign_, error_;  // `error_` is about the possible change of the quantity
+};
+
+ClassicalBounds MaximumLikelihood::of(const Quantity& quantity, const Comparison& above,
+                                      double level) const {
   const auto n = static_cast<std::size_t>(maximum_.position.size());
   const Quantity at_scale = [&](const double* z) {
     const Eigen::VectorXd x = density_->natural({z, n});
@@ -156,26 +237,22 @@ ClassicalBounds MaximumLikelihood::of(const Quantity& quantity, double level) co
   const double deviate = boost::math::quantile(boost::math::normal(), 0.5 * (1 + level));
   bounds.lower = bounds.estimate - deviate * bounds.error;
   bounds.upper = bounds.estimate + deviate * bounds.error;
-  // The parameter that moves the quantity most is solved for.
+  if (!std::isfinite(bounds.estimate) || !(bounds.error > 0) || !std::isfinite(bounds.error)) {
+    const ProfileEnd open{std::nan(""), "it has no finite value or error at the maximum"};
+    bounds.likelihood_ratio = {open, open};
+    return bounds;
+  }
+  // The parameter that moves the quantity most gives way to it.
   Eigen::Index solved = 0;
   slopes.cwiseProduct(maximum_.unit).cwiseAbs().maxCoeff(&solved);
-  const double sign = slopes[solved] < 0 ? -1 : 1, unit = maximum_.unit[solved];
-  const double middle = maximum_.position[solved];
-  const double low = std::max(middle - widest_root * unit, maximum_.box.lower[solved]);
-  const double high = std::min(middle + widest_root * unit, maximum_.box.upper[solved]);
-  ProfiledQuantity profiled{solved, at_scale, {}};
-  profiled.solve = [&, z = Eigen::VectorXd(maximum_.position)](const double* others,
-                                                               double value) mutable {
-    std::copy_n(others, n, z.data());
-    const double root = solve_increasing(
-        [&](double own) {
-          z[solved] = own;
-          return sign * (at_scale(z.data()) - value);
-        },
-        middle, 0.1 * unit, {.absolute = 1e-14 * unit, .relative = 1e-15}, low, high);
-    return root > low && root < high ? root : std::nan("");
-  };
-  bounds.likelihood_ratio = profile_interval(*density_, maximum_, profiled, level);
+  const WithQuantity density(*density_, maximum_, above, solved, slopes[solved] < 0 ? -1 : 1,
+                             bounds.error);
+  ProfiledMaximum maximum = maximum_;
+  maximum.position[solved] = bounds.estimate;
+  maximum.unit[solved] = bounds.error;
+  maximum.box.lower[solved] = -std::numeric_limits<double>::infinity();
+  maximum.box.upper[solved] = std::numeric_limits<double>::infinity();
+  bounds.likelihood_ratio = profile_interval(density, maximum, solved, level);
   return bounds;
 }
 

@@ -51,10 +51,14 @@ class MaximumLikelihood {
 
   /// A function of natural parameters on the scale of its normal approximation. Called by one thread.
   using Quantity = std::function<double(const double* x)>;
-  ClassicalBounds of(const Quantity& quantity, double level) const;
+  /// Continuous, positive where the quantity exceeds `value` and negative where it is less. The
+  /// difference of both serves, but a quantile is compared much faster by its distribution function.
+  using Comparison = std::function<double(const double* x, double value)>;
+  ClassicalBounds of(const Quantity& quantity, const Comparison& above, double level) const;
 
  private:
   class OnScale;
+  class WithQuantity;
   Eigen::VectorXd gradient(const Quantity& at_scale) const;
 
   std::shared_ptr<const OnScale> density_;

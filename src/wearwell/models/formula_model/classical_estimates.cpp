@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "wearwell/models/formula_model/formula_asked.h"
-#include "wearwell/prob/standard_distribution.h"
+#include "wearwell/models/formula_model/classical_quantities.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -20,24 +18,6 @@ constexpr std::size_t most_steps_listed = 10000;
 
 // Items with a rank each; a rank costs a quantile of a beta distribution.
 constexpr double most_ranked = 20000;
-
-std::string without_level(const std::string& name) {
-  return name.substr(0, name.find('['));
-}
-
-// The scale of a parameter: that of its place in the family, or by the support of its prior.
-NormalScale scale_of(const FormulaModel& model, const Parameter& parameter) {
-  for (const Measured& measured : model.measured) {
-    for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
-      if (without_level(measured.wanted[o].text) != without_level(parameter.name)) continue;
-      const ParameterForm& place = measured.form->family_parameters[measured.family_parameter[o]];
-      const bool positive =
-          place.kind == ParameterKind::scale || place.kind == ParameterKind::number;
-      return positive && place.name != "threshold" ? NormalScale::logarithm : NormalScale::natural;
-    }
-  }
-  return parameter.prior.lower >= 0 ? NormalScale::logarithm : NormalScale::natural;
-}
 
 MaximumLikelihood maximum_of(const AskedOfClassics& asked, const std::vector<NormalScale>& scales,
                              const Fit& fit) {
@@ -57,108 +37,8 @@ MaximumLikelihood maximum_of(const AskedOfClassics& asked, const std::vector<Nor
   return {asked.likelihood, scales, starts, widths};
 }
 
-// A quantity on the scale of its normal approximation, and back to SI.
-struct Scaled {
-  std::string name, of, at;
-  Unit unit;
-  std::string scale;
-  std::function<MaximumLikelihood::Quantity()> make;  // one for each thread
-  std::function<double(double)> si;
-  std::function<QuantityDistribution(const WeightedDraws&)> posterior;  // SI
-  bool increasing = true;
-};
-
-using LifeValue = LifeDistribution::Known (*)(const LifeDistribution&, const WeightedDraws&,
-                                              double);
-
-double same(double y) {
-  return y;
-}
-double exponential(double y) {
-  return std::exp(y);
-}
-
-Scaled life_quantity(const ClassicalLife& own, const std::string& name, const Measured& measured,
-                     double (*value)(const LifeAtPoint&, double), LifeValue posterior,
-                     double argument) {
-  const bool positive = measured.form->positive;
-  return {name,
-          own.of,
-          own.at,
-          measured.unit,
-          positive ? "log" : "natural",
-          [life = own.life, value, argument, positive]() -> MaximumLikelihood::Quantity {
-            return [at = std::make_shared<LifeAtPoint>(life->at_point()), life, value, argument,
-                    positive](const double* x) {
-              at->move_to(x);
-              const double found = value(*at, argument);
-              return positive ? std::log(found) : found;
-            };
-          },
-          positive ? exponential : same,
-          [life = own.life, posterior, argument](const WeightedDraws& draws) {
-            return posterior(*life, draws, argument).distribution;
-          }};
-}
-
-// The share that survives, on the axis of the family's probability paper: there the bounds of
-// survival and those of life are the same lines for a location-scale family.
-Scaled survival_quantity(const ClassicalLife& own, const Quantity& life, const Measured& measured) {
-  const bool several = own.life->is_earliest_of_several();
-  const StandardDistribution paper =
-      several ? StandardDistribution::smallest_extreme_value : measured.form->paper.distribution;
-  return {"survival to " + description(life),
-          own.of,
-          own.at,
-          Unit{"%", 0.01, 0},
-          several ? "Weibull paper" : fmt::format("{} paper", measured.form->paper.name),
-          [distribution = own.life, at_life = life.si(), paper]() -> MaximumLikelihood::Quantity {
-            return [at = std::make_shared<LifeAtPoint>(distribution->at_point()), distribution,
-                    at_life, paper](const double* x) {
-              at->move_to(x);
-              const double log_left = at->log_survival(at_life);
-              if (paper == StandardDistribution::smallest_extreme_value) return std::log(-log_left);
-              const double failed = at->cdf(at_life);
-              return failed < 0.5 ? quantile(paper, failed)
-                                  : upper_quantile(paper, std::exp(log_left));
-            };
-          },
-          [paper](double z) { return std::exp(log_survival_and_slope(paper, z).value); },
-          [distribution = own.life, at_life = life.si()](const WeightedDraws& draws) {
-            return distribution->survival(draws, at_life).distribution;
-          },
-          false};
-}
-
-std::vector<Scaled> scaled_quantities(const AskedOfClassics& asked) {
-  const Measured& measured = asked.model->measured.front();
-  std::vector<Scaled> all;
-  for (const ClassicalLife& own : asked.lives) {
-    for (const double percent : asked.percents) {
-      all.push_back(life_quantity(
-          own, b_life_name(percent), measured,
-          [](const LifeAtPoint& at, double p) { return at.quantile(p); },
-          [](const LifeDistribution& life, const WeightedDraws& draws, double p) {
-            return life.quantile(draws, p);
-          },
-          percent / 100));
-    }
-    if (asked.mean)
-      all.push_back(life_quantity(
-          own, "mean life", measured,
-          [](const LifeAtPoint& at, double from) { return at.mean_beyond(from); },
-          [](const LifeDistribution& life, const WeightedDraws& draws, double from) {
-            return life.mean_beyond(draws, from);
-          },
-          0));
-    for (const Quantity& each : asked.survival)
-      all.push_back(survival_quantity(own, each, measured));
-  }
-  return all;
-}
-
 // In the unit of the report.
-ClassicalEstimate reported(const Scaled& quantity, const ClassicalBounds& bounds) {
+ClassicalEstimate reported(const ScaledQuantity& quantity, const ClassicalBounds& bounds) {
   const auto shown = [&](double y) { return from_si(quantity.unit, quantity.si(y)); };
   const double by = 1e-4 * bounds.error;
   const auto end = [&](const ProfileEnd& open) {
@@ -182,25 +62,19 @@ ClassicalEstimate reported(const Scaled& quantity, const ClassicalBounds& bounds
   return estimate;
 }
 
-// A parameter, and the bounds of its posterior.
-Scaled scaled_parameter(const Parameter& parameter, std::size_t i, NormalScale scale) {
-  const bool logarithm = scale == NormalScale::logarithm;
-  return {parameter.name,
-          "",
-          "",
-          parameter.unit,
-          logarithm ? "log" : "natural",
-          {},
-          logarithm ? exponential : same,
-          [i](const WeightedDraws& draws) {
-            return QuantityDistribution(draws, [i](const double* x) { return x[i]; });
-          }};
+ClassicalBounds bounds_of(const MaximumLikelihood& maximum, const ScaledQuantity& quantity,
+                          double level) {
+  const MaximumLikelihood::Quantity own = quantity.make();
+  const MaximumLikelihood::Comparison above =
+      quantity.compare ? quantity.compare()
+                       : [&own](const double* x, double value) { return own(x) - value; };
+  return maximum.of(own, above, level);
 }
 
 void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstimates& result) {
   const FormulaModel& model = *asked.model;
   std::vector<NormalScale> scales;
-  for (const Parameter& each : model.parameters) scales.push_back(scale_of(model, each));
+  for (const Parameter& each : model.parameters) scales.push_back(normal_scale(model, each));
   const MaximumLikelihood maximum = maximum_of(asked, scales, fit);
   if (!maximum.found()) {
     result.problem = fmt::format(
@@ -215,17 +89,17 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
         "its local maximum.");
   result.position = maximum.position();
   result.log_likelihood = maximum.log_likelihood();
-  std::vector<Scaled> all;
+  std::vector<ScaledQuantity> all;
   for (std::size_t i = 0; i < scales.size(); ++i)
     all.push_back(scaled_parameter(model.parameters[i], i, scales[i]));
-  for (Scaled& each : scaled_quantities(asked)) all.push_back(std::move(each));
+  for (ScaledQuantity& each : scaled_quantities(asked)) all.push_back(std::move(each));
   const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
   const double level = asked.level.within();
   std::vector<ClassicalEstimate> found(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     found[i] = reported(all[i], i < scales.size()
                                     ? maximum.of_parameter(static_cast<Eigen::Index>(i), level)
-                                    : maximum.of(all[i].make(), level));
+                                    : bounds_of(maximum, all[i], level));
     const QuantityDistribution posterior = all[i].posterior(draws);
     found[i].posterior_lower = from_si(all[i].unit, posterior.quantile(asked.level.outside()));
     found[i].posterior_upper = from_si(all[i].unit, posterior.quantile(1 - asked.level.outside()));

@@ -112,7 +112,7 @@ present::Table survival_table(const AskedOfClassics& asked, const ClassicalEstim
                        {{"Condition"},
                         {"Method"},
                         {"Failed after", unit.text, present::given},
-                        {"by", unit.text, present::given},
+                        {"Failed by", unit.text, present::given},
                         {"At risk", "1", present::given},
                         {"Failed", "1", present::given},
                         {"Survival", "%"},
@@ -135,21 +135,28 @@ present::Table survival_table(const AskedOfClassics& asked, const ClassicalEstim
   return table;
 }
 
-std::vector<std::string> explanations(const ClassicalEstimates& found, bool has_steps) {
+std::vector<std::string> explanations(const ClassicalEstimates& found) {
   std::vector<std::string> all;
   if (!found.problem.empty()) {
     all.push_back("No maximum likelihood estimate: " + found.problem + ".");
   } else {
     all.push_back(
         "Maximum likelihood uses the data alone, not the priors. Normal bounds (Fisher, Wald) hold "
-        "on the scale that is named; likelihood-ratio bounds do not depend on a scale. Both rest "
-        "on large samples: with few failures they are too narrow. The posterior has its quantiles "
-        "at the same level.");
+        "on the scale that the report names; likelihood-ratio bounds do not depend on a scale. "
+        "Both "
+        "rest on large samples: with few failures they are too narrow. The posterior has its "
+        "quantiles at the same level.");
   }
-  if (has_steps)
-    all.push_back(
-        "Kaplan-Meier: standard error by Greenwood; Turnbull: by the observed information. Bounds "
-        "are pointwise, normal for log(-log survival).");
+  const auto has = [&](SurvivalMethod method) {
+    return std::any_of(found.groups.begin(), found.groups.end(), [&](const ClassicalGroup& each) {
+      return each.survival.method == method && !each.survival.steps.empty();
+    });
+  };
+  const std::string bounds = "; bounds are pointwise, normal for log(-log survival).";
+  if (has(SurvivalMethod::kaplan_meier))
+    all.push_back("Kaplan-Meier: standard errors by Greenwood's formula" + bounds);
+  if (has(SurvivalMethod::turnbull))
+    all.push_back("Turnbull: standard errors from the observed information" + bounds);
   all.insert(all.end(), found.notes.begin(), found.notes.end());
   return all;
 }
@@ -200,7 +207,7 @@ std::string classical_text(const AskedOfClassics& asked, const ClassicalEstimate
                            const present::Table& lines, std::size_t steps) {
   std::string text = fmt::format("Classical estimates ({})\n", confidence_text(asked.level)) +
                      estimate_text(asked, found);
-  for (const std::string& each : explanations(found, steps > 0)) text += wrapped(each, 2, 4);
+  for (const std::string& each : explanations(found)) text += wrapped(each, 2, 4);
   text += line_text(lines);
   if (steps > 0)
     text += "\n" + wrapped(fmt::format("Nonparametric survival with bounds, {} step{}: "
@@ -302,7 +309,7 @@ PresetAddition classical_addition(const AskedOfClassics& asked, const DensityUni
   for (const ClassicalGroup& each : found.groups) json["groups"].push_back(group_json(asked, each));
   std::vector<present::Block>& blocks = added.blocks["predictions"];
   std::string words = "Classical estimates, to lay beside other programs.";
-  for (const std::string& each : explanations(found, !steps.rows.empty())) words += " " + each;
+  for (const std::string& each : explanations(found)) words += " " + each;
   blocks.push_back({present::Prose{words}});
   if (found.problem.empty()) blocks.push_back({estimate_table(asked, found)});
   if (!lines.rows.empty()) blocks.push_back({lines});
