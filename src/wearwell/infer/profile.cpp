@@ -1,4 +1,4 @@
-#include "wearwell/infer/profile.h"
+#include "wearwell/infer/density_profile.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -31,7 +31,7 @@ struct Target {
 // The density of the other parameters at a fixed value of a quantity.
 class Held final : public LogDensity {
  public:
-  Held(const NaturalDensity& whole, const Box& box, const Eigen::VectorXd& unit,
+  Held(const LogDensity& whole, const Box& box, const Eigen::VectorXd& unit,
        const ProfiledQuantity& quantity, double value)
       : whole_(whole), box_(box), unit_(unit), quantity_(quantity), value_(value) {}
 
@@ -77,7 +77,7 @@ class Held final : public LogDensity {
     return box_.lower[i] <= x[i] && x[i] <= box_.upper[i];
   }
 
-  const NaturalDensity& whole_;
+  const LogDensity& whole_;
   const Box& box_;
   const Eigen::VectorXd& unit_;
   const ProfiledQuantity& quantity_;
@@ -93,7 +93,7 @@ Eigen::VectorXd without(const Eigen::VectorXd& x, Eigen::Index left_out) {
 // One end, by a search outward from the mode: the signed root of the deviance is nearly linear.
 class Search {
  public:
-  Search(const NaturalDensity& density, const Box& box, const Eigen::VectorXd& unit,
+  Search(const LogDensity& density, const Box& box, const Eigen::VectorXd& unit,
          const Target& target, const NaturalMode& mode, double root)
       : density_(density),
         box_(box),
@@ -205,7 +205,7 @@ class Search {
     return {0.5 * (low.at + high.at), ""};
   }
 
-  const NaturalDensity& density_;
+  const LogDensity& density_;
   const Box& box_;
   const Eigen::VectorXd& unit_;
   const Target& target_;
@@ -229,13 +229,22 @@ Eigen::VectorXd widths_about(const NaturalMode& mode, Eigen::VectorXd widths) {
   return widths;
 }
 
+NaturalMode mode_at(const ProfiledMaximum& maximum) {
+  NaturalMode mode;
+  mode.position = maximum.position;
+  mode.log_posterior = maximum.value;
+  mode.place.assign(static_cast<std::size_t>(maximum.position.size()), Place::inside);
+  mode.standard_error = maximum.unit;
+  return mode;
+}
+
 class Profiler {
  public:
-  Profiler(const Posterior& posterior, const Fit& fit, const NaturalMode& mode, double level)
-      : density_(posterior),
-        mode_(mode),
-        unit_(widths_about(mode, natural_widths(posterior, fit.whitening))),
-        box_(natural_box(posterior, unit_)),
+  Profiler(const LogDensity& density, NaturalMode mode, Eigen::VectorXd unit, Box box, double level)
+      : density_(density),
+        mode_(std::move(mode)),
+        unit_(std::move(unit)),
+        box_(std::move(box)),
         // The root of chi-square's quantile with one degree of freedom.
         root_(boost::math::quantile(boost::math::normal(), 0.5 * (1 + level))) {}
 
@@ -283,18 +292,25 @@ class Profiler {
   }
 
  private:
-  NaturalDensity density_;
-  const NaturalMode& mode_;
+  const LogDensity& density_;
+  NaturalMode mode_;
   Eigen::VectorXd unit_;
   Box box_;
   double root_;
 };
 
+Profiler profiler_of(const NaturalDensity& density, const Posterior& posterior, const Fit& fit,
+                     const NaturalMode& mode, double level) {
+  const Eigen::VectorXd unit = widths_about(mode, natural_widths(posterior, fit.whitening));
+  return {density, mode, unit, natural_box(posterior, unit), level};
+}
+
 }  // namespace
 
 std::vector<ProfileInterval> profile_intervals(const Posterior& posterior, const Fit& fit,
                                                const NaturalMode& mode, double level) {
-  const Profiler profiler(posterior, fit, mode, level);
+  const NaturalDensity density(posterior);
+  const Profiler profiler = profiler_of(density, posterior, fit, mode, level);
   std::vector<ProfileInterval> intervals(static_cast<std::size_t>(posterior.dimension()));
   tbb::parallel_for(std::size_t{0}, intervals.size(), [&](std::size_t i) {
     intervals[i] = profiler.of_parameter(static_cast<Eigen::Index>(i));
@@ -305,7 +321,19 @@ std::vector<ProfileInterval> profile_intervals(const Posterior& posterior, const
 ProfileInterval profile_interval(const Posterior& posterior, const Fit& fit,
                                  const NaturalMode& mode, const ProfiledQuantity& quantity,
                                  double level) {
-  return Profiler(posterior, fit, mode, level).of(quantity);
+  const NaturalDensity density(posterior);
+  return profiler_of(density, posterior, fit, mode, level).of(quantity);
+}
+
+ProfileInterval profile_interval(const LogDensity& density, const ProfiledMaximum& maximum,
+                                 Eigen::Index variable, double level) {
+  return Profiler(density, mode_at(maximum), maximum.unit, maximum.box, level)
+      .of_parameter(variable);
+}
+
+ProfileInterval profile_interval(const LogDensity& density, const ProfiledMaximum& maximum,
+                                 const ProfiledQuantity& quantity, double level) {
+  return Profiler(density, mode_at(maximum), maximum.unit, maximum.box, level).of(quantity);
 }
 
 }  // namespace wearwell

@@ -109,6 +109,12 @@ StudyKeys formula_keys() {
        {"predict.survival_to", "\"1000 h\"", "share that outlasts it, one or several"},
        {"predict.hazard_at", "\"1000 h\"", "hazard rate at this life"},
        {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives and survival"},
+       {"predict.sides", "\"two\"",
+        "of the bounds of predict.classical: credible_level is that of the interval, not of each "
+        "bound"},
+       {"predict.classical", "true",
+        "of a likelihood of a life: maximum likelihood with bounds, median rank regression and "
+        "Kaplan-Meier beside the posterior"},
        {"predict.accelerated.*", "\"80 degC\"",
         "conditions of a test, for the acceleration factor"},
        {"predict.compared_with.*", "\"old\"",

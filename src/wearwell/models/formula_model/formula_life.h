@@ -74,8 +74,12 @@ class LifeDistribution {
   Known outliving(const WeightedDraws& draws, const LifeDistribution& other,
                   double share_of_points = 1) const;
 
- private:
+  /// At single points of the parameters; this must outlive it.
   LifeAtPoint at_point() const { return LifeAtPoint(risks_); }
+  /// Several independent lives, of which the earliest counts.
+  bool is_earliest_of_several() const { return risks_.size() > 1; }
+
+ private:
   WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   // Those given survival to `from`; empty if hardly any item survives.
   std::optional<WeightedDraws> survivors(const WeightedDraws& draws, double from,

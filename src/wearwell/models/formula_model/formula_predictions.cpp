@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/formula/no_columns.h"
+#include "wearwell/models/formula_model/classical_request.h"
 #include "wearwell/models/formula_model/formula_asked.h"
 #include "wearwell/models/formula_model/formula_figures.h"
 #include "wearwell/models/formula_model/formula_limit.h"
@@ -45,8 +46,8 @@ class Predictions {
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key :
-           {"mean_life", "survival_to", "hazard_at", "accelerated", "compared_with"}) {
+      for (const char* key : {"mean_life", "survival_to", "hazard_at", "accelerated",
+                              "compared_with", "classical", "sides"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; with predict.limit lives are those to the "
@@ -56,7 +57,8 @@ class Predictions {
     } else if (!model_->along) {
       read_life();
     } else {
-      for (const char* key : {"b_lives", "credible_level", "survived", "lives_of"}) {
+      for (const char* key :
+           {"b_lives", "credible_level", "survived", "lives_of", "classical", "sides"}) {
         if (predict_.has(key)) {
           predict_.fail(key, "needs predict.limit: the failure threshold that ends a life");
         }
@@ -86,7 +88,7 @@ class Predictions {
     const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
       for (const char* key : {"b_lives", "credible_level", "mean_life", "survival_to", "survived",
-                              "hazard_at", "accelerated", "compared_with"}) {
+                              "hazard_at", "accelerated", "compared_with", "classical", "sides"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
       return;
@@ -166,6 +168,11 @@ class Predictions {
     study_.quantity_groups.push_back(std::move(group));
     if (model_->modes && model_->measured.size() > 1)
       add_mode_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
+    const bool classical = predict_.boolean("classical").value_or(false);
+    if (predict_.text("sides") && !classical)
+      predict_.fail("sides", "is for the bounds of predict.classical");
+    if (classical)
+      add_classical_estimates({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }
 
   // ---- Functions of the parameters.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "wearwell/models/formula_model/group_colour.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/life_stress.h"
 #include "wearwell/present/plot.h"
@@ -21,7 +22,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 // Number of conditions per plot, and number of conditions drawn in all.
-constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000;
+constexpr std::size_t most_together = group_colours, most_drawn = 24, most_conditions = 2000;
 constexpr std::size_t curve_points = 40;
 // Maximum number of points drawn per condition: further points overlap.
 constexpr std::size_t most_points = 2000;
@@ -47,13 +48,6 @@ std::vector<LifeGroup> drawn_groups(const TomlReader& root,
   for (LifeGroup& each : groups)
     each.life = life_distribution(root, "likelihood", model, each.conditions, each.modes);
   return groups;
-}
-
-const char* colour_of(std::size_t group) {
-  constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
-                                     plot::colour::chains[2], plot::colour::chains[3],
-                                     plot::colour::limit,     plot::colour::prior};
-  return colours[group % most_together];
 }
 
 class Drawing {
@@ -125,7 +119,7 @@ class Drawing {
         most = std::max(most, middle.back());
       }
       if (x.empty()) continue;
-      const char* colour = colour_of(g / step);
+      const char* colour = group_colour(g / step);
       marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour, "", 0.25}));
       marks.push_back(
           plot::line({{"x", x}, {"y", middle}, {"hazard", middle}}, {colour, label(g), 1, 2}));
@@ -207,8 +201,8 @@ class Drawing {
     }
     if (x.empty()) return;
     marks.push_back(
-        plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(colour), "", 0.22}));
-    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(colour), label(g), 1, 2}));
+        plot::area({{"x", x}, {"y", high}, {"y2", low}}, {group_colour(colour), "", 0.22}));
+    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {group_colour(colour), label(g), 1, 2}));
   }
 
   // All, or of very many so many that stand evenly apart on the paper: the outermost are all there.
@@ -234,8 +228,8 @@ class Drawing {
     const bool alone = groups_.size() == 1;
     marks.push_back(
         plot::points({{"x", x}, {"y", y}, {measured_.column, x}, {"failed [%]", percent}},
-                     {alone ? plot::colour::measured : colour_of(colour), alone ? "observed" : "",
-                      1, 0, false, 60}));
+                     {alone ? plot::colour::measured : group_colour(colour),
+                      alone ? "observed" : "", 1, 0, false, 60}));
   }
 
   std::string caption() const {

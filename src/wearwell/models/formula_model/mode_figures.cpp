@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/group_colour.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/study/plot_study.h"
 
@@ -20,10 +21,7 @@ constexpr std::size_t places = 25;
 constexpr Eigen::Index draws_of_bands = 1000;
 
 const char* colour_of_mode(std::size_t k) {
-  constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
-                                     plot::colour::chains[2], plot::colour::chains[3],
-                                     plot::colour::limit,     plot::colour::prior};
-  return colours[(k + 1) % std::size(colours)];  // as in the probability plot, after all modes
+  return group_colour(k + 1);  // as in the probability plot, after all modes
 }
 
 double longest_life(const Observed& lives) {

@@ -1,0 +1,213 @@
+#include "wearwell/models/formula_model/classical_estimates.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/models/formula_model/classical_quantities.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr Eigen::Index classical_starts = 8;
+
+// Longer lists of steps are thinned; more are not distinct in a plot or table.
+constexpr std::size_t most_steps_listed = 10000;
+
+// Items with a rank each; a rank costs a quantile of a beta distribution.
+constexpr double most_ranked = 20000;
+
+MaximumLikelihood maximum_of(const AskedOfClassics& asked, const std::vector<NormalScale>& scales,
+                             const Fit& fit) {
+  const Points& draws = fit.pooled.values;
+  const auto n = static_cast<Eigen::Index>(scales.size());
+  std::vector<Eigen::VectorXd> starts(1, Eigen::VectorXd(n));
+  Eigen::VectorXd widths(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Parameter& parameter = asked.model->parameters[static_cast<std::size_t>(i)];
+    starts[0][i] = parameter.start;
+    const Eigen::ArrayXd own = draws.col(i).array();
+    const double sd = std::sqrt((own - own.mean()).square().mean());
+    widths[i] = sd > 0 && std::isfinite(sd) ? sd : parameter.scale;
+  }
+  for (Eigen::Index i = 0; i < classical_starts; ++i)
+    starts.push_back(draws.row((2 * i + 1) * draws.rows() / (2 * classical_starts)));
+  return {asked.likelihood, scales, starts, widths};
+}
+
+// In the unit of the report.
+ClassicalEstimate reported(const ScaledQuantity& quantity, const ClassicalBounds& bounds) {
+  const auto shown = [&](double y) { return from_si(quantity.unit, quantity.si(y)); };
+  const double by = 1e-4 * bounds.error;
+  const auto end = [&](const ProfileEnd& open) {
+    return open.open.empty() ? ProfileEnd{shown(open.value), ""} : open;
+  };
+  ClassicalEstimate estimate{
+      quantity.name,
+      quantity.of,
+      quantity.at,
+      quantity.unit.text,
+      shown(bounds.estimate),
+      std::abs(shown(bounds.estimate + by) - shown(bounds.estimate - by)) / (2 * by) * bounds.error,
+      quantity.scale,
+      shown(bounds.lower),
+      shown(bounds.upper),
+      end(bounds.likelihood_ratio.lower),
+      end(bounds.likelihood_ratio.upper)};
+  if (quantity.increasing) return estimate;
+  std::swap(estimate.lower, estimate.upper);
+  std::swap(estimate.ratio_lower, estimate.ratio_upper);
+  return estimate;
+}
+
+ClassicalBounds bounds_of(const MaximumLikelihood& maximum, const ScaledQuantity& quantity,
+                          double level) {
+  const MaximumLikelihood::Quantity own = quantity.make();
+  const MaximumLikelihood::Comparison above =
+      quantity.compare ? quantity.compare()
+                       : [&own](const double* x, double value) { return own(x) - value; };
+  return maximum.of(own, above, level);
+}
+
+void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstimates& result) {
+  const FormulaModel& model = *asked.model;
+  std::vector<NormalScale> scales;
+  for (const Parameter& each : model.parameters) scales.push_back(normal_scale(model, each));
+  const MaximumLikelihood maximum = maximum_of(asked, scales, fit);
+  if (!maximum.found()) {
+    result.problem = fmt::format(
+        "the likelihood has no maximum: it rises without end along {}, because too few failures "
+        "differ",
+        model.parameters[static_cast<std::size_t>(maximum.rising())].name);
+    return;
+  }
+  if (maximum.higher_elsewhere())
+    result.notes.push_back(
+        "The likelihood has no bound elsewhere (a threshold near the first life); the estimate is "
+        "its local maximum.");
+  result.position = maximum.position();
+  result.log_likelihood = maximum.log_likelihood();
+  std::vector<ScaledQuantity> all;
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    all.push_back(scaled_parameter(model.parameters[i], i, scales[i]));
+  for (ScaledQuantity& each : scaled_quantities(asked)) all.push_back(std::move(each));
+  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
+  const double level = asked.level.within();
+  std::vector<ClassicalEstimate> found(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    found[i] = reported(all[i], i < scales.size()
+                                    ? maximum.of_parameter(static_cast<Eigen::Index>(i), level)
+                                    : bounds_of(maximum, all[i], level));
+    const QuantityDistribution posterior = all[i].posterior(draws);
+    found[i].posterior_lower = from_si(all[i].unit, posterior.quantile(asked.level.outside()));
+    found[i].posterior_upper = from_si(all[i].unit, posterior.quantile(1 - asked.level.outside()));
+  });
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(scales.size());
+  result.parameters.assign(found.begin(), middle);
+  result.quantities.assign(middle, found.end());
+}
+
+// Keeps evenly chosen steps, the first and the last among them.
+void thin(std::vector<SurvivalStep>& steps) {
+  if (steps.size() <= most_steps_listed) return;
+  std::vector<SurvivalStep> kept;
+  const double apart = static_cast<double>(steps.size() - 1) / (most_steps_listed - 1);
+  for (std::size_t i = 0; i < most_steps_listed; ++i)
+    kept.push_back(steps[static_cast<std::size_t>(std::lround(apart * static_cast<double>(i)))]);
+  steps = std::move(kept);
+}
+
+ClassicalGroup classical_group(const AskedOfClassics& asked, const LifeGroup& group) {
+  ClassicalGroup found{
+      group.conditions.words, survival_estimate(group.responses, group.counts), 0, {}, group.life};
+  thin(found.survival.steps);
+  bool plain = true;
+  double items = 0;
+  for (std::size_t i = 0; i < group.responses.size(); ++i) {
+    const Response& y = group.responses[i];
+    found.longest = std::max(found.longest, y.seen == Censoring::interval ? y.until : y.at);
+    plain = plain && (y.seen == Censoring::none || y.seen == Censoring::right) &&
+            !(y.entry > -infinity);
+    items += group.counts[i];
+  }
+  const ResponseForm& form = *asked.model->measured.front().form;
+  if (!plain || items > most_ranked || !form.paper.straight) return found;
+  for (const MedianRanks ranks : {MedianRanks::exact, MedianRanks::benard}) {
+    const auto fit = rank_regression(ranked_failures(group.responses, group.counts, ranks),
+                                     form.paper.distribution, form.positive);
+    if (!fit) return found;
+    const auto family_parameters = family_parameters_of(form.family, *fit);
+    if (!family_parameters) return found;
+    found.lines.push_back({ranks, *fit, *family_parameters, {}});
+    for (const double percent : asked.percents)
+      found.lines.back().b_lives.push_back(
+          quantile(form.family, percent / 100, family_parameters->data()));
+  }
+  return found;
+}
+
+// Why conditions have no line or no steps.
+void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
+  if (asked.groups.empty()) return;
+  const ResponseForm& form = *asked.model->measured.front().form;
+  const RankRegression any{0, 1, 1};
+  const bool has_line = form.paper.straight && family_parameters_of(form.family, any).has_value();
+  bool no_line = false, any_line = false, no_steps = false, early_end = false, thinned = false;
+  for (const ClassicalGroup& each : result.groups) {
+    const std::vector<SurvivalStep>& steps = each.survival.steps;
+    no_line |= each.lines.empty();
+    any_line |= !each.lines.empty();
+    no_steps |= each.survival.method == SurvivalMethod::none;
+    thinned |= steps.size() == most_steps_listed;
+    early_end |= !steps.empty() && each.survival.method == SurvivalMethod::kaplan_meier &&
+                 std::any_of(steps.begin(), steps.end() - 1,
+                             [](const SurvivalStep& step) { return step.survival <= 0; });
+  }
+  if (!has_line)
+    result.notes.push_back(
+        "Rank regression needs a family of two parameters that is a straight line on its "
+        "probability paper: weibull, lognormal, loglogistic, log10-normal, normal or an "
+        "extreme-value family, without a threshold.");
+  else if (no_line)
+    result.notes.push_back(fmt::format(
+        "Rank regression needs at least two failures that differ, of exact lives and run-outs "
+        "without delayed entries, up to {} items; {}.",
+        most_ranked,
+        any_line ? "conditions that are not in its table lack this" : "these data lack this"));
+  if (no_steps)
+    result.notes.push_back(
+        "Delayed entries and intervals together have no nonparametric estimate here.");
+  if (thinned)
+    result.notes.push_back(fmt::format(
+        "Of more than {} steps of a nonparametric estimate {} are listed, evenly chosen.",
+        most_steps_listed, most_steps_listed));
+  if (early_end)
+    result.notes.push_back(
+        "A Kaplan-Meier estimate is 0 from a life on at which every item then under observation "
+        "failed, although others, with later entries, lived longer.");
+}
+
+}  // namespace
+
+ClassicalEstimates classical_estimates(const AskedOfClassics& asked, const Fit& fit) {
+  ClassicalEstimates result;
+  result.notes = asked.notes;
+  double failures = 0;
+  for (const Measured& each : asked.model->measured)
+    failures += static_cast<double>(each.observed.failures);
+  if (asked.model->modes) failures = static_cast<double>(asked.model->lives.failures);
+  if (failures > 0) {
+    add_estimates(asked, fit, result);
+  } else {
+    result.problem =
+        "no failure was observed, so the likelihood has no maximum; with a given shape a lower "
+        "bound exists (Weibayes)";
+  }
+  for (const LifeGroup& each : asked.groups) result.groups.push_back(classical_group(asked, each));
+  add_notes(asked, result);
+  return result;
+}
+
+}  // namespace wearwell::formula_model
