@@ -23,6 +23,7 @@ Models all_models() {
       formula_model::accelerated(),
       formula_model::degradation(),
       formula_model::fleet(),
+      formula_model::warranty(),
       recurrence::model(),
   };
   return models;

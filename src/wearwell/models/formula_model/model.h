@@ -7,11 +7,12 @@ namespace wearwell::formula_model {
 /// Formula models, and the template of `wearwell new formula`.
 Model model();
 
-/// The same model, with the templates of `wearwell new life`, `new accelerated`, `new degradation`
-/// and `new fleet`.
+/// The same model, with the templates of `wearwell new life`, `new accelerated`, `new degradation`,
+/// `new fleet` and `new warranty`.
 Model life();
 Model accelerated();
 Model degradation();
 Model fleet();
+Model warranty();
 
 }  // namespace wearwell::formula_model
