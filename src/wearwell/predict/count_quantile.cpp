@@ -105,16 +105,14 @@ std::vector<double> count_quantiles(std::span<const CountAtPoint> points,
   double low = INFINITY, high = 0, mass = 0;
   for (const CountAtPoint& each : points) {
     if (!(each.weight > 0)) continue;
+    if (!std::isfinite(each.mean)) return std::vector<double>(probabilities.size(), std::nan(""));
     const CountRange range = range_of(each);
     low = std::min(low, range.low);
     high = std::max(high, range.high);
     mass += each.weight;
   }
+  if (!(mass > 0)) return std::vector<double>(probabilities.size(), std::nan(""));
   std::vector<double> found;
-  if (!(mass > 0) || !std::isfinite(high)) {
-    found.assign(probabilities.size(), std::nan(""));
-    return found;
-  }
   if (high - low > most_summed) {
     for (const double p : probabilities) found.push_back(searched_quantile(points, p * mass, high));
     return found;

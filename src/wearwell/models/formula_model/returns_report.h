@@ -64,8 +64,12 @@ std::vector<html::Figure> returns_figures(const AskedReturns& asked, const Weigh
 /// "76 returns are expected ...": for the verdict.
 std::string returns_clause(const AskedReturns& asked, const WeightedDraws& draws);
 
-/// For a study with data.returns: reads predict.next, cost_per_return and planned_sales, and adds
-/// tables and figures. Throws InputError.
+/// Of a study with data.returns: reads predict.next, cost_per_return and planned_sales. Throws
+/// InputError.
+AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
+                                const std::shared_ptr<const FormulaModel>& model);
+
+/// Adds notes, tables and figures to a study with data.returns; nothing to others. Throws InputError.
 void add_returns(const TomlReader& root, const Source& source,
                  const std::shared_ptr<const FormulaModel>& model, PosteriorStudy& study);
 

@@ -61,18 +61,24 @@ void require_single_life(const TomlReader& root, const FormulaModel& model) {
 
 }  // namespace
 
-void add_returns(const TomlReader& root, const Source& source,
-                 const std::shared_ptr<const FormulaModel>& model, PosteriorStudy& study) {
-  const std::shared_ptr<const FieldReturns>& returns = model->data.returns;
-  if (!returns) return;
+AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
+                                const std::shared_ptr<const FormulaModel>& model) {
   require_single_life(root, *model);
   AskedReturns asked;
-  asked.returns = returns;
-  asked.ahead = returns->held_out;
+  asked.returns = model->data.returns;
+  asked.ahead = asked.returns->held_out;
   if (const auto predict = root.table("predict")) read_predict(*predict, source, asked);
   const Measured& measured = model->measured.front();
   asked.risks.push_back(risk_of(
       make_path(model, root, "likelihood", measured.wanted, false, Conditions()), measured));
+  return asked;
+}
+
+void add_returns(const TomlReader& root, const Source& source,
+                 const std::shared_ptr<const FormulaModel>& model, PosteriorStudy& study) {
+  const std::shared_ptr<const FieldReturns>& returns = model->data.returns;
+  if (!returns) return;
+  const AskedReturns asked = read_asked_returns(root, source, model);
   const std::vector<std::string> notes = notes_of_returns(*returns);
   study.data_notes.insert(study.data_notes.begin(), notes.begin(), notes.end());
   const int oldest = returns->last() - returns->triangle.sales.front().at;

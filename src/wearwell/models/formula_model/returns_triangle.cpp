@@ -56,6 +56,13 @@ std::vector<Heading> period_headings(const Table& table, const std::vector<std::
   return found;
 }
 
+std::vector<Heading> in_order(std::vector<Heading> headings) {
+  std::stable_sort(headings.begin(), headings.end(), [](const Heading& a, const Heading& b) {
+    return a.period.number < b.period.number;
+  });
+  return headings;
+}
+
 std::string quoted_place(const Table& table, const std::string& column, std::size_t row) {
   return fmt::format("{}: '{}'", place(table, column, row), cell_word(table.column(column), row));
 }
@@ -106,10 +113,7 @@ std::vector<Heading> ordered_headings(const TomlReader& keys, const Table& table
       throw InputError(fmt::format("{}: columns '{}' and '{}' are periods of different kinds",
                                    table.source, headings.front().column->name, each.column->name));
   }
-  std::stable_sort(headings.begin(), headings.end(), [](const Heading& a, const Heading& b) {
-    return a.period.number < b.period.number;
-  });
-  return headings;
+  return in_order(std::move(headings));
 }
 
 void require_consecutive(const Table& table, const std::vector<Heading>& headings,
@@ -192,7 +196,7 @@ std::string PeriodNames::text(int period) const {
 }
 
 std::optional<TriangleColumns> triangle_columns(const Table& table) {
-  const std::vector<Heading> headings = period_headings(table, {});
+  const std::vector<Heading> headings = in_order(period_headings(table, {}));
   if (headings.size() < 2) return {};
   for (std::size_t i = 1; i < headings.size(); ++i) {
     if (!headings[i].period.is_like(headings[0].period) ||
@@ -200,7 +204,7 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
       return {};
   }
   TriangleColumns columns;
-  const int most_earlier = headings[0].period.calendar ? 1200 : 0;
+  const int first = headings.front().period.number, last = headings.back().period.number;
   for (const Column& each : table.columns) {
     if (period_in(each.name)) continue;
     bool periods = table.rows > 0, counts = table.rows > 0;
@@ -208,8 +212,7 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
       const auto period = period_in(cell_word(each, row));
       // A quantity is a number, too.
       periods = periods && period && period->calendar == headings[0].period.calendar &&
-                period->number >= headings.front().period.number - 1 - most_earlier &&
-                period->number <= headings.back().period.number;
+                (period->calendar || (period->number >= first - 1 && period->number <= last));
       counts = counts && each.is_number && each.numbers[row] >= 0 &&
                each.numbers[row] == std::floor(each.numbers[row]);
     }
