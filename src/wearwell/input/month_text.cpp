@@ -94,6 +94,8 @@ std::optional<int> month_in(std::string_view text) {
   const auto first = number(0), second = number(1);
   // With a day, and the time of a spreadsheet.
   if (first && second && tokens[0].size() == year_digits && tokens[1].size() <= 2) {
+    // A spreadsheet makes the number 2024.1 of 2024.10.
+    if (tokens[1].size() == 1 && text.find('.') != text.npos) return {};
     const bool day = tokens.size() >= 3 && number(2) && *number(2) >= 1 && *number(2) <= 31;
     return tokens.size() == 2 || day ? month_of_year(*first, *second) : std::nullopt;
   }

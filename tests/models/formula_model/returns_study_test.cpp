@@ -63,14 +63,15 @@ std::string known(const std::string& returns, const std::string& predict, double
       fmt::format("{{ distribution = \"normal\", mean = {}, sd = {} }}", shape, 1e-6 * shape));
 }
 
-constexpr const char* flat_scale = "{ distribution = \"flat\", unit = \"month\" }";
-constexpr const char* flat_shape = "{ distribution = \"flat\" }";
+constexpr const char* wide_scale =
+    "{ distribution = \"uniform\", lower = \"1 month\", upper = \"300 month\" }";
+constexpr const char* wide_shape = "{ distribution = \"uniform\", lower = 0.2, upper = 8 }";
 
 // ReliaSoft's example of the Nevada format (reliawiki.com, "Warranty Data Analysis"), with the estimates of
 // tests/golden/warranty_returns.R: the published beta 2.49 and eta 6.70.
 TEST_F(ReturnsStudyTest, ReliaSoftsNevadaTable) {
   const std::string table = content("examples/warranty/nevada.csv"), returns = "ages = \"whole\"\n";
-  const Result result = run(table, study(returns, "", flat_scale, flat_shape));
+  const Result result = run(table, study(returns, "", wide_scale, wide_shape));
   const ModeSummary& mode = *result.posterior->mode;
   EXPECT_NEAR(mode.parameters[0].value, 6.69505307, 1e-4);
   EXPECT_NEAR(mode.parameters[1].value, 2.49277538, 1e-4);
@@ -97,7 +98,7 @@ TEST_F(ReturnsStudyTest, IntervalsAsInR) {
              {"middle", 1.51601911, 85.37555764, -3479.99360196}};
   for (const auto& each : all) {
     const Result result =
-        run(table, study(fmt::format("ages = \"{}\"\n", each.ages), "", flat_scale, flat_shape));
+        run(table, study(fmt::format("ages = \"{}\"\n", each.ages), "", wide_scale, wide_shape));
     const ModeSummary& mode = *result.posterior->mode;
     EXPECT_NEAR(mode.parameters[0].value, each.scale, 2e-3);
     EXPECT_NEAR(mode.parameters[1].value, each.shape, 2e-5);
@@ -175,7 +176,7 @@ TEST_F(ReturnsStudyTest, SumsAgree) {
 
 TEST_F(ReturnsStudyTest, HeldOutMonths) {
   const Json json = run(content("examples/warranty/returns.csv"),
-                        study("hold_out = \"6 month\"\n", "", flat_scale, flat_shape))
+                        study("hold_out = \"6 month\"\n", "", wide_scale, wide_shape))
                         .body["returns"];
   EXPECT_EQ(json["last"], "2025-06");
   EXPECT_EQ(json["held_out"]["periods"], 6);
@@ -191,7 +192,7 @@ TEST_F(ReturnsStudyTest, HeldOutMonths) {
 TEST_F(ReturnsStudyTest, Refusals) {
   const std::string table = content("examples/warranty/nevada.csv");
   const auto with = [&](const std::string& returns, const std::string& predict) {
-    return refusal(table, study(returns, predict, flat_scale, flat_shape));
+    return refusal(table, study(returns, predict, wide_scale, wide_shape));
   };
   EXPECT_THAT(with("", "next = \"1.5 month\"\n"), HasSubstr("next: must be whole months"));
   EXPECT_THAT(with("", "next = \"0 month\"\n"), HasSubstr("must be whole months"));
@@ -206,9 +207,9 @@ TEST_F(ReturnsStudyTest, Refusals) {
   write("planned.csv", "month,units\n2010-10,1000\n");
   EXPECT_THAT(with("", "planned_sales = { file = \"planned.csv\" }\n"),
               HasSubstr("planned_sales: needs predict.next"));
-  EXPECT_THAT(refusal(table, study("[data.columns]\nlife = \"x\"\n", "", flat_scale, flat_shape)),
+  EXPECT_THAT(refusal(table, study("[data.columns]\nlife = \"x\"\n", "", wide_scale, wide_shape)),
               HasSubstr("data.columns"));
-  std::string other = study("", "", flat_scale, flat_shape);
+  std::string other = study("", "", wide_scale, wide_shape);
   other += "[random_effects.sold]\nscale = { distribution = \"lognormal\", log_sd = \"s\" }\n";
   EXPECT_THAT(refusal(table, other), HasSubstr("random_effects: is not possible"));
 }

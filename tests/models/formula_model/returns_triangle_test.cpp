@@ -27,10 +27,10 @@ class ReturnsTriangleTest : public ScratchTest {
     return read_field_returns(root.required_table("data"), source);
   }
   std::string refusal(const std::string& table, const std::string& keys = "") {
-    return message_of<InputError>([&] { lives_of_returns(read(table, keys)); });
+    return message_of<InputError>([&] { lives_of_returns(*read(table, keys)); });
   }
   FormulaData lives(const std::string& table, const std::string& keys = "") {
-    return lives_of_returns(read(table, keys));
+    return lives_of_returns(*read(table, keys));
   }
 };
 
@@ -88,7 +88,7 @@ TEST_F(ReturnsTriangleTest, DelaysAndWarranty) {
               HasSubstr("with delays of 2 months no failure can be reported so early"));
   // The third month is beyond the warranty: 3 survivors of it more, and an interval that it cuts.
   const auto cut = read(table, "warranty = \"1 month\"\n");
-  const FormulaData claimed = lives_of_returns(cut);
+  const FormulaData claimed = lives_of_returns(*cut);
   EXPECT_THAT(claimed.number("count")->values, ElementsAre(2, 98, 50));
   EXPECT_NEAR(in_months(claimed, "upper")[0], 1, 1e-9);
   EXPECT_NEAR(in_months(claimed, "lower")[1], 1, 1e-9);

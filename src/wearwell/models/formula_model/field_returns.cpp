@@ -125,26 +125,25 @@ std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
   return std::make_shared<const FieldReturns>(std::move(returns));
 }
 
-FormulaData lives_of_returns(const std::shared_ptr<const FieldReturns>& returns) {
+FormulaData lives_of_returns(const FieldReturns& returns) {
   LifeRows rows;
-  for (const SalesPeriod& each : returns->triangle.sales)
-    if (each.at <= returns->last()) add_failures(*returns, each, rows);
+  for (const SalesPeriod& each : returns.triangle.sales)
+    if (each.at <= returns.last()) add_failures(returns, each, rows);
   if (rows.count.empty())
     throw InputError(fmt::format("{}: no unit has been in use yet, so there is nothing to fit",
-                                 returns->triangle.table.source));
+                                 returns.triangle.table.source));
   FormulaData data;
   const Unit plain{"1", 1, 0};
-  data.table.source = returns->triangle.table.source;
-  data.table.layout = returns->triangle.table.layout;
+  data.table.source = returns.triangle.table.source;
+  data.table.layout = returns.triangle.table.layout;
   data.table.rows = rows.count.size();
-  data.table.columns = {table_column("lower", returns->period, rows.lower),
-                        table_column("upper", returns->period, rows.upper),
+  data.table.columns = {table_column("lower", returns.period, rows.lower),
+                        table_column("upper", returns.period, rows.upper),
                         table_column("count", plain, rows.count)};
   data.table.columns.push_back(Column{"sold", false, {}, rows.sold});
-  data.numbers.push_back(column_of_lives("lower", returns->period, rows.lower));
-  data.numbers.push_back(column_of_lives("upper", returns->period, rows.upper));
+  data.numbers.push_back(column_of_lives("lower", returns.period, rows.lower));
+  data.numbers.push_back(column_of_lives("upper", returns.period, rows.upper));
   data.numbers.push_back(column_of_lives("count", plain, rows.count));
-  data.returns = returns;
   return data;
 }
 

@@ -38,7 +38,7 @@ std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
 /// cell of the triangle is a row of failures, and the units of a period of sale that did not come
 /// back a row of survivors. Throws InputError that names the period of sale: a return before the end
 /// of the delays.
-FormulaData lives_of_returns(const std::shared_ptr<const FieldReturns>& returns);
+FormulaData lives_of_returns(const FieldReturns& returns);
 
 /// What a reader should know of the data, as sentences.
 std::vector<std::string> notes_of_returns(const FieldReturns& returns);

@@ -308,7 +308,7 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
   if (section.has("returns")) {
     for (const char* key : {"failure_modes", "random_effects"})
       if (root.has(key)) root.fail(key, "is not possible with [data.returns]");
-    return lives_of_returns(read_field_returns(section, source));
+    return lives_of_returns(*read_field_returns(section, source));
   }
   const TomlReader columns = section.required_table("columns");
   FormulaData data{read_table(section, source), {}, {}, {}};

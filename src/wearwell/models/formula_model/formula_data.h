@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,16 +29,12 @@ struct LabelColumn {
   std::vector<int> at;              ///< per row, index into `levels`
 };
 
-struct FieldReturns;
-
 /// The columns that the study names under [data.columns], row by row.
 struct FormulaData {
   Table table;
   std::vector<NumberColumn> numbers;
   std::vector<LabelColumn> labels;
   std::optional<LifeStatus> status;
-  /// Set if the rows come from a returns triangle (field_returns.h).
-  std::shared_ptr<const FieldReturns> returns = {};
 
   const NumberColumn* number(const std::string& name) const;
   const LabelColumn* label(const std::string& name) const;
@@ -49,7 +44,7 @@ struct FormulaData {
   void require_values(const NumberColumn& column) const;
 };
 
-/// Reads [data.columns], or the triangle of [data.returns]. Text columns are labels, and so are numeric columns that the study uses as
+/// Reads [data.columns]. Text columns are labels, and so are numeric columns that the study uses as
 /// such: `label_names`. The column of failure modes is read elsewhere (failure_modes.h). Throws InputError.
 FormulaData read_own_data(const TomlReader& root, const Source& source,
                           const std::vector<std::string>& label_names);

@@ -13,7 +13,4 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles);
 /// others.
 std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles);
 
-/// The same for a returns triangle (returns_triangle.h).
-std::optional<Scaffold> first_returns_study(ColumnRoles& roles);
-
 }  // namespace wearwell::formula_model

@@ -21,9 +21,6 @@ std::string_view degradation_data();
 std::string_view fleet_study();
 std::string_view fleet_data();
 std::string_view fleet_monitor();
-std::string_view warranty_study();
-std::string_view warranty_data();
-std::string_view warranty_planned();
 
 }  // namespace resource
 
@@ -94,13 +91,6 @@ Model fleet() {
                                             {"readings.jsonl", fleet_readings},
                                             {"truth.csv", fleet_truth}};
   return preset_with("fleet", example);
-}
-
-Model warranty() {
-  static constexpr ExampleFile example[] = {{"study.toml", resource::warranty_study},
-                                            {"returns.csv", resource::warranty_data},
-                                            {"planned.csv", resource::warranty_planned}};
-  return preset_with("warranty", example, first_returns_study);
 }
 
 }  // namespace formula_model

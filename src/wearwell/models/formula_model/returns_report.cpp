@@ -261,9 +261,11 @@ std::string returns_clause(const AskedReturns& asked, const WeightedDraws& draws
           ? fmt::format("; expected cost {}{}", plain_number(*asked.cost * last.until.expected),
                         asked.currency.empty() ? "" : " " + asked.currency)
           : "";
-  return fmt::format("{} returns are expected in the next {} {}, until {}; {} with 90 %{}",
-                     plain_number(last.until.expected), asked.ahead, asked.period(asked.ahead),
-                     asked.returns->triangle.names.text(last.at), count_text(last.until), cost);
+  return fmt::format("{} returns are expected in the next {}{}, until {}; {} with 90 %{}",
+                     plain_number(last.until.expected),
+                     asked.ahead == 1 ? "" : fmt::format("{} ", asked.ahead),
+                     asked.period(asked.ahead), asked.returns->triangle.names.text(last.at),
+                     count_text(last.until), cost);
 }
 
 }  // namespace wearwell::formula_model

@@ -1,3 +1,5 @@
+#include "wearwell/models/formula_model/returns_scaffold.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 
 #include "wearwell/input/prior.h"
 #include "wearwell/input/status_words.h"
-#include "wearwell/models/formula_model/life_scaffold.h"
 #include "wearwell/models/formula_model/returns_triangle.h"
 
 namespace wearwell::formula_model {
@@ -58,7 +59,7 @@ std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
       "return\nsold     = {}\nquantity = {}\n{}"
       "ages     = \"middle\"                      # of the period of sale; or start, end, whole "
       "(docs/reference/warranty.md)\n"
-      "# warranty = \"36 {}\"                     # in use; later failures are not claimed\n\n"
+      "# warranty = \"36 {}\"                  # in use; later failures are not claimed\n\n"
       "[likelihood.life]\nfamily = \"weibull\"                       # or lognormal, loglogistic, "
       "gamma (docs/reference/formula-models.md)\n"
       "scale  = \"characteristic\"                # 63.2 % have failed by then\nshape  = "
@@ -69,7 +70,7 @@ std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
       "factor of 27 to either side\n"
       "slope = {{ distribution = \"lognormal\", median = 1.2, log_sd = 0.5 }}    # below 1: early "
       "failures, above: wear-out\n\n"
-      "[predict]\nnext = \"12 {}\"                          # returns to come\n"
+      "[predict]\nnext = \"12 {}\"                        # returns to come\n"
       "# cost_per_return = \"180 EUR\"\n"
       "# planned_sales = {{ file = \"planned.csv\" }}    # columns: period of sale, units\n",
       toml_text("Returns, from " + roles.file()), roles.data_section(), toml_text(columns->period),

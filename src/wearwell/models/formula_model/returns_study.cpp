@@ -65,7 +65,7 @@ AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
                                 const std::shared_ptr<const FormulaModel>& model) {
   require_single_life(root, *model);
   AskedReturns asked;
-  asked.returns = model->data.returns;
+  asked.returns = read_field_returns(root.required_table("data"), source);
   asked.ahead = asked.returns->held_out;
   if (const auto predict = root.table("predict")) read_predict(*predict, source, asked);
   const Measured& measured = model->measured.front();
@@ -76,9 +76,9 @@ AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
 
 void add_returns(const TomlReader& root, const Source& source,
                  const std::shared_ptr<const FormulaModel>& model, PosteriorStudy& study) {
-  const std::shared_ptr<const FieldReturns>& returns = model->data.returns;
-  if (!returns) return;
+  if (!root.required_table("data").has("returns")) return;
   const AskedReturns asked = read_asked_returns(root, source, model);
+  const std::shared_ptr<const FieldReturns>& returns = asked.returns;
   const std::vector<std::string> notes = notes_of_returns(*returns);
   study.data_notes.insert(study.data_notes.begin(), notes.begin(), notes.end());
   const int oldest = returns->last() - returns->triangle.sales.front().at;
