@@ -13,7 +13,7 @@
 namespace wearwell {
 namespace {
 
-constexpr std::array shares = {0.01, 0.05, 0.3, 0.5, 0.7, 0.95, 0.99};
+constexpr std::array count_levels = {0.01, 0.05, 0.3, 0.5, 0.7, 0.95, 0.99};
 
 // The smallest whole number with cdf of at least p.
 template <class Cdf>
@@ -26,18 +26,19 @@ double first_with(const Cdf& cdf, double p) {
 TEST(CountQuantile, PoissonAndBinomialAreExact) {
   for (const double mean : {0.01, 0.7, 3.0, 40.0, 2500.0}) {
     const CountAtPoint at{mean, mean, 1};
-    const auto found = count_quantiles({&at, 1}, shares);
+    const auto found = count_quantiles({&at, 1}, count_levels);
     const boost::math::poisson_distribution<> poisson(mean);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      EXPECT_EQ(found[i], first_with([&](double k) { return cdf(poisson, k); }, shares[i])) << mean;
+    for (std::size_t i = 0; i < count_levels.size(); ++i)
+      EXPECT_EQ(found[i], first_with([&](double k) { return cdf(poisson, k); }, count_levels[i]))
+          << mean;
   }
   for (const auto& [n, p] : {std::pair{1, 0.3}, {5, 0.9}, {80, 0.02}, {300, 0.5}, {2000, 0.999}}) {
     const CountAtPoint at{n * p, n * p * (1 - p), 2};  // weights need not sum to 1
-    const auto found = count_quantiles({&at, 1}, shares);
+    const auto found = count_quantiles({&at, 1}, count_levels);
     const boost::math::binomial_distribution<> binomial(n, p);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      EXPECT_EQ(found[i], first_with([&](double k) { return cdf(binomial, k); }, shares[i]))
-          << n << " " << p << " " << shares[i];
+    for (std::size_t i = 0; i < count_levels.size(); ++i)
+      EXPECT_EQ(found[i], first_with([&](double k) { return cdf(binomial, k); }, count_levels[i]))
+          << n << " " << p << " " << count_levels[i];
   }
 }
 
@@ -50,10 +51,10 @@ TEST(CountQuantile, MixtureOverAPosterior) {
     const double mean = 120.0 * (i + 0.5) / n;
     points.push_back({mean, mean, std::pow(mean, shape - 1) * std::exp(-mean / scale)});
   }
-  const auto found = count_quantiles(points, shares);
+  const auto found = count_quantiles(points, count_levels);
   const boost::math::negative_binomial_distribution<> exact(shape, 1 / (1 + scale));
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    EXPECT_EQ(found[i], first_with([&](double k) { return cdf(exact, k); }, shares[i]));
+  for (std::size_t i = 0; i < count_levels.size(); ++i)
+    EXPECT_EQ(found[i], first_with([&](double k) { return cdf(exact, k); }, count_levels[i]));
 }
 
 // Units of unequal probability: the exact distribution by convolution.
@@ -72,16 +73,16 @@ TEST(CountQuantile, UnequalUnits) {
         density[k] = density[k] * (1 - p) + density[k - 1] * p;
       density[0] *= 1 - p;
     }
-    const auto found = count_quantiles({&at, 1}, shares);
-    for (std::size_t i = 0; i < shares.size(); ++i) {
+    const auto found = count_quantiles({&at, 1}, count_levels);
+    for (std::size_t i = 0; i < count_levels.size(); ++i) {
       double below = 0, until = 0;
       for (std::size_t k = 0; k < density.size() && k <= static_cast<std::size_t>(found[i]); ++k) {
         below = until;
         until += density[k];
       }
       constexpr double close = 1e-3;  // of the cumulative probability
-      EXPECT_GE(until, shares[i] - close);
-      EXPECT_LT(below, shares[i] + close);
+      EXPECT_GE(until, count_levels[i] - close);
+      EXPECT_LT(below, count_levels[i] + close);
     }
   }
 }
@@ -97,10 +98,12 @@ TEST(CountQuantile, LongRanges) {
 
 TEST(CountQuantile, Edges) {
   const CountAtPoint none{0, 0, 1}, sure{7, 0, 1}, nan{std::nan(""), 1, 1};
-  EXPECT_EQ(count_quantiles({&none, 1}, shares), std::vector<double>(shares.size(), 0.0));
-  EXPECT_EQ(count_quantiles({&sure, 1}, shares), std::vector<double>(shares.size(), 7.0));
-  EXPECT_TRUE(std::isnan(count_quantiles({&nan, 1}, shares)[0]));
-  EXPECT_TRUE(std::isnan(count_quantiles({}, shares)[0]));
+  EXPECT_EQ(count_quantiles({&none, 1}, count_levels),
+            std::vector<double>(count_levels.size(), 0.0));
+  EXPECT_EQ(count_quantiles({&sure, 1}, count_levels),
+            std::vector<double>(count_levels.size(), 7.0));
+  EXPECT_TRUE(std::isnan(count_quantiles({&nan, 1}, count_levels)[0]));
+  EXPECT_TRUE(std::isnan(count_quantiles({}, count_levels)[0]));
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST_F(ReturnsStudyTest, Refusals) {
 
 // The long study is in tests/calibration.
 TEST(ReturnsCoverage, HeldOutReturns) {
-  constexpr std::size_t count = 60;
+  constexpr std::size_t count = 40;
   std::vector<int> first(count), all(count);
   std::vector<double> expected(count), returned(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -234,8 +234,8 @@ TEST(ReturnsCoverage, HeldOutReturns) {
     sum += returned[i] - expected[i];
     square += (returned[i] - expected[i]) * (returned[i] - expected[i]);
   }
-  // qbinom(1e-4, 60, 0.9)
-  constexpr int least = 44;
+  // qbinom(1e-4, 40, 0.9)
+  constexpr int least = 28;
   EXPECT_GE(first_held, least);
   EXPECT_GE(all_held, least);
   EXPECT_LT(std::abs(sum), 4 * std::sqrt(square));

@@ -261,11 +261,13 @@ std::string returns_clause(const AskedReturns& asked, const WeightedDraws& draws
           ? fmt::format("; expected cost {}{}", plain_number(*asked.cost * last.until.expected),
                         asked.currency.empty() ? "" : " " + asked.currency)
           : "";
-  return fmt::format("{} returns are expected in the next {}{}, until {}; {} with 90 %{}",
-                     plain_number(last.until.expected),
-                     asked.ahead == 1 ? "" : fmt::format("{} ", asked.ahead),
-                     asked.period(asked.ahead), asked.returns->triangle.names.text(last.at),
-                     count_text(last.until), cost);
+  const PeriodNames& names = asked.returns->triangle.names;
+  const std::string when =
+      asked.ahead == 1 ? "in " + names.text(last.at)
+                       : fmt::format("from {} to {}", names.text(result.forecast.front().at),
+                                     names.text(last.at));
+  return fmt::format("{} returns are expected {}; {} with 90 %{}",
+                     plain_number(last.until.expected), when, count_text(last.until), cost);
 }
 
 }  // namespace wearwell::formula_model

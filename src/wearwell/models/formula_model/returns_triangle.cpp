@@ -207,18 +207,19 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
   const int first = headings.front().period.number, last = headings.back().period.number;
   for (const Column& each : table.columns) {
     if (period_in(each.name)) continue;
-    bool periods = table.rows > 0, counts = table.rows > 0;
+    std::size_t periods = 0, counts = 0;
     for (std::size_t row = 0; row < table.rows; ++row) {
       const auto period = period_in(cell_word(each, row));
       // A quantity is a number, too.
-      periods = periods && period && period->calendar == headings[0].period.calendar &&
-                (period->calendar || (period->number >= first - 1 && period->number <= last));
-      counts = counts && each.is_number && each.numbers[row] >= 0 &&
-               each.numbers[row] == std::floor(each.numbers[row]);
+      periods += period && period->calendar == headings[0].period.calendar &&
+                 (period->calendar || (period->number >= first - 1 && period->number <= last));
+      counts += each.is_number && each.numbers[row] >= 0 &&
+                each.numbers[row] == std::floor(each.numbers[row]);
     }
-    if (periods && columns.period.empty()) {
+    // Most cells: messages name the others.
+    if (2 * periods > table.rows && columns.period.empty()) {
       columns.period = each.name;
-    } else if (counts && columns.quantity.empty()) {
+    } else if (2 * counts > table.rows && columns.quantity.empty()) {
       columns.quantity = each.name;
     } else {
       columns.unread.push_back(each.name);
