@@ -160,6 +160,23 @@ TEST_F(ReturnsTriangleTest, ErrorsNameTheCell) {
               HasSubstr("no column 'month'"));
 }
 
+// A total of the returns is no quantity, whatever the numbers of the quantity look like.
+TEST_F(ReturnsTriangleTest, QuantityStandsBeforeTheReturns) {
+  EXPECT_EQ(read("month,sold,2024-01,2024-02,total\n2024-01,100,1,2,3\n2024-02,200,,4,4\n")
+                ->triangle.quantity_column,
+            "sold");
+  EXPECT_THAT(refusal("month,sold,2024-01,2024-02,total\n2024-01,\"1,100\",1,2,3\n2024-02,200,,4,"
+                      "4\n"),
+              HasSubstr("column 'sold'"));
+  EXPECT_EQ(read("line,month,sold,2024-01,2024-02\n7,2024-01,100,1,2\n7,2024-02,200,,4\n")
+                ->triangle.quantity_column,
+            "sold");
+  EXPECT_THAT(refusal("line,month,number,2024-01,2024-02\n7,2024-01,100,1,2\n7,2024-02,200,,4\n"),
+              HasSubstr("data.returns"));
+  EXPECT_THAT(refusal("month,2024-01,2024-02,total\n2024-01,1,2,3\n2024-02,,4,4\n"),
+              HasSubstr("data.returns"));
+}
+
 TEST_F(ReturnsTriangleTest, PlannedSales) {
   const auto planned = [&](const std::string& text) {
     const Source source = source_of(write("p.toml", "[planned]\nfile = \"p.csv\"\n"));

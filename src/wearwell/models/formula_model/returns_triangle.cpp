@@ -92,6 +92,25 @@ int units_in(const Table& table, const std::string& column, std::size_t row, int
   return static_cast<int>(value);
 }
 
+// The only column of numbers, or the only one whose heading says units sold.
+const Column* quantity_among(const std::vector<const Column*>& columns) {
+  if (columns.size() == 1) return columns.front();
+  const Column* found = nullptr;
+  for (const Column* each : columns) {
+    const std::string heading = folded_word(each->name);
+    bool named = false;
+    for (const char* word :
+         {"sold",   "ship",   "quantity", "qty",      "units",  "sales",     "menge",
+          "anzahl", "stuck",  "stueck",   "verkauf",  "absatz", "geliefert", "quantite",
+          "vendu",  "ventes", "livr",     "cantidad", "vendid", "unidades"})
+      named = named || heading.find(word) != heading.npos;
+    if (!named) continue;
+    if (found) return nullptr;
+    found = each;
+  }
+  return found;
+}
+
 std::string column_named(const TomlReader& keys, const std::string& key, const Table& table,
                          const std::string& otherwise) {
   if (const auto heading = keys.text(key)) return study_column(keys, key, *heading, table).name;
@@ -205,25 +224,32 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
   }
   TriangleColumns columns;
   const int first = headings.front().period.number, last = headings.back().period.number;
+  std::vector<const Column*> quantities;
+  bool before_returns = true;
   for (const Column& each : table.columns) {
-    if (period_in(each.name)) continue;
-    std::size_t periods = 0, counts = 0;
+    if (period_in(each.name)) {
+      before_returns = false;
+      continue;
+    }
+    std::size_t periods = 0;
     for (std::size_t row = 0; row < table.rows; ++row) {
       const auto period = period_in(cell_word(each, row));
       // A quantity is a number, too.
       periods += period && period->calendar == headings[0].period.calendar &&
                  (period->calendar || (period->number >= first - 1 && period->number <= last));
-      counts += each.is_number && each.numbers[row] >= 0 &&
-                each.numbers[row] == std::floor(each.numbers[row]);
     }
     // Most cells: messages name the others.
     if (2 * periods > table.rows && columns.period.empty()) {
       columns.period = each.name;
-    } else if (2 * counts > table.rows && columns.quantity.empty()) {
-      columns.quantity = each.name;
-    } else {
-      columns.unread.push_back(each.name);
+      continue;
     }
+    columns.unread.push_back(each.name);
+    // Numbers after the returns are their totals.
+    if (before_returns && (each.is_number || !each.doubt.empty())) quantities.push_back(&each);
+  }
+  if (const Column* quantity = quantity_among(quantities)) {
+    columns.quantity = quantity->name;
+    std::erase(columns.unread, quantity->name);
   }
   columns.first = headings.front().column->name;
   columns.last = headings.back().column->name;
