@@ -456,7 +456,7 @@ beta = { distribution = "lognormal", median = 1, log_sd = 0.5 }
 [predict]
 next = "12 month"
 cost_per_return = "180 EUR"
-planned_sales = { file = "planned.csv", sold = "month", quantity = "units" }
+planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units" }
 )toml"},
       {"repairable", R"toml(model = "repairable"
 process = "power_law"

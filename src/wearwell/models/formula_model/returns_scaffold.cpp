@@ -72,7 +72,7 @@ std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
       "failures, above: wear-out\n\n"
       "[predict]\nnext = \"12 {}\"                        # returns to come\n"
       "# cost_per_return = \"180 EUR\"\n"
-      "# planned_sales = {{ file = \"planned.csv\" }}    # columns: period of sale, units\n",
+      "# planned_sales = {{ file = \"planned_sales.csv\" }}    # columns: period of sale, units\n",
       toml_text("Returns, from " + roles.file()), roles.data_section(), toml_text(columns->period),
       toml_text(columns->quantity), line, unit, rounded_up(10 * length_of(table)), unit, unit);
   return study;

@@ -17,7 +17,7 @@ namespace formula_model {
 Model warranty() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::warranty_study},
                                             {"returns.csv", resource::warranty_data},
-                                            {"planned.csv", resource::warranty_planned}};
+                                            {"planned_sales.csv", resource::warranty_planned}};
   Model own = model();
   own.preset = "warranty";
   own.example = example;
