@@ -10,6 +10,7 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/rng.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/study/model.h"
 #include "wearwell/study/posterior_summary.h"
@@ -187,6 +188,28 @@ TEST_F(ReturnsStudyTest, HeldOutMonths) {
   EXPECT_GT(later, 0);
   EXPECT_GE(json["held_out"]["returned"], json["held_out"]["forecast"]["number_q05"]);
   EXPECT_LE(json["held_out"]["returned"], json["held_out"]["forecast"]["number_q95"]);
+}
+
+// Of rows with many units the check of fit judges as large a share of survivors as of failures.
+TEST_F(ReturnsStudyTest, ManyUnitsFit) {
+  constexpr int months = 8, units = 10000;
+  Rng rng(20261129, 1);
+  std::string table = "sold,units";
+  for (int month = 1; month <= months; ++month) table += fmt::format(",{}", month);
+  for (int sale = 1; sale <= months; ++sale) {
+    std::vector<int> returns(months + 1);
+    for (int unit = 0; unit < units; ++unit) {
+      const double at = sale + std::floor(30 * std::pow(-std::log(rng.uniform()), 1 / 1.2) + 0.5);
+      if (at <= months) ++returns[static_cast<std::size_t>(at)];
+    }
+    table += fmt::format("\n{},{}", sale, units);
+    for (int month = 1; month <= months; ++month)
+      table += month < sale ? "," : fmt::format(",{}", returns[static_cast<std::size_t>(month)]);
+  }
+  const Result result =
+      run(table + "\n", study("period = \"month\"\n", "", wide_scale, wide_shape));
+  for (const Check& each : result.posterior->checks)
+    EXPECT_NE(each.verdict, Verdict::fail) << each.name << ": " << each.detail;
 }
 
 TEST_F(ReturnsStudyTest, Refusals) {
