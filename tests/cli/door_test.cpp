@@ -262,7 +262,8 @@ TEST_F(Door, SlipsInACommandLine) {
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
        "PRESET: 'jiont' is not allowed; use one of joint, bearing, clutch, fatigue, spectrum, "
-       "strain-life, staircase, formula, life, accelerated, degradation, fleet, repairable; did "
+       "strain-life, staircase, formula, life, accelerated, degradation, fleet, warranty, "
+       "repairable; did "
        "you mean "
        "'joint'?"},
       {"new joint", "wearwell new: DIR is "},

@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(, EveryExample,
                                          "fatigue/study", "staircase/study", "spring/case1",
                                          "repairable/study", "degradation/study",
                                          "degradation/lines", "life/study", "accelerated/study",
-                                         "formula/study", "messy/german_excel", "messy/logger",
-                                         "messy/workbook", "messy/rig"),
+                                         "formula/study", "warranty/study", "messy/german_excel",
+                                         "messy/logger", "messy/workbook", "messy/rig"),
                          [](const auto& each) {
                            std::string name = each.param;
                            for (char& c : name) c = c == '/' ? '_' : c;

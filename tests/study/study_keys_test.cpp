@@ -79,7 +79,7 @@ class StudyKeysTest : public ScratchTest {
           "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
           "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
     for (const char* name : {"joint", "bearing", "fatigue", "clutch", "spring", "formula", "life",
-                             "accelerated", "repairable"}) {
+                             "accelerated", "repairable", "warranty"}) {
       for (const auto& entry :
            fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
         if (!fs::exists(folder() / entry.path().filename()))
@@ -434,6 +434,30 @@ scatter = { distribution = "lognormal", median = 0.5, log_sd = 0.5 }
 eta = { distribution = "lognormal", median = "30000 km", log_sd = 1 }
 beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
 )toml"},
+      {"formula", R"toml(model = "formula"
+[data]
+file = "returns.csv"
+[data.returns]
+sold = "sold"
+quantity = "shipped"
+period = "month"
+ages = "middle"
+delay_to_use = "0.1 month"
+delay_of_report = "0.1 month"
+warranty = "36 month"
+hold_out = "2 month"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { distribution = "lognormal", median = "100 month", log_sd = 1 }
+beta = { distribution = "lognormal", median = 1, log_sd = 0.5 }
+[predict]
+next = "12 month"
+cost_per_return = "180 EUR"
+planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units" }
+)toml"},
       {"repairable", R"toml(model = "repairable"
 process = "power_law"
 [data]
@@ -486,7 +510,8 @@ void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
   const std::map<std::string, std::string> folders = {
       {"joint", "archard-joint"}, {"bearing", "bearing-wear"}, {"fatigue", "sn"},
       {"spring", "sn"},           {"clutch", "clutch-wear"},   {"formula", "formula"},
-      {"life", "formula"},        {"accelerated", "formula"},  {"repairable", "repairable"}};
+      {"life", "formula"},        {"accelerated", "formula"},  {"repairable", "repairable"},
+      {"warranty", "formula"}};
   for (const auto& [folder, model] : folders) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {

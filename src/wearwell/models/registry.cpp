@@ -4,6 +4,7 @@
 #include "wearwell/models/clutch/model.h"
 #include "wearwell/models/fatigue/model.h"
 #include "wearwell/models/formula_model/model.h"
+#include "wearwell/models/formula_model/warranty_model.h"
 #include "wearwell/models/joint/model.h"
 #include "wearwell/models/recurrence/model.h"
 
@@ -23,6 +24,7 @@ Models all_models() {
       formula_model::accelerated(),
       formula_model::degradation(),
       formula_model::fleet(),
+      formula_model::warranty(),
       recurrence::model(),
   };
   return models;

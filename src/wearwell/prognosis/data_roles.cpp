@@ -75,7 +75,12 @@ DataRoles::Named named_column(const TomlReader& columns, const std::string& name
 
 DataRoles data_roles(const TomlReader& root, const Table& table) {
   DataRoles roles;
-  const TomlReader columns = root.required_table("data").required_table("columns");
+  const TomlReader data = root.required_table("data");
+  if (data.has("returns"))
+    data.fail("returns",
+              "is a triangle, to which no rows can be added: replace its file by the newer table "
+              "and fit again");
+  const TomlReader columns = data.required_table("columns");
   for (const std::string& name : columns.keys()) {
     DataRoles::Named named = named_column(columns, name);
     named.column = table.column(named.column).name;

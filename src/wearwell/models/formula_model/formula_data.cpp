@@ -13,6 +13,7 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/field_returns.h"
 
 // Longer than others: columns, and the meaning of each cell of a measured one.
 namespace wearwell::formula_model {
@@ -304,6 +305,11 @@ double detection_limit(const TomlReader& choice, const formula::AnyUnit& unit) {
 FormulaData read_own_data(const TomlReader& root, const Source& source,
                           const std::vector<std::string>& label_names) {
   const TomlReader section = root.required_table("data");
+  if (section.has("returns")) {
+    for (const char* key : {"failure_modes", "random_effects"})
+      if (root.has(key)) root.fail(key, "is not possible with [data.returns]");
+    return lives_of_returns(*read_field_returns(section, source));
+  }
   const TomlReader columns = section.required_table("columns");
   FormulaData data{read_table(section, source), {}, {}, {}};
   data.status = read_life_status(columns, data.table);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "wearwell/models/formula_model/formula_process.h"
+#include "wearwell/models/formula_model/returns_keys.h"
 #include "wearwell/prob/response.h"
 #include "wearwell/study/posterior_keys.h"
 
@@ -124,6 +125,7 @@ StudyKeys formula_keys() {
         "any function of the parameters; or with its unit:"},
        {"predict.quantities.*.value", "\"k * 20 [N]\"", "expression"},
        {"predict.quantities.*.unit", "\"mm^3/m\"", "unit of the report"}});
+  add_keys(keys, returns_keys());
   return keys;
 }
 

@@ -20,6 +20,7 @@
 #include "wearwell/models/formula_model/formula_start.h"
 #include "wearwell/models/formula_model/identified.h"
 #include "wearwell/models/formula_model/life_paper.h"
+#include "wearwell/models/formula_model/returns_report.h"
 #include "wearwell/prognosis/plural.h"
 
 namespace wearwell {
@@ -323,6 +324,7 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   formula_model::tell_drawn_effects(model, study);
   formula_model::read_own_predictions(root, model, rows, study);
   formula_model::show_life_paper(root, model, study);
+  formula_model::add_returns(root, source, model, study);
 }
 
 }  // namespace wearwell

@@ -3,14 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/math/boost_policy.h"
-#include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
 #include "wearwell/models/recurrence/renewal_function.h"
+#include "wearwell/predict/count_quantile.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell::recurrence {
@@ -28,29 +26,6 @@ double hazard_ahead(const Process& process, const double* x, const UnitState& un
   return weibull_hazard(x, unit.since_repair + ahead) - weibull_hazard(x, unit.since_repair);
 }
 
-double poisson_cdf(double count, double mean) {
-  return mean > 0 ? boost::math::gamma_q(count + 1, mean, Quiet()) : 1;
-}
-
-// The smallest count with a cumulative probability of at least p.
-double mixed_quantile(const std::vector<WeightedValue>& means, double p) {
-  const auto cdf = [&](double count) {
-    double sum = 0;
-    for (const WeightedValue& each : means) sum += each.weight * poisson_cdf(count, each.value);
-    return sum;
-  };
-  double low = -1, high = 1;
-  while (cdf(high) < p) {
-    low = high;
-    high *= 2;
-  }
-  while (high - low > 1) {
-    const double middle = std::floor(0.5 * (low + high));
-    (cdf(middle) < p ? low : high) = middle;
-  }
-  return high;
-}
-
 void of_poisson(const Process& process, const WeightedDraws& all,
                 const std::vector<UnitState>& units, double ahead, Forecast& found) {
   const auto mean = [&](const double* x) {
@@ -59,18 +34,21 @@ void of_poisson(const Process& process, const WeightedDraws& all,
     return sum;
   };
   const WeightedDraws draws = thinned(all, draws_of_counts);
-  std::vector<WeightedValue> means(static_cast<std::size_t>(draws.values.rows()));
-  tbb::parallel_for(std::size_t{0}, means.size(), [&](std::size_t i) {
+  std::vector<CountAtPoint> counts(static_cast<std::size_t>(draws.values.rows()));
+  tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
-    means[i] = {mean(draws.values.row(row).data()), draws.weights[row]};
+    const double expected = mean(draws.values.row(row).data());
+    counts[i] = {expected, expected, draws.weights[row]};
   });
   const QuantityDistribution expected(draws, mean);
   found.expected = expected.mean();
   found.low = expected.quantile(lower_end);
   found.high = expected.quantile(upper_end);
-  found.count_low = mixed_quantile(means, lower_end);
-  found.count_high = mixed_quantile(means, upper_end);
-  for (const WeightedValue& each : means) found.any += each.weight * -std::expm1(-each.value);
+  const double ends[] = {lower_end, upper_end};
+  const std::vector<double> range = count_quantiles(counts, ends);
+  found.count_low = range[0];
+  found.count_high = range[1];
+  for (const CountAtPoint& each : counts) found.any += each.weight * -std::expm1(-each.mean);
 }
 
 // The number of failures of one unit in one future.

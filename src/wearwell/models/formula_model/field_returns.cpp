@@ -1,0 +1,196 @@
+#include "wearwell/models/formula_model/field_returns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/present/plain.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+// The length of a period; months of the calendar are months.
+Unit read_period(const TomlReader& keys, const PeriodNames& names) {
+  const auto text = keys.text("period");
+  if (!text) {
+    if (!names.calendar)
+      keys.fail("period",
+                fmt::format("is missing: the periods are numbers ('{}'); how long is one, for "
+                            "example \"month\" or \"week\"?",
+                            names.text(1)));
+    return read_unit("month", "s");
+  }
+  try {
+    const Unit unit = read_unit(*text, "s");
+    if (names.calendar && *text != "month")
+      keys.fail("period", "must be \"month\": the periods are months of the calendar");
+    return unit;
+  } catch (const InputError& error) {
+    keys.fail("period", error.what());
+  }
+}
+
+double in_periods(const TomlReader& keys, const char* key, const Unit& period, double otherwise) {
+  const auto quantity = keys.quantity(key, "s");
+  if (!quantity) return otherwise;
+  if (!(quantity->si() >= 0)) keys.fail(key, "must not be negative");
+  return quantity->si() / period.scale;
+}
+
+struct LifeRows {
+  std::vector<double> lower, upper, count;
+  std::vector<std::string> sold;
+
+  void add(double from, double to, int units, const std::string& period) {
+    lower.push_back(from);
+    upper.push_back(to);
+    count.push_back(units);
+    sold.push_back(period);
+  }
+};
+
+void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows& rows) {
+  const std::string period = returns.triangle.names.text(sale.at);
+  int surviving = sale.sold;
+  for (int after = 0; sale.at + after <= returns.last(); ++after) {
+    const int count = sale.returns[static_cast<std::size_t>(after)];
+    if (count == 0) continue;
+    const double lower = returns.age(after - 1), upper = returns.age(after);
+    if (!(upper > 0))
+      throw InputError(fmt::format(
+          "{}: {} of the units sold in {} came back in {}, but {}", returns.triangle.table.source,
+          count, period, returns.triangle.names.text(sale.at + after),
+          returns.delay > 0
+              ? fmt::format("with delays of {} {}s no failure can be reported so early",
+                            plain_given(returns.delay), returns.period.text)
+              : "with this key `ages` none can come back in the period of its sale; use ages = "
+                "\"middle\""));
+    if (lower == upper) continue;  // beyond the warranty: they survived it
+    surviving -= count;
+    if (returns.whole) {
+      rows.add(upper, upper, count, period);
+    } else {
+      rows.add(lower > 0 ? lower : NAN, upper, count, period);
+    }
+  }
+  const double now = returns.age(returns.last() - sale.at);
+  if (surviving > 0 && now > 0) rows.add(now, NAN, surviving, period);
+}
+
+NumberColumn column_of_lives(const char* name, const Unit& period, std::vector<double> values) {
+  for (double& each : values) each = to_si(period, each);
+  formula::AnyUnit unit = formula::read_any_unit(period.text);
+  return {name, name, std::move(unit), std::move(values)};
+}
+
+Column table_column(const std::string& name, const Unit& unit, const std::vector<double>& values) {
+  Column column{name, true, values, {}};
+  column.unit = unit.text;
+  return column;
+}
+
+}  // namespace
+
+double FieldReturns::age(int after) const {
+  const double end = whole ? after : after + 1 - start;
+  return std::clamp(end - delay, 0.0, warranty);
+}
+
+std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
+                                                       const Source& source) {
+  const TomlReader keys = data.required_table("returns");
+  if (data.has("columns"))
+    data.fail("columns", "does not go with [data.returns], which names the columns of a triangle");
+  FieldReturns returns;
+  returns.triangle = read_triangle(keys, read_table(data, source));
+  returns.period = read_period(keys, returns.triangle.names);
+  const std::string ages =
+      keys.choice("ages", {"middle", "start", "end", "whole"}).value_or("middle");
+  returns.start = ages == "start" ? 0 : ages == "middle" ? 0.5 : 1;
+  returns.whole = ages == "whole";
+  returns.delay = in_periods(keys, "delay_to_use", returns.period, 0) +
+                  in_periods(keys, "delay_of_report", returns.period, 0);
+  returns.warranty = in_periods(keys, "warranty", returns.period, returns.warranty);
+  if (!(returns.warranty > 0)) keys.fail("warranty", "must be positive");
+  const double held = in_periods(keys, "hold_out", returns.period, 0);
+  constexpr double close = 1e-9;
+  if (std::abs(held - std::round(held)) > close)
+    keys.fail("hold_out", fmt::format("must be whole {}s", returns.period.text));
+  returns.held_out = static_cast<int>(std::lround(held));
+  if (returns.last() < returns.triangle.sales.front().at)
+    keys.fail("hold_out", "leaves no period to fit");
+  return std::make_shared<const FieldReturns>(std::move(returns));
+}
+
+FormulaData lives_of_returns(const FieldReturns& returns) {
+  LifeRows rows;
+  for (const SalesPeriod& each : returns.triangle.sales)
+    if (each.at <= returns.last()) add_failures(returns, each, rows);
+  if (rows.count.empty())
+    throw InputError(fmt::format("{}: no unit has been in use yet, so there is nothing to fit",
+                                 returns.triangle.table.source));
+  FormulaData data;
+  const Unit plain{"1", 1, 0};
+  data.table.source = returns.triangle.table.source;
+  data.table.layout = returns.triangle.table.layout;
+  data.table.rows = rows.count.size();
+  data.table.columns = {table_column("lower", returns.period, rows.lower),
+                        table_column("upper", returns.period, rows.upper),
+                        table_column("count", plain, rows.count)};
+  data.table.columns.push_back(Column{"sold", false, {}, rows.sold});
+  data.numbers.push_back(column_of_lives("lower", returns.period, rows.lower));
+  data.numbers.push_back(column_of_lives("upper", returns.period, rows.upper));
+  data.numbers.push_back(column_of_lives("count", plain, rows.count));
+  return data;
+}
+
+std::vector<std::string> notes_of_returns(const FieldReturns& returns) {
+  const ReturnsTriangle& triangle = returns.triangle;
+  const PeriodNames& names = triangle.names;
+  long long sold = 0, returned = 0, late = 0;
+  for (const SalesPeriod& each : triangle.sales) {
+    if (each.at > returns.last()) continue;
+    sold += each.sold;
+    returned += each.returned(returns.last());
+    for (int after = 0; each.at + after <= returns.last(); ++after)
+      if (returns.age(after) == returns.age(after - 1))
+        late += each.returns[static_cast<std::size_t>(after)];
+  }
+  std::vector<std::string> notes = {
+      fmt::format("returns triangle: {} units sold from {} to {}, {} returned until {}", sold,
+                  names.text(triangle.sales.front().at),
+                  names.text(std::min(triangle.sales.back().at, returns.last())), returned,
+                  names.text(returns.last()))};
+  if (returns.whole) {
+    notes.push_back(fmt::format("a return k {0}s after the sale counts as a life of exactly k {0}s",
+                                returns.period.text));
+  } else {
+    notes.push_back(
+        fmt::format("ages count from the {} of the {} of sale; a return lies anywhere in its {}",
+                    returns.start == 0   ? "start"
+                    : returns.start == 1 ? "end"
+                                         : "middle",
+                    returns.period.text, returns.period.text));
+  }
+  if (late > 0)
+    notes.push_back(fmt::format(
+        "{} return{} after the end of the warranty: counted as survivors of the warranty", late,
+        late == 1 ? "" : "s"));
+  if (triangle.sales.front().at < triangle.first && !returns.whole)
+    notes.push_back(fmt::format("no column of {}: none is taken to have come back in it",
+                                names.text(triangle.sales.front().at)));
+  if (returns.held_out > 0)
+    notes.push_back(
+        fmt::format("{} {}s after {} are held out of the fit and compared with the "
+                    "forecast",
+                    returns.held_out, returns.period.text, names.text(returns.last())));
+  if (!triangle.unread.empty())
+    notes.push_back(
+        fmt::format("columns that are not read: '{}'", fmt::join(triangle.unread, "', '")));
+  return notes;
+}
+
+}  // namespace wearwell::formula_model

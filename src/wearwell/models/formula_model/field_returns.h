@@ -1,0 +1,46 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/unit.h"
+#include "wearwell/models/formula_model/formula_data.h"
+#include "wearwell/models/formula_model/returns_triangle.h"
+
+namespace wearwell::formula_model {
+
+/// A returns triangle with what turns its periods into ages: data.returns of a study
+/// (docs/reference/warranty.md). Ages and delays in periods.
+struct FieldReturns {
+  ReturnsTriangle triangle;
+  Unit period;         ///< "month"
+  double start = 0.5;  ///< when in its period of sale a unit starts, 0 to 1
+  bool whole = false;  ///< a return k periods after the sale is exactly of age k
+  double delay = 0;    ///< from sale to start of use, and from failure to report
+  double warranty =
+      std::numeric_limits<double>::infinity();  ///< in use; later failures are not claimed
+  int held_out = 0;                             ///< last periods that are not fitted
+
+  int last() const { return triangle.last - held_out; }  ///< period that ends the fitted data
+  /// Age of a unit at the end of period `after` its sale, of failures that are reported by then; from
+  /// 0 to the end of the warranty.
+  double age(int after) const;
+};
+
+/// Reads data.returns and its table. Throws InputError.
+std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
+                                                       const Source& source);
+
+/// The lives that the fitted periods tell, as a table of intervals: columns `lower` and `upper` (in
+/// periods; no lower end: a failure before the first look, no upper end: a survivor) and `count`. A
+/// cell of the triangle is a row of failures, and the units of a period of sale that did not come
+/// back a row of survivors. Throws InputError that names the period of sale: a return before the end
+/// of the delays.
+FormulaData lives_of_returns(const FieldReturns& returns);
+
+/// What a reader should know of the data, as sentences.
+std::vector<std::string> notes_of_returns(const FieldReturns& returns);
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,70 @@
+#include "wearwell/models/formula_model/returns_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/predict/count_quantile.h"
+#include "wearwell/predict/thinned_posterior.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr std::size_t points_of_counts = 1000;
+constexpr double lower_share = 0.05, upper_share = 0.95;
+
+}  // namespace
+
+ReturnsForecast::ReturnsForecast(const FieldReturns& returns, std::span<const Risk> risks,
+                                 const WeightedDraws& draws, int most_after)
+    : ages_(static_cast<std::size_t>(most_after) + 2) {
+  const ThinnedPosterior few(draws, points_of_counts);
+  weight_ = few.weights;
+  log_survival_.resize(weight_.size() * ages_);
+  LifeAtPoint life(risks);
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    life.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
+    for (std::size_t a = 0; a < ages_; ++a) {
+      const double age = to_si(returns.period, returns.age(static_cast<int>(a) - 1));
+      log_survival_[i * ages_ + a] = age > 0 ? life.log_survival(age) : 0;
+    }
+  }
+}
+
+ReturnsCount ReturnsForecast::count(std::span<const UnitsAtRisk> groups) const {
+  std::vector<CountAtPoint> points(weight_.size());
+  Points means(static_cast<Eigen::Index>(weight_.size()), 1);
+  double square = 0, variance = 0;
+  ReturnsCount found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double* const log_survival = &log_survival_[i * ages_ + 1];  // by period after the sale
+    CountAtPoint& at = points[i];
+    at.weight = weight_[i];
+    for (const UnitsAtRisk& each : groups) {
+      const double now = log_survival[each.seen], from = log_survival[each.first - 1],
+                   to = log_survival[each.last];
+      // Where none can have survived until now, none are left.
+      const double p = std::isfinite(now) ? std::exp(from - now) * -std::expm1(to - from) : 0;
+      if (!(p > 0)) continue;
+      at.mean += each.units * p;
+      at.variance += each.units * p * (1 - p);
+    }
+    means(static_cast<Eigen::Index>(i), 0) = at.mean;
+    found.expected += at.weight * at.mean;
+    square += at.weight * at.mean * at.mean;
+    variance += at.weight * at.variance;
+  }
+  found.sd = std::sqrt(std::max(0.0, square - found.expected * found.expected) + variance);
+  WeightedDraws of_mean;
+  of_mean.values = means;
+  of_mean.weights = Eigen::Map<const Eigen::VectorXd>(weight_.data(), means.rows());
+  const QuantityDistribution expected(of_mean, [](const double* x) { return x[0]; });
+  found.low = expected.quantile(lower_share);
+  found.high = expected.quantile(upper_share);
+  const double shares[] = {lower_share, upper_share};
+  const std::vector<double> ends = count_quantiles(points, shares);
+  found.count_low = ends[0];
+  found.count_high = ends[1];
+  return found;
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,338 @@
+#include "wearwell/models/formula_model/returns_triangle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "wearwell/base/contains.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/month_text.h"
+#include "wearwell/input/status_words.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr double most_units = 1e6;  // of one period
+
+// A period as a number with its prefix, "M3"; the prefix of a month of the calendar is empty.
+struct Period {
+  bool calendar = false;
+  int number = 0;
+  std::string prefix = {};
+  bool is_like(const Period& other) const {
+    return calendar == other.calendar && prefix == other.prefix;
+  }
+};
+
+std::optional<Period> period_in(const std::string& text) {
+  constexpr std::size_t most_digits = 4;
+  if (const auto month = month_in(text)) return Period{true, *month};
+  static const std::vector<std::string> words = {
+      "",       "m",  "p",    "w",     "q",       "month",   "monat", "mois",   "mes",
+      "period", "kw", "week", "woche", "semaine", "periode", "t",     "quarter"};
+  const std::size_t end = text.find_last_not_of("0123456789");
+  const std::size_t begin = end == text.npos ? 0 : end + 1;
+  const std::size_t digits = text.size() - begin;
+  if (digits == 0 || digits > most_digits) return {};
+  if (!contains(words, begin == 0 ? "" : folded_word(text.substr(0, begin)))) return {};
+  return Period{false, std::stoi(text.substr(begin)), text.substr(0, begin)};
+}
+
+struct Heading {
+  const Column* column;
+  Period period;
+};
+
+std::vector<Heading> period_headings(const Table& table, const std::vector<std::string>& without) {
+  std::vector<Heading> found;
+  for (const Column& each : table.columns) {
+    if (contains(without, each.name)) continue;
+    if (const auto period = period_in(each.name)) found.push_back({&each, *period});
+  }
+  return found;
+}
+
+std::vector<Heading> in_order(std::vector<Heading> headings) {
+  std::stable_sort(headings.begin(), headings.end(), [](const Heading& a, const Heading& b) {
+    return a.period.number < b.period.number;
+  });
+  return headings;
+}
+
+std::string quoted_place(const Table& table, const std::string& column, std::size_t row) {
+  return fmt::format("{}: '{}'", place(table, column, row), cell_word(table.column(column), row));
+}
+
+constexpr const char* allowed_months =
+    "a month like 2024-01, 01/2024 or Jan 2024, or a number of a period";
+
+Period required_period(const Table& table, const std::string& column, std::size_t row) {
+  const auto period = period_in(cell_word(table.column(column), row));
+  if (!period)
+    throw InputError(fmt::format("{} is not a period of sale: use {}",
+                                 quoted_place(table, column, row), allowed_months));
+  return *period;
+}
+
+// A whole number of units; an empty cell is `empty`, or an error where that is negative.
+int units_in(const Table& table, const std::string& column, std::size_t row, int empty) {
+  const double value = cell_number(table, table.column(column), row);
+  if (std::isnan(value)) {
+    if (empty >= 0) return empty;
+    throw InputError(fmt::format("{}: no quantity; write the number of units sold, 0 if none",
+                                 place(table, column, row)));
+  }
+  if (!(value >= 0 && value == std::floor(value) && value <= most_units))
+    throw InputError(fmt::format("{} must be a whole number of units from 0 to {:.0f}",
+                                 quoted_place(table, column, row), most_units));
+  return static_cast<int>(value);
+}
+
+// The only column of numbers, or the only one whose heading says units sold.
+const Column* quantity_among(const std::vector<const Column*>& columns) {
+  if (columns.size() == 1) return columns.front();
+  const Column* found = nullptr;
+  for (const Column* each : columns) {
+    const std::string heading = folded_word(each->name);
+    bool named = false;
+    for (const char* word :
+         {"sold",   "ship",   "quantity", "qty",      "units",  "sales",     "menge",
+          "anzahl", "stuck",  "stueck",   "verkauf",  "absatz", "geliefert", "quantite",
+          "vendu",  "ventes", "livr",     "cantidad", "vendid", "unidades"})
+      named = named || heading.find(word) != heading.npos;
+    if (!named) continue;
+    if (found) return nullptr;
+    found = each;
+  }
+  return found;
+}
+
+std::string column_named(const TomlReader& keys, const std::string& key, const Table& table,
+                         const std::string& otherwise) {
+  if (const auto heading = keys.text(key)) return study_column(keys, key, *heading, table).name;
+  if (otherwise.empty())
+    keys.fail(key, fmt::format("is missing, and no column of {} is recognized: name the column",
+                               table.source));
+  return otherwise;
+}
+
+// Headings in the order of time, one for each period.
+std::vector<Heading> ordered_headings(const TomlReader& keys, const Table& table,
+                                      const TriangleColumns& columns) {
+  std::vector<Heading> headings = period_headings(table, {columns.period, columns.quantity});
+  if (headings.empty())
+    keys.fail("", fmt::format("{} has no column of a period of return: a heading is {}",
+                              table.source, allowed_months));
+  for (const Heading& each : headings) {
+    if (!each.period.is_like(headings.front().period))
+      throw InputError(fmt::format("{}: columns '{}' and '{}' are periods of different kinds",
+                                   table.source, headings.front().column->name, each.column->name));
+  }
+  return in_order(std::move(headings));
+}
+
+void require_consecutive(const Table& table, const std::vector<Heading>& headings,
+                         const PeriodNames& names) {
+  for (std::size_t i = 1; i < headings.size(); ++i) {
+    const int before = headings[i - 1].period.number, now = headings[i].period.number;
+    if (now == before)
+      throw InputError(fmt::format("{}: columns '{}' and '{}' are the same period", table.source,
+                                   headings[i - 1].column->name, headings[i].column->name));
+    if (now != before + 1)
+      throw InputError(fmt::format(
+          "{}: no column of {} between '{}' and '{}'; add it, with 0 if nothing came back",
+          table.source, names.text(before + 1), headings[i - 1].column->name,
+          headings[i].column->name));
+  }
+}
+
+// A last column without any entry: nothing came back, or it is not over yet.
+void require_last_column(const Table& table, const Heading& last) {
+  for (std::size_t row = 0; row < table.rows; ++row)
+    if (!cell_word(*last.column, row).empty()) return;
+  throw InputError(
+      fmt::format("{}: column '{}' is empty: either nothing came back, then write 0; or it is "
+                  "still to come, then remove the column",
+                  table.source, last.column->name));
+}
+
+Period period_of_sale(const Table& table, const std::string& column, std::size_t row,
+                      const Heading& like) {
+  const Period sale = required_period(table, column, row);
+  if (sale.is_like(like.period) || (!sale.calendar && !like.period.calendar)) return sale;
+  if (sale.calendar)
+    throw InputError(fmt::format(
+        "{} is a month, but the column '{}' a number: write months of return as headings. If the "
+        "columns are months in service (0, 1, 2 ...), shift each row to the month of return",
+        quoted_place(table, column, row), like.column->name));
+  throw InputError(fmt::format("{} is a number, but the column '{}' a month",
+                               quoted_place(table, column, row), like.column->name));
+}
+
+void read_returns(const Table& table, const std::string& quantity_column,
+                  const std::vector<Heading>& headings, std::size_t row, SalesPeriod& sale) {
+  int left = sale.sold;
+  const int first = headings.front().period.number, last = headings.back().period.number;
+  sale.returns.assign(static_cast<std::size_t>(std::max(0, last - sale.at + 1)), 0);
+  for (const Heading& each : headings) {
+    const int count = units_in(table, each.column->name, row, 0);
+    const int after = each.period.number - sale.at;
+    if (after < 0) {
+      if (count == 0) continue;
+      throw InputError(fmt::format(
+          "{}: a return before the sale; rows are periods of sale, columns periods of return (not "
+          "periods in service)",
+          quoted_place(table, each.column->name, row)));
+    }
+    left -= count;
+    if (left < 0)
+      throw InputError(fmt::format("{}: with this, {} of the {} units sold ('{}') have come back",
+                                   quoted_place(table, each.column->name, row), sale.sold - left,
+                                   sale.sold, quantity_column));
+    sale.returns[static_cast<std::size_t>(after)] = count;
+  }
+  if (sale.at < first - 1)
+    throw InputError(fmt::format(
+        "{}: sold before '{}', the first column of returns: returns between are missing; add their "
+        "columns, with 0 if nothing came back",
+        place(table, quantity_column, row), headings.front().column->name));
+}
+
+}  // namespace
+
+int SalesPeriod::returned(int until) const {
+  const std::ptrdiff_t count =
+      std::clamp<std::ptrdiff_t>(until - at + 1, 0, static_cast<std::ptrdiff_t>(returns.size()));
+  return std::accumulate(returns.begin(), returns.begin() + count, 0);
+}
+
+std::string PeriodNames::text(int period) const {
+  return calendar ? month_text(period) : fmt::format("{}{}", prefix, period);
+}
+
+std::optional<TriangleColumns> triangle_columns(const Table& table) {
+  const std::vector<Heading> headings = in_order(period_headings(table, {}));
+  if (headings.size() < 2) return {};
+  for (std::size_t i = 1; i < headings.size(); ++i) {
+    if (!headings[i].period.is_like(headings[0].period) ||
+        headings[i].period.number != headings[i - 1].period.number + 1)
+      return {};
+  }
+  TriangleColumns columns;
+  const int first = headings.front().period.number, last = headings.back().period.number;
+  std::vector<const Column*> quantities;
+  bool before_returns = true;
+  for (const Column& each : table.columns) {
+    if (period_in(each.name)) {
+      before_returns = false;
+      continue;
+    }
+    std::size_t periods = 0;
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      const auto period = period_in(cell_word(each, row));
+      // A quantity is a number, too.
+      periods += period && period->calendar == headings[0].period.calendar &&
+                 (period->calendar || (period->number >= first - 1 && period->number <= last));
+    }
+    // Most cells: messages name the others.
+    if (2 * periods > table.rows && columns.period.empty()) {
+      columns.period = each.name;
+      continue;
+    }
+    columns.unread.push_back(each.name);
+    // Numbers after the returns are their totals.
+    if (before_returns && (each.is_number || !each.doubt.empty())) quantities.push_back(&each);
+  }
+  if (const Column* quantity = quantity_among(quantities)) {
+    columns.quantity = quantity->name;
+    std::erase(columns.unread, quantity->name);
+  }
+  columns.first = headings.front().column->name;
+  columns.last = headings.back().column->name;
+  columns.calendar = headings.front().period.calendar;
+  columns.prefix = headings.front().period.prefix;
+  if (columns.period.empty() || columns.quantity.empty()) return {};
+  return columns;
+}
+
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table) {
+  ReturnsTriangle triangle;
+  const TriangleColumns found = triangle_columns(table).value_or(TriangleColumns{});
+  const TriangleColumns columns = {column_named(keys, "sold", table, found.period),
+                                   column_named(keys, "quantity", table, found.quantity)};
+  if (columns.period == columns.quantity)
+    keys.fail("quantity", fmt::format("is the column of `sold`, '{}'", columns.period));
+  const std::vector<Heading> headings = ordered_headings(keys, table, columns);
+  triangle.names = {headings.front().period.calendar, headings.front().period.prefix};
+  require_consecutive(table, headings, triangle.names);
+  require_last_column(table, headings.back());
+  triangle.last = headings.back().period.number;
+  std::map<int, std::size_t> rows;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    SalesPeriod sale{period_of_sale(table, columns.period, row, headings.front()).number,
+                     units_in(table, columns.quantity, row, -1)};
+    const auto [at, is_new] = rows.try_emplace(sale.at, row);
+    if (!is_new)
+      throw InputError(fmt::format("{}: the same period of sale as in row {}; add them up",
+                                   quoted_place(table, columns.period, row), at->second + 1));
+    if (sale.at > triangle.last)
+      throw InputError(
+          fmt::format("{}: sold after '{}', the last column of returns; sales to come belong to "
+                      "predict.planned_sales",
+                      quoted_place(table, columns.period, row), headings.back().column->name));
+    read_returns(table, columns.quantity, headings, row, sale);
+    if (sale.sold > 0) triangle.sales.push_back(std::move(sale));
+  }
+  triangle.first = headings.front().period.number;
+  if (triangle.sales.empty())
+    throw InputError(fmt::format("{}: no units were sold ('{}')", table.source, columns.quantity));
+  std::sort(triangle.sales.begin(), triangle.sales.end(),
+            [](const SalesPeriod& a, const SalesPeriod& b) { return a.at < b.at; });
+  for (const Column& each : table.columns) {
+    const bool used = each.name == columns.period || each.name == columns.quantity ||
+                      std::any_of(headings.begin(), headings.end(), [&](const Heading& heading) {
+                        return heading.column->name == each.name;
+                      });
+    if (!used) triangle.unread.push_back(each.name);
+  }
+  triangle.period_column = columns.period;
+  triangle.quantity_column = columns.quantity;
+  triangle.table = std::move(table);
+  return triangle;
+}
+
+std::vector<std::pair<int, int>> read_planned_sales(const TomlReader& keys, const Table& table,
+                                                    const PeriodNames& names, int last) {
+  const auto heading = [&](const char* key, std::size_t otherwise) {
+    return column_named(keys, key, table,
+                        otherwise < table.columns.size() ? table.columns[otherwise].name : "");
+  };
+  const std::string period_column = heading("sold", 0), quantity_column = heading("quantity", 1);
+  std::vector<std::pair<int, int>> planned;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const Period period = required_period(table, period_column, row);
+    if (period.calendar != names.calendar)
+      throw InputError(fmt::format("{} must be {}, as in the returns",
+                                   quoted_place(table, period_column, row),
+                                   names.calendar ? "a month" : "the number of a period"));
+    if (period.number <= last)
+      throw InputError(
+          fmt::format("{} is not after {}, the last period of returns: it is no planned sale",
+                      quoted_place(table, period_column, row), names.text(last)));
+    const bool repeated = std::any_of(planned.begin(), planned.end(), [&](const auto& each) {
+      return each.first == period.number;
+    });
+    if (repeated)
+      throw InputError(fmt::format("{}: a second row of this period; add them up",
+                                   quoted_place(table, period_column, row)));
+    planned.emplace_back(period.number, units_in(table, quantity_column, row, -1));
+  }
+  std::sort(planned.begin(), planned.end());
+  return planned;
+}
+
+}  // namespace wearwell::formula_model

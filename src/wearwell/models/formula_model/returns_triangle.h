@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wearwell/input/table.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell::formula_model {
+
+/// The units sold in one period, and how many of them came back in each later one.
+struct SalesPeriod {
+  int at = 0;  ///< the period of sale
+  int sold = 0;
+  std::vector<int> returns = {};  ///< by period from that of the sale to the last of the table
+
+  int returned(int until) const;  ///< up to and including this period
+};
+
+/// The periods of a returns triangle: months of the calendar, or numbers.
+struct PeriodNames {
+  bool calendar = true;
+  std::string prefix = {};  ///< of numbers: "M" of "M3"
+  std::string text(int period) const;
+};
+
+/// A returns triangle (Nevada table): a row for each period of sale with its quantity, a column for
+/// each period of return.
+struct ReturnsTriangle {
+  Table table;  ///< as read
+  PeriodNames names;
+  std::string period_column, quantity_column;
+  int first = 0, last = 0;  ///< periods of the first and the last column of returns
+  std::vector<SalesPeriod> sales;
+  std::vector<std::string> unread;  ///< headings that are no period
+};
+
+/// The columns of a table that looks like a triangle.
+struct TriangleColumns {
+  std::string period, quantity;          ///< of sale
+  std::string first = {}, last = {};     ///< of return
+  std::vector<std::string> unread = {};  ///< headings that are no period
+  bool calendar = true;                  ///< months, not numbers
+  std::string prefix = {};               ///< of numbers
+};
+
+/// Recognizes a triangle by its headings and cells: two or more columns headed by periods that follow
+/// each other, and a column of periods of the same kind. Empty for any other table.
+std::optional<TriangleColumns> triangle_columns(const Table& table);
+
+/// Reads a triangle. `keys` names the columns (`sold`, `quantity`) and is the place of messages. An
+/// empty cell is no return. Throws InputError that names file, row and column: an unreadable period,
+/// months beside numbers, a missing or repeated period, no quantity, a return before the sale, more
+/// returns than sold, a last column without any entry.
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table);
+
+/// Quantities that will be sold, by period, from a table of its own with the same headings. Throws
+/// InputError: likewise, and for periods up to `last`.
+std::vector<std::pair<int, int>> read_planned_sales(const TomlReader& keys, const Table& table,
+                                                    const PeriodNames& names, int last);
+
+}  // namespace wearwell::formula_model
