@@ -207,6 +207,26 @@ FitOutcome judged(const std::vector<double>& z) {
   return judge_fit(data, draws, {});
 }
 
+// 4190 survivors in one row, and the 300 that failed before: of both the same share is judged.
+TEST(FitCheck, OneRowOfManySurvivorsIsNoMisfit) {
+  constexpr double stop = -1.5;
+  Rng rng(8, 0);
+  FitData data;
+  std::vector<NormalScore> scores;
+  while (scores.size() < 300)
+    if (const double z = rng.normal(); z < stop) scores.push_back({z, z});
+  scores.push_back({stop, INFINITY});
+  data.counts.assign(300, 1);
+  data.counts.push_back(4190);
+  data.scores = [scores](const double*) { return scores; };
+  WeightedDraws draws;
+  draws.values = Eigen::MatrixXd::Zero(50, 1);
+  draws.weights = Eigen::VectorXd::Constant(50, 0.02);
+  const Check check = fit_check(judge_fit(data, draws, {}));
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.detail;
+  EXPECT_THAT(check.detail, HasSubstr("of 24 % of the items of each row"));
+}
+
 TEST(FitCheck, OfVeryManyRowsASampleIsJudgedAndTheOutermostOfAll) {
   Rng rng(20261125, 5);
   std::vector<double> z = normals(60'000, rng);

@@ -110,6 +110,8 @@ struct FitOutcome {
   /// The median score of each observation over the draws; empty if the tests are of outcomes.
   std::vector<double> residuals;
   double p = 1;  ///< combined: the smallest p over its share
+  /// Of the items of each row with a count that were judged, where rows stand for very many.
+  double share = 1;
   std::optional<CopiedRows> copies = {};
 };
 

@@ -60,25 +60,6 @@ void require_single_life(const TomlReader& root, const FormulaModel& model) {
         .fail("family", "must be a family of positive lives for [data.returns]");
 }
 
-// The check of fit takes each unit by itself, and of a row at most a thousand (infer/fit_check.cpp). Of more units it gets a
-// share that is the same for failures and survivors, evenly spread over the rows.
-void judge_some_units(std::vector<int>& counts) {
-  constexpr double most_of_row = 1000, most_units = 60'000;
-  double sum = 0, largest = 0;
-  for (const int each : counts) {
-    sum += each;
-    largest = std::max<double>(largest, each);
-  }
-  const double share = std::min({1.0, most_of_row / largest, most_units / sum});
-  if (!(share < 1)) return;
-  double before = 0;
-  for (int& each : counts) {
-    const double after = before + each;
-    each = static_cast<int>(std::floor(share * after + 0.5) - std::floor(share * before + 0.5));
-    before = after;
-  }
-}
-
 }  // namespace
 
 AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
@@ -101,7 +82,6 @@ void add_returns(const TomlReader& root, const Source& source,
   const std::shared_ptr<const FieldReturns>& returns = asked.returns;
   const std::vector<std::string> notes = notes_of_returns(*returns);
   study.data_notes.insert(study.data_notes.begin(), notes.begin(), notes.end());
-  if (study.fit_data) judge_some_units(study.fit_data->counts);
   const int oldest = returns->last() - returns->triangle.sales.front().at;
   if (asked.ahead > 0)
     study.reaches.push_back(
