@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
     , Tutorial,
     testing::Values(
         "README.md", "docs/how-to/b10-from-field-data.md", "docs/how-to/compare.md",
-        "docs/how-to/decisions.md", "docs/how-to/edge.md", "docs/how-to/failure-modes.md",
+        "docs/how-to/decisions.md", "docs/how-to/edge.md", "docs/how-to/failure-modes.md", "docs/how-to/subpopulations.md",
         "docs/how-to/failed-check.md", "docs/how-to/fleet.md", "docs/how-to/material-factor.md",
         "docs/how-to/plan-accelerate.md", "docs/how-to/plan-demonstrate.md",
         "docs/how-to/plan-inspect.md", "docs/how-to/plan-next.md",

@@ -16,6 +16,7 @@
 #include "wearwell/models/formula_model/life_answers.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_answers.h"
+#include "wearwell/models/formula_model/subpopulation_answers.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::formula_model {
@@ -116,7 +117,7 @@ class Predictions {
     group.requests.push_back(request(what, "new " + noun_, given_words_, measured.unit));
     group.requests.back().is_life = true;
     group.requests.back().safe_end = 0.05;
-    group.requests.back().headline = model_->modes.has_value();
+    group.requests.back().headline = model_->modes || model_->subpopulations;
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
       group.requests.back().credible_level = levels.credible_level;
@@ -166,6 +167,8 @@ class Predictions {
     study_.quantity_groups.push_back(std::move(group));
     if (model_->modes && model_->measured.size() > 1)
       add_mode_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
+    if (!measured.life.plain())
+      add_mixture_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }
 
   // ---- Functions of the parameters.
