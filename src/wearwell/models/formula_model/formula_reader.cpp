@@ -121,8 +121,13 @@ class Reader {
     const auto failure_modes = root_.table("failure_modes");
     for (const std::string& column : likelihoods.keys()) {
       const TomlReader table = likelihoods.required_table(column);
-      if ((failure_modes || subpopulations_) && table.keys().empty()) {  // each has its own
+      const std::vector<std::string> keys = table.keys();
+      const bool no_family = std::find(keys.begin(), keys.end(), "family") == keys.end();
+      if (failure_modes && keys.empty()) {  // each mode has its own
         written_.push_back(empty_likelihood(column));
+      } else if (subpopulations_ && no_family) {
+        written_.push_back(empty_likelihood(column));
+        read_shares(table, written_.back());
       } else {
         written_.push_back(read_likelihood(table, column, "likelihood." + column));
       }
@@ -193,10 +198,14 @@ class Reader {
       texts_.push_back(result.family_parameters.back().second);
     }
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
-    if (place.starts_with("likelihood.")) read_shares_of_part(table, result);
-    if (result.defective) texts_.push_back(*result.defective);
-    if (result.dead) texts_.push_back(*result.dead);
+    if (place.starts_with("likelihood.")) read_shares(table, result);
     return result;
+  }
+
+  void read_shares(const TomlReader& table, WrittenLikelihood& written) {
+    read_shares_of_life(table, written);
+    if (written.defective) texts_.push_back(*written.defective);
+    if (written.dead) texts_.push_back(*written.dead);
   }
 
   // Tables of single subpopulations, and the shares.
@@ -779,8 +788,8 @@ class Reader {
       model_->measured.push_back(std::move(measured));
     }
     if (subpopulations_)
-      model_->subpopulations->exchangeable =
-          are_exchangeable(written_.front(), *model_->subpopulations, texts_, model_->parameters);
+      model_->subpopulations->exchangeable = are_exchangeable(
+          written_.front(), *model_->subpopulations, model_->written, model_->parameters);
     for (const NumberColumn& each : model_->data.numbers) {
       const bool measured = std::any_of(model_->measured.begin(), model_->measured.end(),
                                         [&](const Measured& m) { return m.column == each.name; });

@@ -58,7 +58,7 @@ bool have_same_priors(const Subpopulations& subpopulations,
 LifeMixture WrittenLikelihood::life() const {
   LifeMixture mixture;
   for (const WrittenLikelihood& each : parts_of(*this))
-    mixture.families.push_back(each.form->family);
+    mixture.families.push_back(each.form ? each.form->family : ResponseFamily::weibull);
   mixture.rest = rest;
   mixture.limited = defective.has_value();
   mixture.dead = dead.has_value();
@@ -82,7 +82,7 @@ std::span<const WrittenLikelihood> parts_of(const WrittenLikelihood& written) {
   return written.parts.empty() ? std::span(&written, 1) : std::span(written.parts);
 }
 
-void read_shares_of_part(const TomlReader& table, WrittenLikelihood& written) {
+void read_shares_of_life(const TomlReader& table, WrittenLikelihood& written) {
   if (table.has(defective_key)) written.defective = expression(table, defective_key);
   if (table.has(dead_key)) written.dead = expression(table, dead_key);
   const LifeMixture life = written.life();
@@ -97,7 +97,7 @@ void refuse_with_shares(const TomlReader& root, const std::vector<WrittenLikelih
     if (!each.defective && !each.dead) continue;
     const TomlReader table = root.required_table("likelihood").required_table(each.column);
     const char* const key = each.defective ? defective_key : dead_key;
-    if (each.process || each.form->counted || !each.form->positive)
+    if (each.process || (each.form && (each.form->counted || !each.form->positive)))
       table.fail(key,
                  fmt::format("is for lives: families of positive values, not {}", each.form->name));
     if (root.has("failure_modes"))
@@ -213,13 +213,13 @@ void add_wanted(const WrittenLikelihood& written, const formula::Powers& powers,
 }
 
 bool are_exchangeable(const WrittenLikelihood& written, const Subpopulations& subpopulations,
-                      const std::vector<std::string>& texts,
+                      const std::vector<formula::Line>& lines,
                       const std::vector<Parameter>& parameters) {
   if (!have_same_priors(subpopulations, parameters)) return false;
   // A level that an expression names breaks the symmetry.
-  for (const std::string& text : texts) {
+  for (const formula::Line& line : lines) {
     for (std::size_t k = 0; k < subpopulations.names.size(); ++k)
-      if (without_level(text, subpopulations.names[k], k) != text) return false;
+      if (without_level(line.text, subpopulations.names[k], k) != line.text) return false;
   }
   const WrittenLikelihood& first = written.parts.front();
   for (std::size_t k = 1; k < written.parts.size(); ++k) {

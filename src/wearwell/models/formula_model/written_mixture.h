@@ -45,8 +45,8 @@ WrittenLikelihood empty_likelihood(const std::string& column);
 /// The subpopulations, or the likelihood itself.
 std::span<const WrittenLikelihood> parts_of(const WrittenLikelihood& written);
 
-/// Reads the keys share_defective and share_dead_on_arrival.
-void read_shares_of_part(const TomlReader& table, WrittenLikelihood& written);
+/// Reads the keys share_defective and share_dead_on_arrival; a likelihood without a family is completed by `mixture_of`.
+void read_shares_of_life(const TomlReader& table, WrittenLikelihood& written);
 
 /// The likelihood of the mixture: `common` for the subpopulations without a table of their own.
 WrittenLikelihood mixture_of(const TomlReader& root, const Subpopulations& subpopulations,
@@ -65,9 +65,9 @@ void add_wanted(const WrittenLikelihood& written, const formula::Powers& powers,
                 Measured& measured);
 
 /// Whether the distributions of the subpopulations would be the same after an exchange of names: their families, their
-/// expressions and the priors of their parameters are alike. Shares need not be.
+/// expressions (with `lines`, those of [formula] as written) and the priors of their parameters are alike. Shares need not be.
 bool are_exchangeable(const WrittenLikelihood& written, const Subpopulations& subpopulations,
-                      const std::vector<std::string>& texts,
+                      const std::vector<formula::Line>& lines,
                       const std::vector<Parameter>& parameters);
 
 }  // namespace wearwell::formula_model
