@@ -78,7 +78,7 @@ StudyKeys formula_keys() {
         "distribution of one subpopulation, by its name; the others have that of `likelihood`, "
         "where "
         "`scale[subpopulation]` is a parameter of each"},
-       needed_key("subpopulations.*.family", "\"lognormal\"", "distribution of its life"),
+       {"subpopulations.*.family", "\"lognormal\"", "distribution of its life"},
        {"subpopulations.*.*", "\"m\"", "expression or number, of the parameters of the family"},
        {"failure_modes", "{ column = \"mode\" }",
         "competing risks: a part fails by the mode whose life ends first "
