@@ -72,14 +72,15 @@ INSTANTIATE_TEST_SUITE_P(
         "docs/how-to/plan-next.md", "docs/how-to/prior-from-a-study.md",
         "docs/how-to/rul-of-one-machine.md", "docs/how-to/select.md",
         "docs/how-to/sn-design-value.md", "docs/how-to/spectrum.md", "docs/how-to/state.md",
-        "docs/how-to/warranty-returns.md", "docs/how-to/weibayes.md", "docs/reference/bearing.md",
-        "docs/reference/clutch.md", "docs/reference/degradation.md", "docs/reference/fatigue.md",
-        "docs/reference/joint.md", "docs/reference/life.md", "docs/reference/repairable.md",
-        "docs/reference/staircase.md", "docs/reference/tables.md", "docs/reference/units.md",
-        "docs/reference/warranty.md", "docs/tutorials/joint-wear.md",
-        "docs/tutorials/monitoring.md", "docs/tutorials/own-formula.md",
-        "docs/tutorials/plan-springs.md", "docs/tutorials/several-units.md",
-        "docs/tutorials/sn-design-value.md", "docs/tutorials/weibull-life-data.md"),
+        "docs/how-to/subpopulations.md", "docs/how-to/warranty-returns.md",
+        "docs/how-to/weibayes.md", "docs/reference/bearing.md", "docs/reference/clutch.md",
+        "docs/reference/degradation.md", "docs/reference/fatigue.md", "docs/reference/joint.md",
+        "docs/reference/life.md", "docs/reference/repairable.md", "docs/reference/staircase.md",
+        "docs/reference/tables.md", "docs/reference/units.md", "docs/reference/warranty.md",
+        "docs/tutorials/joint-wear.md", "docs/tutorials/monitoring.md",
+        "docs/tutorials/own-formula.md", "docs/tutorials/plan-springs.md",
+        "docs/tutorials/several-units.md", "docs/tutorials/sn-design-value.md",
+        "docs/tutorials/weibull-life-data.md"),
     [](const auto& each) {
       const std::filesystem::path page = each.param;
       std::string name = page.parent_path().filename() / page.stem();

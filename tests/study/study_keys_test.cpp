@@ -458,6 +458,33 @@ next = "12 month"
 cost_per_return = "180 EUR"
 planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units" }
 )toml"},
+      {"formula", R"toml(model = "formula"
+[data]
+file = "shock_absorbers.csv"
+unused = ["failure mode"]
+[data.columns]
+life = { column = "km", unit = "km" }
+[subpopulations]
+names = ["early", "late"]
+share = { early = "weak" }
+[subpopulations.late]
+family = "lognormal"
+median = "middle"
+log_sd = "scatter"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+share_defective = "p"
+share_dead_on_arrival = 0.01
+[prior]
+middle = { distribution = "lognormal", median = "30000 km", log_sd = 1 }
+scatter = { distribution = "lognormal", median = 0.5, log_sd = 0.5 }
+eta = { distribution = "lognormal", median = "3000 km", log_sd = 1 }
+beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
+weak = { distribution = "beta", alpha = 1, beta = 3 }
+p = { distribution = "beta", alpha = 2, beta = 2 }
+)toml"},
       {"repairable", R"toml(model = "repairable"
 process = "power_law"
 [data]

@@ -62,22 +62,27 @@ std::string advice_on(ResidualShape shape, const Remedies& remedies) {
   switch (shape) {
     case ResidualShape::two_groups:
     case ResidualShape::short_tails:
-      return remedies.life ? "Try a mixture of two failure modes: if a column can state the mode "
-                             "of each failure, fit each mode with the lives of the other as "
-                             "censored, or fit the two groups separately."
+      return remedies.life ? "Try a mixture of two subpopulations ([subpopulations], "
+                             "docs/how-to/subpopulations.md). If a column can state the failure "
+                             "mode of each failure, use [failure_modes] instead; if it can state "
+                             "the group, fit the groups separately."
                            : "Look for two mixed groups (machines, batches, operators): name the "
                              "column that distinguishes them, or fit them separately.";
     case ResidualShape::long_lower:
       return remedies.life ? "More early failures than the distribution expects. Try a mixture of "
-                             "two failure modes: early "
-                             "failures beside wear-out (fit each mode with the lives of the other "
-                             "as censored), or another family, because lognormal and Weibull have "
-                             "different lower tails."
+                             "two subpopulations, early failures beside wear-out "
+                             "([subpopulations], docs/how-to/subpopulations.md), or "
+                             "[failure_modes] if a column can state the mode; or another family, "
+                             "because lognormal and Weibull have different lower tails."
                            : "Try a family with a longer lower tail (smallest-extreme-value), or "
                              "check what the lowest readings have in common.";
     case ResidualShape::long_upper:
       return remedies.life
-                 ? "Fewer early failures than the distribution expects. Try a threshold (no "
+                 ? "Fewer early failures than the distribution expects, or fewer late ones: if "
+                   "many "
+                   "parts are still running and failures have ceased, perhaps only a share can "
+                   "fail (share_defective, docs/how-to/subpopulations.md). Else try a threshold "
+                   "(no "
                    "failure before t0: threshold of the "
                    "Weibull family), left truncation (the table does not contain units that failed "
                    "before it began: data.columns.entry), or a family with a longer upper tail "

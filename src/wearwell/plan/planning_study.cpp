@@ -1,4 +1,5 @@
 #include "wearwell/plan/planning_study.h"
+#include "wearwell/plan/no_mixtures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,6 +81,7 @@ Table stand_in_rows(const TomlReader& root, const Table& rows) {
   if (root.has("failure_modes"))
     root.fail("failure_modes",
               "is not possible with `wearwell plan size`; plan with a study of one mode");
+  refuse_mixtures(root, "wearwell plan size");
   std::vector<std::string> measured, random;
   if (formula) measured = root.required_table("likelihood").keys();
   if (const auto effects = root.table("random_effects")) random = effects->keys();

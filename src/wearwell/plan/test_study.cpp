@@ -1,4 +1,5 @@
 #include "wearwell/plan/test_study.h"
+#include "wearwell/plan/no_mixtures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,6 +63,7 @@ void find_measured(const TomlReader& root, const std::string& measure, TestStudy
         "failure_modes",
         "is not possible with `wearwell plan next`: a test to come would have a probability for "
         "each mode; plan with a study of one mode, the others being run-outs");
+  refuse_mixtures(root, "wearwell plan next");
   if (model == "staircase") {
     if (!measure.empty())
       throw InputError("--measure: a staircase test shows failure or run-out, not a number");

@@ -111,6 +111,10 @@ class Clauses {
       all.push_back(fmt::format("{}{} is at least {} ({} confidence)", what,
                                 at.find(", ") != at.npos ? "," : "", value(each, *q.bound),
                                 given(100 * *each.credible_level, "%")));
+    } else if (each.is_life && std::isinf(q.q50)) {
+      all.push_back(fmt::format(
+          "{} has no median: more than half never fail{}", what,
+          std::isinf(q.q05) ? "" : ", one in twenty has less than " + value(each, q.q05)));
     } else if (each.is_life) {
       all.push_back(fmt::format("{} is {} (median); {}, one in ten has less than {}", what,
                                 value(each, q.q50), interval(q.q05, q.q95, each.unit, true),

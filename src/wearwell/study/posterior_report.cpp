@@ -8,6 +8,7 @@
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/row_tables.h"
 #include "wearwell/study/trust_blocks.h"
@@ -145,6 +146,8 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
               "credible) the true value of the population lies above it; 5, 50 and 95 % are "
               "quantiles of the same value. Next one: the value for the next item, averaged over "
               "the posterior (predictive). It has no margin for few tests."});
+    if (const std::string never = never_reached(result.quantities); !never.empty())
+      section.add(Prose{never});
     section.add(std::move(table));
   }
   if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);

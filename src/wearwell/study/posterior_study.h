@@ -156,6 +156,9 @@ struct PosteriorStudy : Study {
   SamplerChoice sampler;                               ///< as the study file says
   NutsSettings nuts;
   MetropolisSettings metropolis;
+  /// ln of the joint prior over the product of the parameters' priors, where an order of parameters
+  /// restricts it.
+  double log_prior_constant = 0;
 };
 
 /// What an application reads of a study file and its data, beyond what all studies of a posterior have.

@@ -1,5 +1,7 @@
 #include "wearwell/study/posterior_tables.h"
 
+#include "wearwell/study/never_reached.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -188,8 +190,11 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
           {"95 %"},
           {"Next one"}};
     }
-    table.rows.push_back(
-        {each.name, each.unit, each.of, each.at, *q.bound, q.q05, q.q50, q.q95, *q.predictive});
+    const auto value = [&](double x) -> Cell {
+      return std::isinf(x) && x > 0 && is_b_life(each) ? Cell("never") : Cell(x);
+    };
+    table.rows.push_back({each.name, each.unit, each.of, each.at, value(*q.bound), value(q.q05),
+                          value(q.q50), value(q.q95), value(*q.predictive)});
   }
   add_numerical_errors(table, quantities, true);
   return table;

@@ -152,7 +152,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   if (study.coverage) result.coverage = study.coverage(nodes);
   if (fit.exact) {
     result.log_evidence = fit.exact->log_evidence;
-    if (result.log_evidence) *result.log_evidence += study.density.total;
+    if (result.log_evidence) *result.log_evidence += study.density.total + study.log_prior_constant;
     result.quadrature = {settings.exact.tolerance, fit.exact->error,
                          static_cast<std::size_t>(fit.exact->nodes.values.rows())};
   }

@@ -16,6 +16,7 @@
 #include "wearwell/study/answers.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/numerical_error.h"
 #include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal_histogram.h"
@@ -163,17 +164,25 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
     if (heading != above) rows.push_back({heading});
     above = heading;
     const int digits = digits_of(q);
-    rows.push_back({"  " + printable(each.of), plain_number(q.q05, digits),
-                    plain_number(q.q50, digits), plain_number(q.q95, digits)});
+    const auto shown_value = [&](double x) {
+      return std::isinf(x) ? b_value(each, x) : plain_number(x, digits);
+    };
+    rows.push_back(
+        {"  " + printable(each.of), shown_value(q.q05), shown_value(q.q50), shown_value(q.q95)});
     if (!bounds) {
-      rows.back().push_back(
-          !each.safe_end ? "-" : plain_number(*each.safe_end < 0.5 ? q.q05 : q.q95, digits));
+      rows.back().push_back(!each.safe_end ? "-"
+                                           : shown_value(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
   }
   if (rows.size() == 1) return "";
   return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +
          text_table(rows) + error_line(quantities, false);
+}
+
+// "never" for the life by which a share has failed, if it is not reached.
+std::string share_life(const QuantitySummary& each, double x, int digits) {
+  return std::isinf(x) && x > 0 && is_b_life(each) ? "never" : plain_number(x, digits);
 }
 
 // Properties of the population: the value for the next item and the lower bound.
@@ -198,12 +207,14 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
     const int digits = digits_of(q);
     rows.push_back({"  " + (alone ? printable(shown(each.at))
                                   : printable_heading(shown(each.name), each.unit)),
-                    plain_number(*q.bound, digits), plain_number(q.q05, digits),
-                    plain_number(q.q50, digits), plain_number(q.q95, digits),
-                    plain_number(*q.predictive, digits)});
+                    share_life(each, *q.bound, digits), share_life(each, q.q05, digits),
+                    share_life(each, q.q50, digits), share_life(each, q.q95, digits),
+                    share_life(each, *q.predictive, digits)});
   }
   if (rows.empty()) return "";
+  const std::string never = never_reached(quantities);
   return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
+         (never.empty() ? "" : wrapped(never, 2, 4)) +
          wrapped(fmt::format("at least: the lower bound to design with. With {} confidence "
                              "(Bayesian: credible) the true value of the population lies above it.",
                              level),

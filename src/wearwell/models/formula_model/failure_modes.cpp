@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <regex>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -212,51 +211,6 @@ ObservedModes observed_by_mode(const FailureModes& modes, const Observed& all) {
     }
   }
   return result;
-}
-
-std::string of_mode(const std::string& text, const std::string& name, const std::string& mode) {
-  const char mark = mode.find('\'') == mode.npos ? '\'' : '"';
-  const std::regex level(R"(\[\s*)" + name + R"(\s*\])");
-  std::string escaped;
-  for (const char c : mode) escaped += c == '$' ? std::string("$$") : std::string(1, c);
-  return std::regex_replace(text, level, fmt::format("[{}{}{}]", mark, escaped, mark));
-}
-
-LinesByMode::LinesByMode(const TomlReader& root, const FailureModes& modes,
-                         const std::vector<formula::Line>& lines)
-    : modes_(modes), lines_(lines) {
-  const std::regex level(R"(\[\s*)" + modes.name + R"(\s*\])");
-  for (bool more = true; more;) {
-    more = false;
-    for (const formula::Line& line : lines) {
-      if (std::find(dependent_.begin(), dependent_.end(), line.name) != dependent_.end()) continue;
-      const bool uses = std::any_of(dependent_.begin(), dependent_.end(), [&](const auto& name) {
-        return std::regex_search(line.text, std::regex("\\b" + name + "\\b"));
-      });
-      if (!uses && !std::regex_search(line.text, level)) continue;
-      if (line.name.find('(') != line.name.npos)
-        root.required_table("formula").fail(
-            line.name,
-            fmt::format("depends on [{}]; only a plain intermediate value can", modes.name));
-      dependent_.push_back(line.name);
-      more = true;
-    }
-  }
-  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-    for (const formula::Line& line : lines) {
-      if (std::find(dependent_.begin(), dependent_.end(), line.name) == dependent_.end()) continue;
-      lines_.push_back({fmt::format("{}__{}", line.name, k + 1), text(line.text, k)});
-    }
-  }
-}
-
-std::string LinesByMode::text(const std::string& written, std::size_t k) const {
-  std::string text = written;
-  for (const std::string& name : dependent_) {
-    text = std::regex_replace(text, std::regex("\\b" + name + "\\b"),
-                              fmt::format("{}__{}", name, k + 1));
-  }
-  return of_mode(text, modes_.name, modes_.modes[k]);
 }
 
 }  // namespace wearwell::formula_model

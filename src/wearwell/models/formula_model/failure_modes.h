@@ -51,24 +51,4 @@ std::vector<std::string> modes_with_tables(const TomlReader& failure_modes);
 
 ObservedModes observed_by_mode(const FailureModes& modes, const Observed& all);
 
-/// An expression with "[mode]" in place of a level, for this mode: "slope[mode]" becomes "slope['wear']".
-std::string of_mode(const std::string& text, const std::string& name, const std::string& mode);
-
-/// Lines of [formula] by mode: lines that depend on [mode] have a copy for each mode, under a name of its
-/// own. Throws InputError at a line that cannot have copies.
-class LinesByMode {
- public:
-  LinesByMode(const TomlReader& root, const FailureModes& modes,
-              const std::vector<formula::Line>& lines);
-
-  const std::vector<formula::Line>& lines() const { return lines_; }
-  /// An expression of mode k.
-  std::string text(const std::string& written, std::size_t k) const;
-
- private:
-  const FailureModes& modes_;
-  std::vector<formula::Line> lines_;
-  std::vector<std::string> dependent_;
-};
-
 }  // namespace wearwell::formula_model

@@ -12,7 +12,8 @@ Asked::Asked(const TomlReader& table, std::shared_ptr<const FormulaModel> formul
     : predict(table), model(std::move(formula_model)), rows(std::move(own_rows)) {
   if (const auto conditions = predict.table("given")) given = read_conditions(*conditions, *model);
   common = common_conditions(*model, given);
-  noun = model->label.value_or(model->symbols.labels.size() == 1 && !model->modes
+  noun = model->label.value_or(model->symbols.labels.size() == 1 && !model->modes &&
+                                       !model->subpopulations
                                    ? model->symbols.labels.front().name
                                    : std::string("unit"));
   for (const Parameter& each : model->parameters) start.push_back(each.start);

@@ -78,8 +78,9 @@ bool is_text(const Column& column) {
 class ObservedReader {
  public:
   ObservedReader(const FormulaData& data, const std::string& name, const ResponseForm& form,
-                 const SpecialColumns& special, const std::optional<std::string>& trials)
-      : data_(data), form_(form), exact_(data.number(name)) {
+                 const SpecialColumns& special, const std::optional<std::string>& trials,
+                 bool dead_on_arrival)
+      : data_(data), form_(form), exact_(data.number(name)), dead_(dead_on_arrival) {
     const auto column = [&](const std::optional<std::string>& each) {
       return each ? data.number(*each) : nullptr;
     };
@@ -147,6 +148,12 @@ class ObservedReader {
       throw InputError(fmt::format("{}: both this cell and the upper end are empty",
                                    place(data_.table, lower_->column, i)));
     }
+    if (dead_ && a == 0 && b > 0 && b < infinity)
+      demand(false, *lower_, i,
+             "positive, or empty: 0 to the upper end can include parts dead on arrival, or not; "
+             "leave the lower end empty if this part may have been dead on arrival, or give a "
+             "small positive one if it worked at first");
+    if (dead_ && a == 0 && b == 0) return {Censoring::none, 0};
     const bool no_lower = std::isnan(a) || (form_.positive && a <= 0);
     if (no_lower && (std::isnan(b) || b == infinity)) {
       throw InputError(
@@ -200,8 +207,14 @@ class ObservedReader {
       y = {seen, need(exact_, i, "the observed value is missing").values[i]};
       refuse_other_ends(y, i);
     }
-    if (form_.positive && exact_ && y.seen != Censoring::interval) {
-      demand(y.at > 0, *exact_, i, fmt::format("positive for the {} family", form_.name).c_str());
+    if (form_.positive && exact_ && y.seen != Censoring::interval &&
+        !(dead_ && y.at == 0 && y.seen != Censoring::left)) {
+      const char* zero = y.at == 0 && y.seen == Censoring::none && !form_.counted && !dead_
+                             ? "; a life of 0 is a part dead on arrival, for which the likelihood "
+                               "needs share_dead_on_arrival"
+                             : "";
+      demand(y.at > 0, *exact_, i,
+             fmt::format("positive for the {} family{}", form_.name, zero).c_str());
     }
     if (form_.counted) {
       if (y.seen != Censoring::none) {
@@ -236,6 +249,7 @@ class ObservedReader {
   const NumberColumn *exact_, *lower_ = nullptr, *upper_ = nullptr, *entry_ = nullptr,
                               *count_ = nullptr, *trials_ = nullptr;
   const LifeStatus* status_ = nullptr;
+  bool dead_;
 };
 
 }  // namespace
@@ -379,8 +393,8 @@ SpecialColumns special_columns(const FormulaData& data) {
 
 Observed read_observed(const FormulaData& data, const std::string& name, const ResponseForm& form,
                        const SpecialColumns& special, const std::optional<std::string>& trials,
-                       bool may_lack) {
-  return ObservedReader(data, name, form, special, trials).read(may_lack);
+                       bool may_lack, bool dead_on_arrival) {
+  return ObservedReader(data, name, form, special, trials, dead_on_arrival).read(may_lack);
 }
 
 }  // namespace wearwell::formula_model

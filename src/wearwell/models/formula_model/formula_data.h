@@ -65,9 +65,10 @@ struct Observed {
 };
 
 /// `trials` is the name of the column with the number of trials, for the binomial family. If
-/// `may_lack`, an empty cell is a row without this observation. Throws InputError.
+/// `may_lack`, an empty cell is a row without this observation. If `dead_on_arrival`, a life of 0 is a part
+/// that was dead on arrival. Throws InputError.
 Observed read_observed(const FormulaData& data, const std::string& name, const ResponseForm& form,
                        const SpecialColumns& special, const std::optional<std::string>& trials,
-                       bool may_lack);
+                       bool may_lack, bool dead_on_arrival = false);
 
 }  // namespace wearwell::formula_model

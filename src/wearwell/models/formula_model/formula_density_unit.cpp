@@ -13,7 +13,8 @@ std::vector<bool> has_density(const FormulaModel& model, const Measured& measure
   std::vector<bool> has(observed.responses.size());
   if (measured.form->counted || measured.trials) return has;
   for (std::size_t i = 0; i < has.size(); ++i)
-    has[i] = observed.responses[i].seen == Censoring::none;
+    has[i] = observed.responses[i].seen == Censoring::none &&
+             !(measured.life.dead && observed.responses[i].at == 0);
   const bool noisy =
       std::count(measured.family_parameter.begin(), measured.family_parameter.end(), 2) > 0;
   if (!measured.process || measured.process->process == Process::wiener || noisy) return has;

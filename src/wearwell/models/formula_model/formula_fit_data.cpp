@@ -13,7 +13,15 @@ namespace wearwell::formula_model {
 namespace {
 
 // For one value; for normal distributions without the cdf.
-double place(ResponseFamily family, double value, const double* family_parameters, double trials) {
+double place(const LifeMixture& life, double value, const double* family_parameters,
+             double trials) {
+  constexpr double one_half = -0.693147180559945309;
+  if (!life.plain()) {
+    const double failed = life.log_cdf(value, family_parameters);
+    if (failed < one_half) return normal_score(failed, 0);
+    return normal_score(failed, life.log_survival(value, family_parameters));
+  }
+  const ResponseFamily family = life.families.front();
   constexpr double log_half = -0.693147180559945309;
   const bool sized = family_parameters[1] > 0 && std::isfinite(family_parameters[0]) &&
                      std::isfinite(family_parameters[1]);
@@ -31,14 +39,20 @@ double place(ResponseFamily family, double value, const double* family_parameter
 }  // namespace
 
 NormalScore score_of(const ResponseForm& form, const Response& y, const double* family_parameters) {
-  const ResponseFamily family = form.family;
+  return score_of(form, {.families = {form.family}}, y, family_parameters);
+}
+
+NormalScore score_of(const ResponseForm& form, const LifeMixture& life, const Response& y,
+                     const double* family_parameters) {
   // Given that it was not truncated at its entry: log P(Y > value | Y > entry).
-  const double entered =
-      y.entry > -infinity ? log_survival(family, y.entry, family_parameters, y.trials) : 0;
+  const auto left = [&](double value) {
+    return life.plain() ? log_survival(form.family, value, family_parameters, y.trials)
+                        : life.log_survival(value, family_parameters);
+  };
+  const double entered = y.entry > -infinity ? left(y.entry) : 0;
   const auto at = [&](double value) {
-    if (!(y.entry > -infinity)) return place(family, value, family_parameters, y.trials);
-    const double above =
-        value > y.entry ? log_survival(family, value, family_parameters, y.trials) - entered : 0;
+    if (!(y.entry > -infinity)) return place(life, value, family_parameters, y.trials);
+    const double above = value > y.entry ? left(value) - entered : 0;
     return normal_score(std::log(-std::expm1(above)), above);
   };
   if (form.counted) {
@@ -48,6 +62,7 @@ NormalScore score_of(const ResponseForm& form, const Response& y, const double* 
   switch (y.seen) {
     case Censoring::none: {
       const double z = at(y.at);
+      if (life.dead && y.at == 0) return {-infinity, z};  // an atom
       return {z, z};
     }
     case Censoring::right:
@@ -101,8 +116,8 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     return;
   }
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-    scores.push_back(score_of(*column.form, column.observed.responses[i],
-                              &family_parameters[i * most_response_parameters]));
+    scores.push_back(score_of(*column.form, column.life, column.observed.responses[i],
+                              &family_parameters[i * column.life.parameters()]));
   }
 }
 
@@ -155,8 +170,8 @@ MeasuredValues measured_values(const FormulaModel& model) {
   MeasuredValues values;
   for (const Measured& measured : model.measured) {
     for (const Response& each : measured.observed.responses) {
-      const bool exact =
-          each.seen == Censoring::none && !measured.form->counted && !measured.process;
+      const bool exact = each.seen == Censoring::none && !measured.form->counted &&
+                         !measured.process && !(measured.life.dead && each.at == 0);
       values.value.push_back(exact ? from_si(measured.unit, each.at) : NAN);
       values.unit.push_back(measured.unit.scale);
     }
@@ -191,7 +206,7 @@ std::vector<double> fitted_places(const FormulaRows& rows, const double* x) {
     const Measured& measured = rows.model().measured[c];
     const std::size_t family_parameter = location_parameter(*measured.form);
     for (std::size_t i = family_parameter; i < family_parameters[c].size();
-         i += most_response_parameters)
+         i += measured.life.parameters())
       places.push_back(measured.process ? NAN : family_parameters[c][i]);
   }
   return places;
@@ -209,7 +224,8 @@ Remedies remedies_of(const FormulaModel& model) {
   const ResponseFamily family = first.form->family;
   Remedies remedies;
   remedies.life = !model.along && model.measured.size() == 1 && first.form->positive &&
-                  !first.form->counted && !first.process && !first.program.has_paths();
+                  !first.form->counted && !first.process && !first.program.has_paths() &&
+                  first.life.plain();
   if (first.process || first.form->counted) return remedies;
   if (family == ResponseFamily::normal) {
     remedies.scatter =

@@ -19,6 +19,9 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows);
 /// The normal score of an observation, for a count those of its ends (bayes/normal_score.h).
 /// `family_parameters` are those of the form's family, SI.
 NormalScore score_of(const ResponseForm& form, const Response& y, const double* family_parameters);
+/// The same of a life that may be a mixture, whose parameters these are.
+NormalScore score_of(const ResponseForm& form, const LifeMixture& life, const Response& y,
+                     const double* family_parameters);
 
 /// Random numbers that are the same for the same parameters, for every caller.
 Rng lots_at(const double* x, std::size_t count);

@@ -50,7 +50,9 @@ std::optional<std::vector<Alike>> alike_rows(const FormulaModel& model, const Bo
 
 std::optional<BoundColumn> gathered(const FormulaModel& model, const BoundColumn& bound) {
   const Measured& measured = *bound.measured;
-  if (bound.unit.size() < gathered_from || !can_be_gathered(*measured.form)) return {};
+  if (bound.unit.size() < gathered_from || !can_be_gathered(*measured.form) ||
+      measured.life.families.size() > 1)
+    return {};
   const auto groups = alike_rows(model, bound);
   if (!groups) return {};
   BoundColumn few;

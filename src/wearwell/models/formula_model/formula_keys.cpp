@@ -56,11 +56,32 @@ StudyKeys formula_keys() {
                   {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
                    "one table per measured column"},
                   needed_key("likelihood.*.family", "\"normal\"", "distribution of its scatter",
-                             {"failure_modes"})});
+                             {"failure_modes", "subpopulations"})});
   add_keys(keys, parameter_keys());
   add_keys(
       keys,
-      {{"failure_modes", "{ column = \"mode\" }",
+      {{"likelihood.*.share_defective", "\"p\"",
+        "expression or number: the share of parts that can fail at all (limited failure "
+        "population, "
+        "[life.md](life.md#subpopulations))"},
+       {"likelihood.*.share_dead_on_arrival", "\"d\"",
+        "expression or number: the share of parts that are dead on arrival; a life of 0 is such a "
+        "part"},
+       {"subpopulations", "{ names = [\"early\", \"wear-out\"], share = { early = \"p\" } }",
+        "a mixture: a part is of one of these, unknown which "
+        "([life.md](life.md#subpopulations))"},
+       needed_key("subpopulations.names", "[\"early\", \"wear-out\"]",
+                  "in the order of their median lives", {}, {"subpopulations"}),
+       {"subpopulations.share", "{ early = \"p\" }",
+        "the shares of all but one, which has the rest"},
+       {"subpopulations.share.*", "\"p\"", "expression or number: the share of this one"},
+       {"subpopulations.*", "{ family = \"lognormal\", median = \"m\", log_sd = \"s\" }",
+        "distribution of one subpopulation, by its name; the others have that of `likelihood`, "
+        "where "
+        "`scale[subpopulation]` is a parameter of each"},
+       {"subpopulations.*.family", "\"lognormal\"", "distribution of its life"},
+       {"subpopulations.*.*", "\"m\"", "expression or number, of the parameters of the family"},
+       {"failure_modes", "{ column = \"mode\" }",
         "competing risks: a part fails by the mode whose life ends first "
         "([life.md](life.md#failure-modes))"},
        needed_key("failure_modes.column", "\"mode\"",

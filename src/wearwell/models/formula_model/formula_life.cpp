@@ -39,8 +39,19 @@ std::string per_unit(const Unit& unit) {
 Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured) {
   std::vector<std::size_t> places = measured.family_parameter;
   places.resize(family_parameters->program.outputs().size());
-  return {std::move(family_parameters), std::move(places), measured.form->family,
-          measured.form->positive};
+  return {std::move(family_parameters), std::move(places), measured.life, measured.form->positive};
+}
+
+Risk risk_of_subpopulation(std::shared_ptr<const Path> family_parameters, const Measured& measured,
+                           std::size_t k) {
+  std::vector<std::size_t> places;
+  for (const std::size_t each : measured.family_parameter) {
+    if (each / most_response_parameters == k) places.push_back(each % most_response_parameters);
+  }
+  return {std::move(family_parameters),
+          std::move(places),
+          {.families = {measured.life.families[k]}},
+          true};
 }
 
 LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(risks)) {}
@@ -48,10 +59,10 @@ LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(r
 double LifeDistribution::Next::cdf(double life) const {
   constexpr std::size_t part = 4096;  // components, independent of the number of threads
   std::vector<double> sums((weights_.size() + part - 1) / part);
-  const std::size_t stride = risks_.size() * most_response_parameters;
+  const std::size_t stride = parameters_of(risks_);
   const auto failed = [&](std::size_t i) {
     const double* const own = &family_parameters_[i * stride];
-    return risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, own))
+    return risks_.size() == 1 ? std::exp(risks_.front().life.log_cdf(life, own))
                               : -std::expm1(log_survival_of(risks_, life, own));
   };
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
@@ -62,6 +73,10 @@ double LifeDistribution::Next::cdf(double life) const {
 }
 
 double LifeDistribution::Next::quantile(double p) const {
+  if (!risks_.front().life.plain()) {
+    if (p <= cdf(0)) return 0;
+    if (p >= cdf(infinity)) return infinity;
+  }
   return quantile_of_cdf([&](double y) { return cdf(y); }, p, middle_, risks_.front().positive);
 }
 
@@ -80,7 +95,7 @@ void LifeDistribution::Next::add(const LifeAtPoint& at, double weight) {
     if (at.weight(j) < 1e-9) continue;
     weights_.push_back(weight * at.weight(j));
     family_parameters_.insert(family_parameters_.end(), at.slots(j),
-                              at.slots(j) + risks_.size() * most_response_parameters);
+                              at.slots(j) + parameters_of(risks_));
   }
 }
 
@@ -100,13 +115,13 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
     const double total = std::accumulate(next.weights_.begin(), next.weights_.end(), 0.0);
     for (double& each : next.weights_) each /= total;
     at.move_to(draws.values.row(heaviest(draws)).data());
-    next.middle_ = at.quantile(0.5);
+    next.middle_ = at.middle();
     return next;
   }
   const ThinnedPosterior few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
-    if (i == 0) next.middle_ = at.quantile(0.5);
+    if (i == 0) next.middle_ = at.middle();
     next.add(at, few.weights[i]);
   }
   return next;
@@ -237,6 +252,31 @@ LifeDistribution::Known LifeDistribution::incidence(const WeightedDraws& draws, 
       [&](const double* x) {
         at.move_to(x);
         return at.incidence(risk, life);
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::failing(const WeightedDraws& draws,
+                                                  double share_of_points) const {
+  LifeAtPoint at = at_point();
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.failing();
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::share_among_survivors(const WeightedDraws& draws,
+                                                                std::size_t k, double life,
+                                                                double share_of_points) const {
+  LifeAtPoint at = at_point();
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.share_among_survivors(k, life);
       },
       share_of_points);
 }

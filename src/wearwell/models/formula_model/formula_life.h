@@ -16,6 +16,9 @@ std::string per_unit(const Unit& unit);
 
 /// The life of a measured column as a risk.
 Risk risk_of(std::shared_ptr<const Path> family_parameters, const Measured& measured);
+/// The life of subpopulation k alone; the outputs of the path are its parameters.
+Risk risk_of_subpopulation(std::shared_ptr<const Path> family_parameters, const Measured& measured,
+                           std::size_t k);
 
 /// A life as a likelihood's family gives it, or the earliest of several, under conditions: its derived
 /// quantities over a posterior.
@@ -64,6 +67,11 @@ class LifeDistribution {
   /// The share that has ended by this life through one of the risks.
   Known incidence(const WeightedDraws& draws, std::size_t risk, double life,
                   double share_of_points = 1) const;
+  /// The share that fails at all.
+  Known failing(const WeightedDraws& draws, double share_of_points = 1) const;
+  /// The share of subpopulation k among the survivors of a life.
+  Known share_among_survivors(const WeightedDraws& draws, std::size_t k, double life,
+                              double share_of_points = 1) const;
   /// The p-quantile over that of `other`.
   Known ratio(const WeightedDraws& draws, const LifeDistribution& other, double p,
               double share_of_points = 1) const;

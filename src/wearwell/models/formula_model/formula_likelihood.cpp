@@ -11,6 +11,7 @@
 #include "wearwell/models/formula_model/formula_row_columns.h"
 #include "wearwell/models/formula_model/joint_failures.h"
 #include "wearwell/models/formula_model/linear_form.h"
+#include "wearwell/models/formula_model/subpopulation_order.h"
 
 // Longer than others: one likelihood: rows, integrals over effects, gradients of both.
 namespace wearwell::formula_model {
@@ -85,15 +86,16 @@ std::vector<BoundColumn> bind_columns(const FormulaModel& model, std::size_t row
 
 UnitRows::UnitRows(const FormulaModel& model, const std::vector<BoundColumn>& columns)
     : model_(model), columns_(columns), population_at_(model) {
-  std::size_t most = 0;
+  std::size_t most = 0, most_slopes = 0;
   for (const BoundColumn& column : columns) {
+    most_slopes = std::max(most_slopes, column.measured->life.parameters() * column.most_rows);
     workspaces_.push_back(column.measured->program.workspace(column.most_rows));
     most = std::max(most, column.most_rows);
   }
   inner_.resize(model.shared.size());
   inner_gradient_.resize(model.shared.size());
   value_.resize(most);
-  slope_.resize(most_response_parameters * most);
+  slope_.resize(std::max(most_slopes, most_response_parameters * most));
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     effect_[e].resize(most);
     by_effect_[e].resize(most);
@@ -153,7 +155,7 @@ void UnitRows::run(const Chunk& chunk, std::span<const double> z) {
   formula::Workspace& workspace = workspaces_[chunk.index];
   column.measured->program.forward(column.data, chunk.begin, chunk.end, {inner_, {effect_at_, d}},
                                    workspace);
-  family_parameters_.assign(most_response_parameters, {&zero_, true});
+  family_parameters_.assign(column.measured->life.parameters(), {&zero_, true});
   const auto& outputs = column.measured->program.outputs();
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     family_parameters_[column.measured->family_parameter[o]] = {workspace.values(o).data(),
@@ -166,10 +168,9 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
   const BoundColumn& column = *chunk.column;
   const std::size_t n = chunk.end - chunk.begin;
   if (column.measured->process) return forward_process(chunk, sloped);
-  log_responses(
-      column.measured->form->family, column.responses, chunk.begin, family_parameters_,
-      {value_.data(), n},
-      sloped ? std::span(slope_.data(), most_response_parameters * n) : std::span<double>());
+  const LifeMixture& life = column.measured->life;
+  log_responses(life, column.responses, chunk.begin, family_parameters_, {value_.data(), n},
+                sloped ? std::span(slope_.data(), life.parameters() * n) : std::span<double>());
 }
 
 // Unit by unit, for rows with a reading: `visit(rows of the chunk, ProcessRows)`.
@@ -438,14 +439,15 @@ std::vector<std::vector<double>> UnitRows::each_term(std::span<const double> z) 
 std::vector<std::vector<double>> UnitRows::each_family_parameter(std::span<const double> z) {
   std::vector<std::vector<double>> all;
   for (const BoundColumn& column : columns_) {
-    all.emplace_back(most_response_parameters * column.measured->observed.rows.size());
+    all.emplace_back(column.measured->life.parameters() * column.measured->observed.rows.size());
   }
   visit(std::vector<std::uint8_t>(model_.units.size(), 1), [&](const Chunk& chunk) {
     run(chunk, z);
+    const std::size_t count = chunk.column->measured->life.parameters();
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       if (!(chunk.column->count[i] > 0)) continue;
-      for (std::size_t s = 0; s < most_response_parameters; ++s) {
-        all[chunk.index][chunk.column->term[i] * most_response_parameters + s] =
+      for (std::size_t s = 0; s < count; ++s) {
+        all[chunk.index][chunk.column->term[i] * count + s] =
             family_parameters_[s][i - chunk.begin];
       }
     }
@@ -615,6 +617,32 @@ class HiddenLikelihood final : public FormulaLikelihood {
   }
 };
 
+// Of exchangeable subpopulations: with the order that tells them apart.
+class OrderedLikelihood final : public FormulaLikelihood {
+ public:
+  explicit OrderedLikelihood(const std::shared_ptr<const FormulaRows>& rows)
+      : FormulaLikelihood(rows), model_(rows->model()) {}
+
+  double value(std::span<const double> x) const override {
+    const double all = FormulaLikelihood::value(x);
+    return all > -infinity ? all + own_order().value(x) : all;
+  }
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    const double all = FormulaLikelihood::value_and_gradient(x, gradient);
+    return all > -infinity ? all + own_order().value(x, gradient) : all;
+  }
+
+ private:
+  SubpopulationOrder& own_order() const {
+    std::unique_ptr<SubpopulationOrder>& order = order_.local();
+    if (!order) order = std::make_unique<SubpopulationOrder>(model_);
+    return *order;
+  }
+
+  const FormulaModel& model_;
+  mutable tbb::enumerable_thread_specific<std::unique_ptr<SubpopulationOrder>> order_;
+};
+
 // Of failure modes: those one by one, and what failures of unknown mode and within intervals add.
 class ModesLikelihood final : public FormulaLikelihood {
  public:
@@ -756,6 +784,8 @@ std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const Formu
     const std::size_t count = rows->rows();
     return std::make_shared<ModesLikelihood>(std::move(rows), count);
   }
+  if (rows->model().subpopulations && rows->model().subpopulations->exchangeable)
+    return std::make_shared<OrderedLikelihood>(rows);
   return std::make_shared<FormulaLikelihood>(std::move(rows));
 }
 

@@ -11,7 +11,8 @@
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/formula_process.h"
 #include "wearwell/models/formula_model/step_stress.h"
-#include "wearwell/prob/response.h"
+#include "wearwell/models/formula_model/subpopulations.h"
+#include "wearwell/prob/life_mixture.h"
 
 namespace wearwell::formula_model {
 
@@ -49,10 +50,12 @@ struct Measured {
   const ProcessForm* process =
       nullptr;                        ///< set if its increments are random; `form` is then its form
   std::optional<std::string> trials;  ///< the column of their numbers
-  std::vector<formula::Wanted> wanted;        ///< the given distribution parameters, as expressions
-  std::vector<std::size_t> family_parameter;  ///< of the form, for each of `wanted`
-  formula::Program program;                   ///< outputs as `wanted`
+  std::vector<formula::Wanted> wanted;  ///< the given distribution parameters, as expressions
+  /// Of the form, for each of `wanted`; with shares or subpopulations of `life`, whose first is the form.
+  std::vector<std::size_t> family_parameter;
+  formula::Program program;  ///< outputs as `wanted`
   Observed observed;
+  LifeMixture life;  ///< its distribution: the form's family, or a mixture
 };
 
 /// A formula study, read and compiled; data in SI.
@@ -76,6 +79,9 @@ struct FormulaModel {
   std::vector<DrawnEffect> drawn;
   /// Their scatters, then the correlations of those that follow another.
   formula::Program drawn_scatter;
+
+  /// The life is a mixture of these.
+  std::optional<Subpopulations> subpopulations;
 
   /// With failure modes measured[k] is the life of mode k.
   std::optional<FailureModes> modes;

@@ -17,6 +17,7 @@
 #include "wearwell/models/formula_model/life_answers.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_answers.h"
+#include "wearwell/models/formula_model/subpopulation_answers.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::formula_model {
@@ -118,7 +119,7 @@ class Predictions {
     group.requests.push_back(request(what, "new " + noun_, given_words_, measured.unit));
     group.requests.back().is_life = true;
     group.requests.back().safe_end = 0.05;
-    group.requests.back().headline = model_->modes.has_value();
+    group.requests.back().headline = model_->modes || model_->subpopulations;
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
       group.requests.back().credible_level = levels.credible_level;
@@ -173,6 +174,8 @@ class Predictions {
       predict_.fail("sides", "is for the bounds of predict.classical");
     if (classical)
       add_classical_estimates({predict_, model_, common_, given_words_, noun_, asked}, study_);
+    if (!measured.life.plain())
+      add_mixture_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }
 
   // ---- Functions of the parameters.

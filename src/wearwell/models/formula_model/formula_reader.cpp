@@ -18,7 +18,9 @@
 #include "wearwell/models/formula_model/formula_likelihood.h"
 #include "wearwell/models/formula_model/formula_order.h"
 #include "wearwell/models/formula_model/linear_form.h"
+#include "wearwell/models/formula_model/lines_by_level.h"
 #include "wearwell/models/formula_model/step_stress.h"
+#include "wearwell/models/formula_model/written_mixture.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of earlier
 // ones.
@@ -27,12 +29,6 @@ namespace {
 
 const std::vector<std::string> special_names = {"status", "lower", "upper", "entry", "count"};
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
-}
-
 struct Bounds {
   double lower = -INFINITY, upper = INFINITY;
 
@@ -40,18 +36,6 @@ struct Bounds {
     lower = std::max(lower, least);
     upper = std::min(upper, most);
   }
-};
-
-// A likelihood as written, before anything is compiled.
-struct WrittenLikelihood {
-  std::string column;
-  std::string mode;   // of a failure mode, else empty
-  std::string place;  // "likelihood.life": its table in the study
-  const ResponseForm* form;
-  const ProcessForm* process;
-  std::optional<std::string> trials;
-  std::vector<std::pair<std::size_t, std::string>>
-      family_parameters;  // of the form, and the expression
 };
 
 // Keys of a prior whose values have the dimension of its parameter, for every distribution.
@@ -107,6 +91,7 @@ class Reader {
     model_->data = read_own_data(root_, source_, label_names());
     read_steps();
     read_modes();
+    read_mixture();
     choose_units();
     read_along();
     read_symbols();
@@ -132,12 +117,19 @@ class Reader {
       }
       model_->lines = model_->written;
     }
+    model_->subpopulations = read_subpopulations(root_);
+    subpopulations_ = model_->subpopulations.has_value();
     const TomlReader likelihoods = root_.required_table("likelihood");
     const auto failure_modes = root_.table("failure_modes");
     for (const std::string& column : likelihoods.keys()) {
       const TomlReader table = likelihoods.required_table(column);
-      if (failure_modes && table.keys().empty()) {  // each mode has its own
-        written_.push_back({column, "", "likelihood." + column, nullptr, nullptr, {}, {}});
+      const std::vector<std::string> keys = table.keys();
+      const bool no_family = std::find(keys.begin(), keys.end(), "family") == keys.end();
+      if (failure_modes && keys.empty()) {  // each mode has its own
+        written_.push_back(empty_likelihood(column));
+      } else if (subpopulations_ && no_family) {
+        written_.push_back(empty_likelihood(column));
+        read_shares(table, written_.back());
       } else {
         written_.push_back(read_likelihood(table, column, "likelihood." + column));
       }
@@ -150,6 +142,7 @@ class Reader {
                                           written_.front().column, "failure_modes." + mode));
       of_modes_.back().mode = mode;
     }
+    read_texts_of_subpopulations();
     if (written_.empty()) {
       root_.fail("likelihood", "is empty; give one table for each measured column");
     }
@@ -198,7 +191,10 @@ class Reader {
       table.fail("family", fmt::format("{} needs {}", *family,
                                        fmt::join(needed_parameters(*family), ", or ")));
     }
-    WrittenLikelihood result{column, "", place, form, process, {}, {}};
+    WrittenLikelihood result = empty_likelihood(column);
+    result.place = place;
+    result.form = form;
+    result.process = process;
     for (std::size_t s = 0; s < form->family_parameters.size(); ++s) {
       const std::string name(form->family_parameters[s].name);
       if (!table.has(name)) continue;
@@ -207,6 +203,7 @@ class Reader {
     }
     if (steps) add_steps(table, *family, result);
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
+    if (place.starts_with("likelihood.")) read_shares(table, result);
     return result;
   }
 
@@ -226,13 +223,47 @@ class Reader {
     if (!model_->steps) return;
     const WrittenLikelihood& life = written_.front();
     const TomlReader table = root_.required_table("likelihood").required_table(life.column);
-    for (const char* other : {"failure_modes", "random_effects"})
+    for (const char* other : {"failure_modes", "random_effects", "subpopulations"})
       if (root_.has(other)) table.fail("steps", fmt::format("is not possible with [{}]", other));
+    for (const char* share : {"share_defective", "share_dead_on_arrival"})
+      if (table.has(share)) table.fail(share, "is not possible with steps");
     if (written_.size() > 1) table.fail("steps", "needs one measured column, the life");
     if (!model_->data.label(model_->steps->label))
       table.fail("steps", "must name the column of the specimens under data.columns");
     if (!model_->data.number(life.column)) fail_without_column(life);
     add_durations(*model_->steps, life.column, model_->data);
+  }
+
+  void read_shares(const TomlReader& table, WrittenLikelihood& written) {
+    read_shares_of_life(table, written);
+    if (written.defective) texts_.push_back(*written.defective);
+    if (written.dead) texts_.push_back(*written.dead);
+  }
+
+  // Tables of single subpopulations, and the shares.
+  void read_texts_of_subpopulations() {
+    if (!subpopulations_) return;
+    const TomlReader section = root_.required_table("subpopulations");
+    for (const std::string& name : subpopulations_with_tables(section, *model_->subpopulations)) {
+      of_subpopulations_.push_back(read_likelihood(section.required_table(name),
+                                                   written_.empty() ? "" : written_.front().column,
+                                                   "subpopulations." + name));
+      of_subpopulations_.back().mode = name;
+    }
+    for (const auto& each : model_->subpopulations->share)
+      if (each) texts_.push_back(*each);
+  }
+
+  // Replaces the likelihood by that of the mixture, and the lines that depend on the subpopulation by copies.
+  void read_mixture() {
+    refuse_with_shares(root_, written_);
+    if (!subpopulations_) return;
+    refuse_with_subpopulations(root_, written_, texts_);
+    const LinesByLevel lines(root_, Subpopulations::label, model_->subpopulations->names,
+                             model_->lines);
+    model_->lines = lines.lines();
+    written_.front() =
+        mixture_of(root_, *model_->subpopulations, written_.front(), of_subpopulations_, lines);
   }
 
   // Replaces the one likelihood by those of the failure modes, and the lines that depend on the mode by
@@ -264,7 +295,7 @@ class Reader {
     for (std::size_t i = 0; i < lives.rows.size(); ++i) {
       if (modes.possible[lives.rows[i]] == 0) model_->lives.responses[i].seen = Censoring::right;
     }
-    const LinesByMode lines(root_, modes, model_->lines);
+    const LinesByLevel lines(root_, modes.name, modes.modes, model_->lines);
     model_->lines = lines.lines();
     written_.clear();
     for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -485,6 +516,8 @@ class Reader {
     }
     if (model_->modes)
       model_->symbols.labels.push_back({model_->modes->name, model_->modes->modes});
+    if (subpopulations_)
+      model_->symbols.labels.push_back({Subpopulations::label, model_->subpopulations->names});
     if (const auto constants = root_.table("constants")) {
       for (const std::string& name : constants->keys()) {
         if (!constants->is_text(name)) {
@@ -505,15 +538,20 @@ class Reader {
   // The sign of a parameter, from the places where it stands alone.
   std::map<std::string, Bounds> natural_bounds() const {
     std::map<std::string, Bounds> bounds;
-    for (const WrittenLikelihood& each : written_) {
-      for (const auto& [family_parameter, text] : each.family_parameters) {
-        std::string name = trimmed(text);
-        name = trimmed(name.substr(0, name.find('[')));
-        const ParameterKind kind = each.form->family_parameters[family_parameter].kind;
-        if (kind == ParameterKind::probability) bounds[name].take(0, 1);
-        if (kind == ParameterKind::scale || kind == ParameterKind::number)
-          bounds[name].take(0, INFINITY);
+    const auto base = [](const std::string& text) {
+      const std::string name = trimmed(text);
+      return trimmed(name.substr(0, name.find('[')));
+    };
+    for (const WrittenLikelihood& written : written_) {
+      for (const WrittenLikelihood& each : parts_of(written)) {
+        for (const auto& [family_parameter, text] : each.family_parameters) {
+          const ParameterKind kind = each.form->family_parameters[family_parameter].kind;
+          if (kind == ParameterKind::probability) bounds[base(text)].take(0, 1);
+          if (kind == ParameterKind::scale || kind == ParameterKind::number)
+            bounds[base(text)].take(0, INFINITY);
+        }
       }
+      for (const WrittenShare& each : written.shares) bounds[base(each.text)].take(0, 1);
     }
     for (const WrittenEffects& random_effects : varies_) {
       for (const WrittenEffect& each : random_effects.effects) {
@@ -590,8 +628,11 @@ class Reader {
   void read_levels(const TomlReader& priors, const std::string& base, const std::string& label,
                    const Bounds& bounds) {
     const LabelColumn* column = model_->data.label(label);
-    const bool by_mode = model_->modes && model_->modes->name == label;
-    if (!column && !by_mode) {
+    const std::vector<std::string>* const unstated =  // levels that no row states
+        model_->modes && model_->modes->name == label       ? &model_->modes->modes
+        : subpopulations_ && label == Subpopulations::label ? &model_->subpopulations->names
+                                                            : nullptr;
+    if (!column && !unstated) {
       const auto& labels = model_->data.labels;
       const bool is_level = std::any_of(labels.begin(), labels.end(), [&](const LabelColumn& each) {
         return std::find(each.levels.begin(), each.levels.end(), label) != each.levels.end();
@@ -613,7 +654,7 @@ class Reader {
     }
     std::optional<formula::Powers> powers;
     const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
-    for (const std::string& level : by_mode ? model_->modes->modes : column->levels) {
+    for (const std::string& level : unstated ? *unstated : column->levels) {
       const std::string name = fmt::format("{}[{}]", base, level);
       const std::string key = priors.has(name) ? name : common;
       if (!priors.has(key)) {
@@ -749,7 +790,8 @@ class Reader {
                         {},
                         {},
                         {},
-                        {}};
+                        {},
+                        written.life()};
       if (written.form->counted && !column->unit.powers.empty() && column->unit.unit.scale != 1) {
         table.fail("family",
                    fmt::format("{} is for counts; '{}' is measured in {}", written.form->name,
@@ -758,16 +800,7 @@ class Reader {
       if (written.trials && !model_->data.number(*written.trials)) {
         table.fail("trials", "must name a numeric column under data.columns");
       }
-      for (const auto& [family_parameter, text] : written.family_parameters) {
-        const ParameterForm& form = written.form->family_parameters[family_parameter];
-        const bool dimensional =
-            form.kind == ParameterKind::location || form.kind == ParameterKind::scale;
-        measured.wanted.push_back({fmt::format("[{}] {}", written.place, form.name), text,
-                                   dimensional ? column->unit.powers : formula::Powers(),
-                                   dimensional ? fmt::format("the column '{}'", written.column)
-                                               : fmt::format("a {}", form.name)});
-        measured.family_parameter.push_back(family_parameter);
-      }
+      add_wanted(written, column->unit.powers, measured);
       try {
         measured.program = formula::compile(model_->lines, measured.wanted, model_->row_symbols);
       } catch (const InputError& error) {
@@ -775,9 +808,10 @@ class Reader {
       }
       if (written.process) model_->data.require_values(*column);
       const bool may_lack = written_.size() > 1;
-      measured.observed = model_->modes ? std::move(observed_of_modes_[model_->measured.size()])
-                                        : read_observed(model_->data, written.column, *written.form,
-                                                        special, written.trials, may_lack);
+      measured.observed = model_->modes
+                              ? std::move(observed_of_modes_[model_->measured.size()])
+                              : read_observed(model_->data, written.column, *written.form, special,
+                                              written.trials, may_lack, measured.life.dead);
       if (model_->steps)
         measured.observed =
             last_steps(*model_->steps, written.column, model_->data, measured.observed);
@@ -785,8 +819,13 @@ class Reader {
         table.fail(
             "",
             "depends on earlier rows (cum, or a state); that is not possible with [failure_modes]");
+      if (!measured.life.plain() && measured.program.has_paths())
+        table.fail("", "depends on earlier rows (cum, or a state); lives of subpopulations cannot");
       model_->measured.push_back(std::move(measured));
     }
+    if (subpopulations_)
+      model_->subpopulations->exchangeable = are_exchangeable(
+          written_.front(), *model_->subpopulations, model_->written, model_->parameters);
     for (const NumberColumn& each : model_->data.numbers) {
       const bool measured = std::any_of(model_->measured.begin(), model_->measured.end(),
                                         [&](const Measured& m) { return m.column == each.name; });
@@ -822,6 +861,8 @@ class Reader {
   std::vector<std::string> texts_;
   std::vector<WrittenLikelihood> written_;
   std::vector<WrittenLikelihood> of_modes_;  // of the modes with a table
+  std::vector<WrittenLikelihood> of_subpopulations_;
+  bool subpopulations_ = false;
   std::vector<Observed> observed_of_modes_;
   std::vector<WrittenEffects> varies_;
   std::vector<WrittenEffect> effects_;  // of the units, which are integrated out

@@ -21,6 +21,7 @@
 #include "wearwell/models/formula_model/identified.h"
 #include "wearwell/models/formula_model/life_paper.h"
 #include "wearwell/models/formula_model/returns_report.h"
+#include "wearwell/models/formula_model/subpopulation_order.h"
 #include "wearwell/prognosis/plural.h"
 
 namespace wearwell {
@@ -32,7 +33,52 @@ using formula_model::FormulaRows;
 using formula_model::Measured;
 using formula_model::Observed;
 
+// "weibull with scale = eta['early'], shape = beta['early']".
+std::string description_of_family(const Measured& measured, std::size_t k) {
+  const ResponseForm& form = form_of(measured.life.families[k]);
+  std::vector<std::string> family_parameters;
+  for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
+    const std::size_t at = measured.family_parameter[o];
+    if (at / most_response_parameters != k) continue;
+    family_parameters.push_back(
+        fmt::format("{} = {}", form.family_parameters[at % most_response_parameters].name,
+                    measured.program.text(o)));
+  }
+  return fmt::format("{} with {}", form.name, fmt::join(family_parameters, ", "));
+}
+
+// A mixture, and the shares of it.
+std::string description_of_mixture(const FormulaModel& model) {
+  const Measured& measured = model.measured.front();
+  const auto text_at = [&](std::size_t place) {
+    for (std::size_t o = 0; o < measured.wanted.size(); ++o)
+      if (measured.family_parameter[o] == place) return measured.program.text(o);
+    return std::string();
+  };
+  std::vector<std::string> parts;
+  const LifeMixture& life = measured.life;
+  for (std::size_t k = 0; k < life.families.size(); ++k) {
+    std::string of;
+    if (model.subpopulations)
+      of = k == life.rest ? fmt::format(" of {} (the rest)", model.subpopulations->names[k])
+                          : fmt::format(" of {} (share {})", model.subpopulations->names[k],
+                                        text_at(life.share(k)));
+    parts.push_back(
+        fmt::format("{}{} is {}", measured.column, of, description_of_family(measured, k)));
+  }
+  if (life.limited)
+    parts.push_back(
+        fmt::format("a share {} of the parts can fail at all", text_at(life.share_defective())));
+  if (life.dead)
+    parts.push_back(fmt::format("a share {} is dead on arrival", text_at(life.share_dead())));
+  if (model.subpopulations && model.subpopulations->exchangeable)
+    parts.push_back(fmt::format("{} are named in the order of their median lives",
+                                fmt::join(model.subpopulations->names, ", ")));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string description(const FormulaModel& model) {
+  if (!model.measured.front().life.plain()) return description_of_mixture(model);
   std::vector<std::string> parts;
   for (const Measured& each : model.measured) {
     std::vector<std::string> family_parameters;
@@ -143,9 +189,10 @@ std::vector<std::string> notes(const FormulaModel& model) {
   if (model.modes) all = notes_of_modes(model);
   for (const Measured& each : model.measured) {
     if (model.modes) break;
-    long long counts[4] = {}, sum = 0, truncated = 0;
+    long long counts[4] = {}, sum = 0, truncated = 0, dead = 0;
     for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
       const Response& y = each.observed.responses[i];
+      if (each.life.dead && y.seen == Censoring::none && y.at == 0) dead += each.observed.counts[i];
       counts[static_cast<int>(y.seen)] += each.observed.counts[i];
       sum += each.observed.counts[i];
       truncated += y.entry > -infinity ? each.observed.counts[i] : 0;
@@ -158,6 +205,7 @@ std::vector<std::string> notes(const FormulaModel& model) {
         fmt::format("{}: {} observation{}{}", each.column, sum, sum == 1 ? "" : "s",
                     counts[0] == sum ? "" : fmt::format(": {}", fmt::join(parts, ", ")));
     if (truncated > 0) note += fmt::format("; {} with delayed entry", truncated);
+    if (dead > 0) note += fmt::format("; {} dead on arrival (a life of 0)", dead);
     all.push_back(note);
     if (!each.form->counted && each.observed.failures == 0) {
       all.push_back(fmt::format(
@@ -304,6 +352,7 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   study.meanings = meanings(*model);
   study.data_notes = notes(*model);
   study.density = formula_model::density_unit(*model);
+  study.log_prior_constant = formula_model::log_orders(*model);
   study.nothing_seen = nothing_seen(*model);
   tell_data(*model, study);
   if (model->has_random_effects()) {

@@ -16,8 +16,14 @@ constexpr unsigned deepest_cut = 12;
 double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters) {
   double sum = 0;
   for (std::size_t r = 0; r < risks.size(); ++r)
-    sum += log_survival(risks[r].family, life, family_parameters + r * most_response_parameters);
+    sum += risks[r].life.log_survival(life, family_parameters + r * most_response_parameters);
   return sum;
+}
+
+// Several risks are plain families.
+std::size_t parameters_of(std::span<const Risk> risks) {
+  return risks.size() == 1 ? risks.front().life.parameters()
+                           : risks.size() * most_response_parameters;
 }
 
 LifeAtPoint::LifeAtPoint(std::span<const Risk> risks)
@@ -25,9 +31,10 @@ LifeAtPoint::LifeAtPoint(std::span<const Risk> risks)
       positive_(risks.front().positive),
       model_(*risks.front().family_parameters->model),
       nodes_(model_.effects.size(), 6.5),
-      new_units_(model_) {
+      new_units_(model_),
+      stride_(parameters_of(risks)) {
   for (const Risk& each : risks) paths_.emplace_back(*each.family_parameters);
-  family_parameters_.resize(most_response_parameters * risks.size() * size());
+  family_parameters_.resize(stride_ * size());
 }
 
 void LifeAtPoint::move_to(const double* x) {
@@ -40,8 +47,8 @@ void LifeAtPoint::move_to(const double* x) {
         const std::size_t n = std::min(Path::most, count - at);
         paths_[r].evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
         for (std::size_t i = 0; i < n; ++i) {
-          double* const own = &family_parameters_[((k * count + at + i) * risks_.size() + r) *
-                                                  most_response_parameters];
+          double* const own =
+              &family_parameters_[(k * count + at + i) * stride_ + r * most_response_parameters];
           for (std::size_t o = 0; o < risks_[r].places.size(); ++o)
             own[risks_[r].places[o]] = paths_[r].output(o, i);
         }
@@ -60,13 +67,12 @@ double LifeAtPoint::log_survival(std::size_t component, double life) const {
 }
 
 double LifeAtPoint::log_density(std::size_t component, double life) const {
-  if (risks_.size() == 1)
-    return log_response_value(risks_.front().family, {.at = life}, slots(component));
+  if (risks_.size() == 1) return risks_.front().life.log_density(life, slots(component));
   double hazard = 0;
   for (std::size_t r = 0; r < risks_.size(); ++r) {
     const double* const own = slots(component, r);
-    hazard += std::exp(log_response_value(risks_[r].family, {.at = life}, own) -
-                       wearwell::log_survival(risks_[r].family, life, own));
+    hazard +=
+        std::exp(risks_[r].life.log_density(life, own) - risks_[r].life.log_survival(life, own));
   }
   return std::log(hazard) + log_survival(component, life);
 }
@@ -74,9 +80,8 @@ double LifeAtPoint::log_density(std::size_t component, double life) const {
 double LifeAtPoint::cdf(double life) const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    sum +=
-        weight(i) * (risks_.size() == 1 ? std::exp(log_cdf(risks_.front().family, life, slots(i)))
-                                        : -std::expm1(log_survival(i, life)));
+    sum += weight(i) * (risks_.size() == 1 ? std::exp(risks_.front().life.log_cdf(life, slots(i)))
+                                           : -std::expm1(log_survival(i, life)));
   }
   return sum;
 }
@@ -111,11 +116,11 @@ double LifeAtPoint::hazard(double life) const {
 }
 
 double LifeAtPoint::quantile(double p) const {
-  if (single()) return wearwell::quantile(risks_.front().family, p, slots(0));
+  if (single()) return risks_.front().life.quantile(p, slots(0));
   const auto earliest = [&](double share) {
     double least = infinity;
     for (std::size_t r = 0; r < risks_.size(); ++r)
-      least = std::min(least, wearwell::quantile(risks_[r].family, share, slots(size() / 2, r)));
+      least = std::min(least, risks_[r].life.quantile(share, slots(size() / 2, r)));
     return least;
   };
   const auto failed = [&](double life) { return cdf(life); };
@@ -129,24 +134,46 @@ double LifeAtPoint::quantile(double p) const {
   return quantile_of_cdf(failed, p, std::sqrt(least) * std::sqrt(most), positive_, half + 1e-9);
 }
 
+double LifeAtPoint::middle() const {
+  return single() ? risks_.front().life.middle(slots(0)) : quantile(0.5);
+}
+
+double LifeAtPoint::failing() const {
+  return single() ? risks_.front().life.failing(slots(0)) : 1;
+}
+
+double LifeAtPoint::share_among_survivors(std::size_t k, double life) const {
+  return risks_.front().life.share_among_survivors(k, life, slots(0));
+}
+
 double LifeAtPoint::mean_beyond(double from) const {
-  return wearwell::mean_beyond([&](double life) { return log_survival(life); }, quantile(0.5),
-                               from);
+  if (failing() < 1) return infinity;
+  // Of those that are not dead on arrival; these count as lives of 0.
+  const double works = single() ? 1 - risks_.front().life.dead_share(slots(0)) : 1;
+  const double mean = wearwell::mean_beyond(
+      [&, log_works = std::log(works)](double life) { return log_survival(life) - log_works; },
+      middle(), from);
+  return from > 0 ? mean : works * mean;
 }
 
 double LifeAtPoint::outlives(const LifeAtPoint& other) const {
   constexpr double tail = 1e-10;
-  const double low = other.quantile(tail), high = other.quantile(1 - tail);
-  if (!(low < high)) return std::exp(log_survival(low));  // all of the other have one life
+  // Those of the other that are dead on arrival end at 0.
+  const double dead = other.single() ? other.risks_.front().life.dead_share(other.slots(0)) : 0;
+  const double at_once = dead > 0 ? dead * std::exp(log_survival(0)) : 0;
+  const double ending = other.failing() - dead;
+  const double low = other.quantile(dead + tail * ending),
+               high = other.quantile(dead + (1 - tail) * ending);
+  if (!(low < high)) return at_once + ending * std::exp(log_survival(low));  // all have one life
   const bool logarithmic = positive_ && low > 0;
   const auto integrand = [&](double at) {
     const double life = logarithmic ? std::exp(at) : at;
     return std::exp(other.log_density(life) + log_survival(life) + (logarithmic ? at : 0));
   };
   // The rule adapts, because the integrand is a peak of any width.
-  return logarithmic
-             ? LifeRule::integrate(integrand, std::log(low), std::log(high), deepest_cut, 1e-8)
-             : LifeRule::integrate(integrand, low, high, deepest_cut, 1e-8);
+  return at_once + (logarithmic ? LifeRule::integrate(integrand, std::log(low), std::log(high),
+                                                      deepest_cut, 1e-8)
+                                : LifeRule::integrate(integrand, low, high, deepest_cut, 1e-8));
 }
 
 double LifeAtPoint::incidence(std::size_t risk, double life) const {
@@ -155,19 +182,18 @@ double LifeAtPoint::incidence(std::size_t risk, double life) const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     const double* const own = slots(i, risk);
-    const double alone = std::exp(log_cdf(risks_[risk].family, life, own));
+    const double alone = std::exp(risks_[risk].life.log_cdf(life, own));
     if (!(alone > 0)) continue;
     double end = life;
     for (std::size_t r = 0; r < risks_.size(); ++r)
-      end = std::min(end, wearwell::quantile(risks_[r].family, 1 - beyond, slots(i, r)));
-    const double begin =
-        std::max(wearwell::quantile(risks_[risk].family, before * alone, own), 1e-300);
+      end = std::min(end, risks_[r].life.quantile(1 - beyond, slots(i, r)));
+    const double begin = std::max(risks_[risk].life.quantile(before * alone, own), 1e-300);
     if (!(end > begin)) continue;
     const auto density = [&](double log_life) {
       const double here = std::exp(log_life);
-      double log_share = log_response_value(risks_[risk].family, {.at = here}, own) + log_life;
+      double log_share = risks_[risk].life.log_density(here, own) + log_life;
       for (std::size_t r = 0; r < risks_.size(); ++r)
-        if (r != risk) log_share += wearwell::log_survival(risks_[r].family, here, slots(i, r));
+        if (r != risk) log_share += risks_[r].life.log_survival(here, slots(i, r));
       return std::exp(log_share);
     };
     sum +=

@@ -19,9 +19,12 @@ namespace wearwell::formula_model {
 struct Risk {
   std::shared_ptr<const Path> family_parameters;  ///< output o is the family's parameter places[o]
   std::vector<std::size_t> places;
-  ResponseFamily family;
+  LifeMixture life;  ///< one family, or a mixture
   bool positive = true;
 };
+
+/// Parameters in a row: those of each risk's life, one after the other.
+std::size_t parameters_of(std::span<const Risk> risks);
 
 /// A life at one point of the parameters: a mixture over the random effects of new items, one
 /// distribution where there are none; or the earliest of several independent lives, without
@@ -37,7 +40,7 @@ class LifeAtPoint {
   std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
   double weight(std::size_t i) const;
   const double* slots(std::size_t i, std::size_t risk = 0) const {
-    return &family_parameters_[(i * risks_.size() + risk) * most_response_parameters];
+    return &family_parameters_[i * stride_ + risk * most_response_parameters];
   }
 
   double cdf(double life) const;
@@ -45,10 +48,15 @@ class LifeAtPoint {
   double log_density(double life) const;
   double hazard(double life) const;  ///< density over survival
   double quantile(double p) const;
+  /// A life in the middle of those that end: the median, except where a share never fails or is dead on arrival.
+  double middle() const;
+  double failing() const;  ///< the share whose life ends at all
+  /// The share of subpopulation k among the survivors of a life.
+  double share_among_survivors(std::size_t k, double life) const;
   /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
   double mean_beyond(double from) const;
   /// The probability that an item outlives one of `other`: the integral of this survival function
-  /// over the other's distribution, within 1e-8 and the 2e-10 of its tails.
+  /// over the other's distribution, within 1e-8 and the 2e-10 of its tails. One that never fails is outlived by none.
   double outlives(const LifeAtPoint& other) const;
   /// The share that has ended by `life` through this risk: its cumulative incidence, within 1e-7 of it and
   /// 1e-9 of the share that this risk alone would end.
@@ -65,10 +73,11 @@ class LifeAtPoint {
   NormalNodes nodes_;
   NewUnits new_units_;
   std::vector<PathAt> paths_;
+  std::size_t stride_;
   std::vector<double> family_parameters_;
 };
 
-/// log of the share that outlasts `life`, of risks with these parameters, `most_response_parameters` each.
+/// log of the share that outlasts `life`, of risks with these parameters.
 double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters);
 
 /// The quantile p of a cdf, found from `middle`; for positive values in the logarithm, where the first bracket

@@ -125,4 +125,18 @@ std::shared_ptr<const LifeDistribution> life_distribution(
   return std::make_shared<const LifeDistribution>(std::move(risks));
 }
 
+std::shared_ptr<const LifeDistribution> life_of_subpopulation(
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions, std::size_t k) {
+  const Measured& measured = model->measured.front();
+  std::vector<formula::Wanted> own;
+  for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
+    if (measured.family_parameter[o] / most_response_parameters == k)
+      own.push_back(measured.wanted[o]);
+  }
+  std::vector<Risk> risks = {
+      risk_of_subpopulation(make_path(model, table, key, own, false, conditions), measured, k)};
+  return std::make_shared<const LifeDistribution>(std::move(risks));
+}
+
 }  // namespace wearwell::formula_model

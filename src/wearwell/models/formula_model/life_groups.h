@@ -33,4 +33,9 @@ std::shared_ptr<const LifeDistribution> life_distribution(
     const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions,
     std::uint32_t modes = ~std::uint32_t{0});
 
+/// The same of one subpopulation of a mixture alone.
+std::shared_ptr<const LifeDistribution> life_of_subpopulation(
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions, std::size_t k);
+
 }  // namespace wearwell::formula_model

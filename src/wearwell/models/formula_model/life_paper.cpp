@@ -207,7 +207,9 @@ class Drawing {
 
   // All, or of very many so many that stand evenly apart on the paper: the outermost are all there.
   std::vector<PlottingPosition> drawn_positions(std::size_t g) const {
-    const std::vector<PlottingPosition>& all = positions_[g];
+    std::vector<PlottingPosition> all = positions_[g];
+    if (positive())  // those dead on arrival lie infinitely far left
+      std::erase_if(all, [](const PlottingPosition& each) { return !(each.at > 0); });
     if (all.size() <= most_points) return all;
     const double apart = (height(all.back().p) - height(all.front().p)) / most_points;
     std::vector<PlottingPosition> drawn;
@@ -242,9 +244,14 @@ class Drawing {
       none |= positions_[g].empty();
       thinned |= positions_[g].size() > most_points;
     }
-    std::string words = paper_.straight ? "A distribution of this family is a straight line here"
-                                        : fmt::format("The {} distribution is curved on this paper",
-                                                      measured_.form->name);
+    std::string words =
+        !measured_.life.plain() ? fmt::format(
+                                      "A {} distribution alone would be a straight line here; "
+                                      "subpopulations bend it",
+                                      measured_.form->name)
+        : paper_.straight
+            ? "A distribution of this family is a straight line here"
+            : fmt::format("The {} distribution is curved on this paper", measured_.form->name);
     words += ". Lines are posterior medians of the share failed by then, bands hold 90 %. ";
     words +=
         intervals
@@ -265,6 +272,8 @@ class Drawing {
           " By mode: the life that this mode alone would give; failures by others count as "
           "run-outs, "
           "and so do failures of unknown mode, which lowers these points.";
+    if (measured_.life.dead)
+      words += " Parts dead on arrival have no point, but count in the share failed.";
     if (varies_) words += " Units vary; the line is for all units together.";
     return words;
   }

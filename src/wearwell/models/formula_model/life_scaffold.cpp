@@ -158,7 +158,9 @@ constexpr const char* family =
     "loglogistic, gamma "
     "(docs/reference/formula-models.md)\n"
     "scale  = \"characteristic\"                # 63.2 % have failed by then\n"
-    "shape  = \"slope\"\n";
+    "shape  = \"slope\"\n"
+    "# share_defective = \"p\"                  # only a share can fail; two populations: "
+    "docs/how-to/subpopulations.md\n";
 
 std::string likelihood(const Lives& lives, const std::string& scale) {
   if (!lives.modes) return family;

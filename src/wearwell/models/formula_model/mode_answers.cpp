@@ -6,6 +6,7 @@
 #include "wearwell/models/formula_model/formula_asked.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_figures.h"
+#include "wearwell/models/formula_model/part_lives.h"
 #include "wearwell/study/numerical_error.h"
 
 namespace wearwell::formula_model {
@@ -38,30 +39,7 @@ void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy&
   AskedOfLife own = asked.part;
   own.life = life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
                                asked.model, asked.conditions, some.modes);
-  own.fast = own.other = nullptr;
-  own.hazard.clear();
-  QuantityGroup group;
-  const auto add = [&](const std::string& name, const std::string& where, const Unit& in) {
-    group.requests.push_back(request(name, noun, where, in));
-    group.requests.back().safe_end = 0.05;
-    group.requests.back().credible_level = own.levels.credible_level;
-  };
-  const auto add_life = [&](const std::string& name, const std::string& where) {
-    group.requests.push_back(request(name, "new " + noun, where, unit));
-    group.requests.back().safe_end = 0.05;
-    group.requests.back().is_life = true;
-    for (const double percent : own.levels.percents) add(b_life_name(percent, name), where, unit);
-    if (own.mean) add("mean " + name, where, unit);
-  };
-  add_life("life", at);
-  if (own.survived)
-    add_life("remaining useful life",
-             joined(at, fmt::format("from {} on", description(*own.survived))));
-  for (const Quantity& each : own.survival)
-    add("survival to " + description(each), at, Unit{"%", 0.01, 0});
-  group.from_draws = [own](const WeightedDraws& draws) { return life_answers(own, draws); };
-  group.lives = [own](const WeightedDraws& draws) { return predictive_lives(own, draws); };
-  study.quantity_groups.push_back(std::move(group));
+  add_lives_of(own, noun, at, unit, study);
 }
 
 std::vector<QuantityQuantiles> shares_failed(const LifeDistribution& part, std::size_t modes,

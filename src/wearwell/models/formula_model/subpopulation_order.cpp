@@ -1,0 +1,96 @@
+#include "wearwell/models/formula_model/subpopulation_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/formula_row_columns.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+struct OrderTerm {
+  double value;
+  std::vector<double> slope;  // by each log median
+};
+
+// log of exp(sharpness sum k m_k) over the sum of the same over all orders of m.
+OrderTerm log_share_of_order(std::span<const double> log_median, double sharpness) {
+  const std::size_t count = log_median.size();
+  std::vector<std::size_t> rank(count);
+  std::iota(rank.begin(), rank.end(), std::size_t{0});
+  const auto height = [&] {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += static_cast<double>(rank[k]) * log_median[k];
+    return sharpness * sum;
+  };
+  const double named = height();
+  double sum = 0;
+  std::vector<double> mean_rank(count);
+  // Relative to the highest, which is that of the sorted medians.
+  std::vector<double> sorted(log_median.begin(), log_median.end());
+  std::sort(sorted.begin(), sorted.end());
+  double most = 0;
+  for (std::size_t k = 0; k < count; ++k) most += sharpness * static_cast<double>(k) * sorted[k];
+  do {
+    const double weight = std::exp(height() - most);
+    sum += weight;
+    for (std::size_t k = 0; k < count; ++k) mean_rank[k] += weight * static_cast<double>(rank[k]);
+  } while (std::next_permutation(rank.begin(), rank.end()));
+  OrderTerm term{named - most - std::log(sum), std::vector<double>(count)};
+  for (std::size_t k = 0; k < count; ++k)
+    term.slope[k] = sharpness * (static_cast<double>(k) - mean_rank[k] / sum);
+  return term;
+}
+
+}  // namespace
+
+SubpopulationOrder::SubpopulationOrder(const FormulaModel& model)
+    : measured_(model.measured.front()),
+      data_(measured_.program.bind(
+          RowColumns(model, {measured_.observed.rows.front()}, measured_.program).rows)),
+      workspace_(measured_.program.workspace(1)),
+      family_parameters_(measured_.life.parameters()),
+      log_median_(measured_.life.families.size()) {}
+
+double SubpopulationOrder::value(std::span<const double> x, std::span<double> gradient) {
+  measured_.program.forward(data_, 0, 1, {x, {}}, workspace_);
+  for (std::size_t o = 0; o < measured_.wanted.size(); ++o)
+    family_parameters_[measured_.family_parameter[o]] = workspace_.values(o)[0];
+  for (std::size_t k = 0; k < log_median_.size(); ++k) {
+    log_median_[k] = std::log(quantile(measured_.life.families[k], 0.5,
+                                       &family_parameters_[k * most_response_parameters]));
+    if (!std::isfinite(log_median_[k])) return -infinity;
+  }
+  const OrderTerm term = log_share_of_order(log_median_, sharpness);
+  if (!gradient.empty()) add_gradient(x, term.slope, gradient);
+  return term.value;
+}
+
+// The median m solves F(m) = 1/2, so d ln m = -dF / (m f).
+void SubpopulationOrder::add_gradient(std::span<const double> x,
+                                      std::span<const double> by_log_median,
+                                      std::span<double> gradient) {
+  std::vector<double> slope(family_parameters_.size());
+  for (std::size_t k = 0; k < log_median_.size(); ++k) {
+    const double* const own = &family_parameters_[k * most_response_parameters];
+    const double median = std::exp(log_median_[k]);
+    const ResponseFamily family = measured_.life.families[k];
+    const ResponseTerm below = log_response(family, {.seen = Censoring::left, .at = median}, own);
+    const double density = std::exp(log_response_value(family, {.at = median}, own));
+    for (std::size_t s = 0; s < most_response_parameters; ++s)
+      slope[k * most_response_parameters + s] =
+          -by_log_median[k] * std::exp(below.value) * below.slope[s] / (median * density);
+  }
+  for (std::size_t o = 0; o < measured_.wanted.size(); ++o)
+    workspace_.adjoints(o)[0] = slope[measured_.family_parameter[o]];
+  measured_.program.reverse(data_, 0, 1, {x, {}}, workspace_, gradient);
+}
+
+double log_orders(const FormulaModel& model) {
+  if (!model.subpopulations || !model.subpopulations->exchangeable) return 0;
+  return std::lgamma(static_cast<double>(model.subpopulations->names.size()) + 1);
+}
+
+}  // namespace wearwell::formula_model
