@@ -81,9 +81,9 @@ class FitFollowing:
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", rule="haibach", knee="2e6 cycles", block="350 km")
-        >>> print(f"{found.lives.loc[1, 'bound']:.3g} {found.lives.loc[1, 'unit']}")
-        8.78e+06 km
+        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km")
+        >>> print(f"{found.life.q50:.3g} {found.life.unit}")
+        1.74e+07 km
         """
         return _damage(self, loads, column=column, units=units, method=method, residual=residual, time=time, scale=scale, rule=rule,
                        knee=knee, damage_sum=damage_sum, block=block, b_lives=b_lives, confidence=confidence, progress=progress)
@@ -122,7 +122,7 @@ class FitFollowing:
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
         >>> found = fit.design(stress=["400 MPa", "300 MPa"], mean_stress="0 MPa", reliability=0.99)
         >>> found.curves["life"].round(-3).tolist()
-        [54000.0, 823000.0]
+        [288000.0, 2777000.0]
         """
         return _design(self, *others, names=names, stress=stress, mean_stress=mean_stress, stress_ratio=stress_ratio,
                        reliability=reliability, confidence=confidence, progress=progress)

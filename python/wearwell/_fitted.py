@@ -73,6 +73,18 @@ def rows_of(data, name):
         return table_of(data, name)
 
 
+def columns_of(table):
+    """What ``_core.table_of`` makes the table of again."""
+    found = []
+    for heading in table.headings():
+        try:
+            values = table.numbers(heading)
+        except InputError:
+            values = table.words(heading)
+        found.append((heading, table.unit(heading), values))
+    return found
+
+
 def _is_single(value):
     return isinstance(value, (str, bytes)) or not hasattr(value, "__len__")
 

@@ -10,7 +10,7 @@ from ._answer import Answer
 from ._data import table_of
 from ._errors import InputError, warn
 from ._fitted import named_folders
-from ._plan import found
+from ._question import found
 from ._toml import unit_text
 from ._track import Quantiles
 
@@ -77,8 +77,8 @@ class Damage(_FatigueAnswer):
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km", b_lives=10)
-        >>> print(f"{found.lives.loc[0, 'bound']:.3g} {found.lives.loc[0, 'unit']}")
+        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km")
+        >>> print(f"{found.lives.loc[1, 'bound']:.3g} {found.lives.loc[1, 'unit']}")
         8.03e+06 km
         """
         import pandas
@@ -100,9 +100,9 @@ class Damage(_FatigueAnswer):
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> life = fit.damage("examples/spectrum/loads.csv", column="stress").life
+        >>> life = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km").life
         >>> life.q05 < life.q50 < life.q95, life.unit
-        (True, 'blocks')
+        (True, 'km')
         """
         return Quantiles(*(_endless(self.summary["next"][key]) for key in ("q05", "q50", "q95")), self.summary["unit"])
 
@@ -119,7 +119,8 @@ class Damage(_FatigueAnswer):
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> print(f"{fit.damage('examples/spectrum/loads.csv', column='stress').damage.q50:.3g}")
+        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km")
+        >>> print(f"{found.damage.q50:.3g}")
         2.01e-05
         """
         return Quantiles(*(self.summary["damage"][key] for key in ("q05", "q50", "q95")), "")
@@ -138,7 +139,7 @@ class Damage(_FatigueAnswer):
         --------
         >>> import wearwell as ww
         >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress")
+        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km")
         >>> found.sources.loc[found.sources["share"].idxmax(), "of"]
         'scatter from item to item'
         """
@@ -352,10 +353,9 @@ def damage(fit, loads, *, column=None, units=None, method="four-point", residual
     --------
     >>> import wearwell as ww
     >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
-    >>> counted = {"range [MPa]": [900, 700, 500], "mean [MPa]": [0, 50, 50], "cycles": [1, 20, 400]}
-    >>> found = ww.damage(fit, counted, block="100 h", b_lives=10)
-    >>> print(f"{found.lives.loc[0, 'bound']:.3g} {found.lives.loc[0, 'unit']}")
-    1.79e+05 h
+    >>> found = ww.damage(fit, "examples/spectrum/loads.csv", column="stress", block="350 km")
+    >>> print(f"{found.lives.loc[1, 'bound']:.3g} {found.lives.loc[1, 'unit']}")  # B10
+    8.03e+06 km
     >>> ww.damage(fit, [0, 900, 100])
     Traceback (most recent call last):
         ...
@@ -414,7 +414,7 @@ def design(*fits, names=None, stress=None, mean_stress=None, stress_ratio=None, 
     >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
     >>> found = ww.design(fit, stress="400 MPa", mean_stress="0 MPa", reliability=0.99, confidence=0.95)
     >>> print(f"{found.curves.loc[0, 'life']:.3g} {found.summary['life_unit']}")
-    5.29e+04 cycles
+    2.7e+05 cycles
     """
     with named_folders(fits, names) as pairs:
         if not pairs:

@@ -106,7 +106,7 @@ quantiles_of <- function(found, key, infinite) {
 }
 
 `$.ww_tracker` <- function(x, name) {
-  known <- c("unit", "is_new", "rul", "level", "doubt", "summary", "outcomes", "path")
+  known <- c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
   if (!name %in% known) stop_input("a tracker has no '", name, "' (it has: ", words(known), ")")
   if (name == "outcomes") return(outcomes_frame(state_of_tracker(x)$outcomes))
   found <- forecast_of(x)
@@ -115,6 +115,7 @@ quantiles_of <- function(found, key, infinite) {
     is_new = found$new,
     rul = structure(quantiles_of(found, "remaining", Inf), unit = found$axis_unit),
     level = structure(quantiles_of(found, "level", NA_real_), unit = found$level_unit),
+    passed = if (is.na(found$passed)) NaN else found$passed,
     doubt = if (is.na(found$doubt)) NULL else found$doubt,
     summary = found,
     path = {
@@ -125,7 +126,7 @@ quantiles_of <- function(found, key, infinite) {
     })
 }
 
-names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "doubt", "summary", "outcomes", "path")
+names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
 
 outcomes_frame <- function(outcomes) {
   data.frame(counted = column(outcomes, "counted", NA), repeated = column(outcomes, "repeated", NA),
@@ -145,6 +146,7 @@ print.ww_tracker <- function(x, ...) {
   cat(if (found$new) "New ", found$noun, " '", found$unit, "', ", n, if (!found$new) " new", if (n == 1) " reading" else " readings", "\n", sep = "")
   if (found$known) {
     rul <- signif(quantiles_of(found, "remaining", Inf), 4)
+    if (!is.na(found$passed) && found$passed > 0.05) cat("Threshold passed with probability ", round(100 * found$passed), " %; if not:\n", sep = "")
     cat("Remaining useful life ", format(rul[["q50"]]), " ", found$axis_unit, ", ", format(rul[["q05"]]), " to ", format(rul[["q95"]]), " ",
         found$axis_unit, " (90 %)\n", sep = "")
   } else {
