@@ -2,6 +2,9 @@
 
 import json
 import os
+import signal
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -182,3 +185,17 @@ def test_errors_of_design_and_spectrum(fitted, tmp_path):
         joint.damage([0.0, 1.0], units="MPa")
     with pytest.raises(ww.InputError, match='a: its model is "formula"; an S-N curve is needed'):
         joint.design()
+
+
+def test_interrupt_stops_a_sum_of_damage(fitted):
+    """The whole takes 4 s of processor."""
+    sent = []
+
+    def interrupt():
+        sent.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.2, interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        fitted[0].damage({"range [MPa]": [900.0], "mean [MPa]": [0.0], "cycles": [1.0]})
+    assert time.process_time() - sent[0] < 0.5  # of two processors: less than 0.25 s
