@@ -139,6 +139,6 @@ def test_a_mode_that_no_earlier_row_has_is_named(tmp_path):
     with pytest.warns(ww.CheckWarning, match=r"new-data warns: .*data, row 2, column 'cause': no earlier row has 'seel', which adds mean_life\[seel\]; "
                                              r"did you mean 'seal'\?"):
         later = fit.update(new, report=False)
-    assert [each["row"] for each in later.results["update"]["contradictions"]] == [12]
+    assert [each["place"] for each in later.results["update"]["contradictions"]] == ["data, row 2, column 'cause'"]
     known = quietly(fit.update, new.assign(cause=["wear", "seal"]), report=False)
     assert not known.results["update"]["contradictions"]
