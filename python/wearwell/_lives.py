@@ -35,7 +35,11 @@ def _of_formula(study, limit, unit, survived, along):
             raise InputError("unit needs a limit, fit.life(limit=..., unit=...): where the data are lives, the life of each item is "
                              "known, and fit.life predicts that of the next one: leave unit out")
         if survived is not None:  # a plain number is in the unit of the measured life
-            table["survived"] = _written(table["survived"], columns_of(study)[next(iter(study["likelihood"]))])
+            measured = next(iter(study["likelihood"]))
+            shown = columns_of(study)[measured]
+            if not isinstance(table["survived"], str) and shown[:1].isdigit():  # "1e6 cycles": multiples, or cycles?
+                raise InputError(f"survived is {survived} without a unit, and {measured} is in '{shown}': write the number with its unit")
+            table["survived"] = _written(table["survived"], shown)
         return table
     columns = columns_of(study)
     if not isinstance(limit, dict):

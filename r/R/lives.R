@@ -26,7 +26,13 @@ asked_of_formula <- function(study, limit, unit, survived, along) {
                  "known, and ww_life predicts that of the next one: leave unit out")
     }
     # A plain number is in the unit of the measured life.
-    if (!is.null(survived)) question$survived <- in_unit(question$survived, units[[names(study$likelihood)[1]]])
+    if (!is.null(survived)) {
+      measured <- names(study$likelihood)[1]
+      if (is.double(question$survived) && grepl("^[0-9]", units[[measured]])) {  # "1e6 cycles": multiples, or cycles?
+        stop_input("survived is ", survived, " without a unit, and ", measured, " is in '", units[[measured]], "': write the number with its unit")
+      }
+      question$survived <- in_unit(question$survived, units[[measured]])
+    }
     return(question)
   }
   if (is.null(names(limit))) {

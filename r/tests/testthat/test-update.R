@@ -100,4 +100,5 @@ test_that("new rows of a fit by Surv() are read as its call reads them", {
   again <- quiet(ww_update(later, data.frame(hours = 610, failed = 1), report = FALSE))  # of a fit that was updated
   expect_identical(again$summary$update$rows_before, 12)
   refused(ww_update(fit, data.frame(hours = 3)), "failed")
+  expect_identical(ww_life(fit, b = 10, survived = 100), ww_life(fit, b = 10, survived = "100 h"))
 })
