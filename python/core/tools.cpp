@@ -35,10 +35,9 @@ py::tuple rainflow(const py::array_t<double, py::array::forcecast>& signal, bool
   samples.reserve(static_cast<std::size_t>(view.shape(0)));
   for (py::ssize_t i = 0; i < view.shape(0); ++i) samples.push_back(view(i));
   embed::Cycles cycles;
-  {
-    const py::gil_scoped_release release;
-    cycles = embed::rainflow(samples, three_points, repeat);
-  }
+  attended(py::none{}, [&](const Monitor& monitor) {
+    cycles = embed::rainflow(samples, three_points, repeat, monitor);
+  });
   return py::make_tuple(array_of(cycles.from), array_of(cycles.to), array_of(cycles.count));
 }
 

@@ -222,3 +222,15 @@ def test_summary_is_a_frame_of_one_screen():
     fit = fit_of("weibull")
     assert list(fit.summary.index) == ["characteristic", "slope"] and fit.summary["q50"].equals(fit.parameters["q50"])
     assert len(repr(fit)) < 120 and "prior" in fit.summary and fit.results["model"] == "formula"
+
+
+def test_conditions_with_units_in_their_headings_are_those_in_their_units():
+    tests = {"T [degC]": [80.0] * 4 + [120.0] * 4, "hours": [900, 1100, 1300, 1500, 300, 350, 420, 500]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        fit = ww.life(tests, "hours", units={"hours": "h"}, stress={"T": "arrhenius"}, seed=1, method="exact", draws=100, report=False)
+    found = fit.percentile(10, given=pd.DataFrame({"T [K]": [323.15, 373.15]}))
+    assert found.index.names == ["T", "p"]
+    assert np.allclose(found["predictive"], fit.percentile(10, given={"T": ["50 degC", "100 degC"]})["predictive"], rtol=1e-9)
+    one, other = (fit.life(b=10, survived=each, given={"T": "80 degC"}) for each in (300, "300 h"))
+    assert one.equals(other)

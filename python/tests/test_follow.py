@@ -209,3 +209,22 @@ def test_export_errors(fit, joint, tmp_path):
 def test_a_joint_is_its_only_unit(joint):
     tracker = joint.track()
     assert math.isfinite(tracker.rul.q50) and tracker.rul.unit == "cycles"
+
+
+def test_a_tracker_is_pickled_with_its_readings(fit):
+    tracker = fit.track("M7", new=True).update({"use": 500, "wear": 9.1}).update(pd.DataFrame({"use [h]": [900, 900], "wear [um]": [17.2, 17.2]}))
+    again = pickle.loads(pickle.dumps(tracker))
+    assert again.summary == tracker.summary and again.outcomes.equals(tracker.outcomes) and again.is_new
+    here, there = (each.update({"use": 1300, "wear": 25.4}).rul for each in (tracker, again))
+    assert here == there
+    assert copy.deepcopy(tracker).rul == tracker.rul
+
+
+def test_a_unit_beyond_its_threshold_says_so(fit):
+    tracker = fit.track("M7", new=True).update({"use": 500, "wear": 9.1})
+    assert tracker.passed < 0.01 and "passed" not in repr(tracker)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        tracker.update({"use": 5000, "wear": 100.0})
+    assert 0.1 < tracker.passed < 1
+    assert f"threshold passed with probability {100 * tracker.passed:.0f} %, if not remaining useful life" in repr(tracker)

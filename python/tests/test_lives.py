@@ -249,7 +249,7 @@ def test_weibull_lives_given_that_they_were_reached():
 
     for p, value in ((0.1, found.loc["remaining useful life", "b10"]), (0.5, found.loc["remaining useful life", "q50"])):
         assert (outlasts(60 + value).mean() / outlasts(60).mean()) == pytest.approx(1 - p, abs=0.01)
-    with pytest.raises(ValueError, match="survived is 60 without a unit"):
+    with pytest.raises(ValueError, match="survived is 60 without a unit, and life is in '1e6 cycles'"):
         life.life(survived=60)
     with pytest.raises(ValueError, match="a new item survives to"):
         life.life(survived="900e6 cycles")

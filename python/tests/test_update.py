@@ -129,3 +129,16 @@ def test_a_test_that_may_be_a_repeat_is_refused(examples):
     whole = quietly(ww.Study.from_toml(fit.study.toml, {"data": {"hours": [*pumps["hours"], 312], "failed": [*pumps["failed"], 1]}}).fit, **few)
     assert another.parameters["mean"].to_numpy() == pytest.approx(whole.parameters["mean"].to_numpy(), rel=1e-10)  # rows in another order
     assert once.parameters["mean"].to_numpy() == pytest.approx(fit.parameters["mean"].to_numpy(), rel=1e-10)
+
+
+def test_a_mode_that_no_earlier_row_has_is_named(tmp_path):
+    pumps = pd.DataFrame({"hours": [312, 480, 510, 640, 700, 150, 210, 260, 330, 420],
+                          "cause": ["seal", "wear", "wear", "seal", "censored", "seal", "wear", "seal", "wear", "wear"]})
+    fit = quietly(ww.life, pumps, "hours", mode="cause", family="exponential", units={"hours": "h"}, **few)
+    new = pd.DataFrame({"hours [h]": [400, 555], "cause": ["wear", "seel"]})
+    with pytest.warns(ww.CheckWarning, match=r"new-data warns: .*data, row 2, column 'cause': no earlier row has 'seel', which adds mean_life\[seel\]; "
+                                             r"did you mean 'seal'\?"):
+        later = fit.update(new, report=False)
+    assert [each["place"] for each in later.results["update"]["contradictions"]] == ["data, row 2, column 'cause'"]
+    known = quietly(fit.update, new.assign(cause=["wear", "seal"]), report=False)
+    assert not known.results["update"]["contradictions"]

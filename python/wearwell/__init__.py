@@ -12,7 +12,8 @@ One line for a table, with default priors that ``fit.study.toml`` states:
 
 All lead to a ``Fit``: ``trusted`` and ``checks``, ``summary``, ``lives``, ``plot("life")``, ``predict``, ``percentile``,
 ``survival_function``, ``report``. ``Study`` makes a study of your own formula, data and priors, and ``fit`` fits it or a
-study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` counts cycles, ``plan`` plans tests, ``decide``
+study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` and ``spectrum`` count cycles,
+``damage`` sums their damage along an S-N curve, ``design`` finds design curves, ``plan`` plans tests, ``decide``
 replacements; ``update`` adds rows to a fit, ``track`` follows one unit by its readings, ``backtest`` checks forecasts, ``export_c`` and
 ``export_sql`` write a formula as code, ``Monitor`` asks a running monitor; ``bearing`` and ``clutch`` have the formulas of these parts too. Numbers are those of the program ``wearwell``, to the bit.
 
@@ -50,6 +51,7 @@ from ._plan import Plan
 from ._plots import Plot
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
+from ._spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectrum
 from ._study import Study, fit
 from ._tools import Comparison, Selection, compare, rainflow, select
 from ._track import Quantiles, UnitTracker, track
@@ -63,7 +65,7 @@ _make_callable(clutch.__name__, _fit_clutch)
 __all__ = [
     "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
     "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "export_c", "export_sql", "Monitor",
-    "select", "Selection", "rainflow", "decide", "plan", "Plan", "table", "arrow", "ArrowTable",
+    "select", "Selection", "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "decide", "plan", "Plan", "table", "arrow", "ArrowTable",
     "flat", "uniform", "normal", "lognormal", "half_normal", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
     "jeffreys", "prior", "default",
     "InputError", "MissingFileError", "MachineError", "NotTrusted", "CheckWarning",

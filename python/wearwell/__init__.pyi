@@ -99,6 +99,35 @@ class Fit:
     ) -> Fit: ...
     def track(self, unit: str | None = ..., *, new: bool = ...) -> UnitTracker: ...
     def backtest(self, readings: Any, lives: Any) -> Backtest: ...
+    def damage(
+        self,
+        loads: Any,
+        *,
+        column: str | None = ...,
+        units: Any = ...,
+        method: Literal["four-point", "three-point"] = ...,
+        residual: Literal["half", "repeat"] = ...,
+        time: str | None = ...,
+        scale: _Quantity | None = ...,
+        rule: Literal["elementary", "original", "haibach", "liu-zenner"] | None = ...,
+        knee: _Quantity | None = ...,
+        damage_sum: float | str = ...,
+        block: _Quantity | None = ...,
+        b_lives: _Percentages = ...,
+        confidence: float = ...,
+        progress: _Progress = ...,
+    ) -> Damage: ...
+    def design(
+        self,
+        *others: Fit | _Path,
+        names: Sequence[str] | None = ...,
+        stress: _Quantity | Sequence[_Quantity] | None = ...,
+        mean_stress: _Quantity | None = ...,
+        stress_ratio: float | None = ...,
+        reliability: float | None = ...,
+        confidence: float | None = ...,
+        progress: _Progress = ...,
+    ) -> DesignCurves: ...
     def export_c(self, folder: _Path, *, name: str = ..., unit: str | None = ..., lines: int | None = ...) -> str: ...
     def export_sql(
         self,
@@ -503,6 +532,8 @@ class UnitTracker:
     def level(self) -> Quantiles: ...
     @property
     def doubt(self) -> str | None: ...
+    @property
+    def passed(self) -> float: ...
     def risk(self, within: _Quantity) -> float: ...
     def path(self) -> pandas.DataFrame: ...
     @property
@@ -545,19 +576,82 @@ class Monitor:
     def send(self, readings: Mapping[str, Any] | Sequence[Mapping[str, Any]] | pandas.DataFrame) -> dict[str, Any]: ...
     def events(self) -> Iterator[dict[str, Any]]: ...
 
-class Plan:
+class _Answer:
     title: str
     summary: dict[str, Any]
     json: str
     trusted: bool
     def __init__(
-        self, title: str, text: str, json: str, tables: Sequence[tuple[str, str]], page: str, trusted: bool, name: str = ...
+        self, title: str, text: str, json: str, tables: Sequence[tuple[str, str]], page: str, trusted: bool
     ) -> None: ...
     @property
     def tables(self) -> dict[str, pandas.DataFrame]: ...
     def report(self, path: _Path) -> None: ...
     def write(self, folder: _Path) -> None: ...
     def _repr_html_(self) -> str: ...
+
+class Damage(_Answer):
+    @property
+    def lives(self) -> pandas.DataFrame: ...
+    @property
+    def life(self) -> Quantiles: ...
+    @property
+    def damage(self) -> Quantiles: ...
+    @property
+    def sources(self) -> pandas.DataFrame: ...
+
+class DesignCurves(_Answer):
+    @property
+    def curves(self) -> pandas.DataFrame: ...
+    @property
+    def models(self) -> pandas.DataFrame: ...
+
+class LoadSpectrum(_Answer): ...
+
+def damage(
+    fit: Fit | _Path,
+    loads: Any,
+    *,
+    column: str | None = ...,
+    units: Any = ...,
+    method: Literal["four-point", "three-point"] = ...,
+    residual: Literal["half", "repeat"] = ...,
+    time: str | None = ...,
+    scale: _Quantity | None = ...,
+    rule: Literal["elementary", "original", "haibach", "liu-zenner"] | None = ...,
+    knee: _Quantity | None = ...,
+    damage_sum: float | str = ...,
+    block: _Quantity | None = ...,
+    b_lives: _Percentages = ...,
+    confidence: float = ...,
+    progress: _Progress = ...,
+) -> Damage: ...
+def design(
+    *fits: Fit | _Path | Mapping[str, Fit | _Path],
+    names: Sequence[str] | None = ...,
+    stress: _Quantity | Sequence[_Quantity] | None = ...,
+    mean_stress: _Quantity | None = ...,
+    stress_ratio: float | None = ...,
+    reliability: float | None = ...,
+    confidence: float | None = ...,
+    progress: _Progress = ...,
+) -> DesignCurves: ...
+def spectrum(
+    loads: Any,
+    *,
+    column: str | None = ...,
+    units: Any = ...,
+    method: Literal["four-point", "three-point"] = ...,
+    residual: Literal["half", "repeat"] = ...,
+    time: str | None = ...,
+    bins: int = ...,
+    bin_width: float | None = ...,
+) -> LoadSpectrum: ...
+
+class Plan(_Answer):
+    def __init__(
+        self, title: str, text: str, json: str, tables: Sequence[tuple[str, str]], page: str, trusted: bool, name: str = ...
+    ) -> None: ...
 
 def flat(unit: Any, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
 def uniform(lower: _Quantity, upper: _Quantity) -> _Prior: ...

@@ -63,6 +63,14 @@ def _written(value, unit):
     return f"{value!r} {unit}"
 
 
+def in_column(heading, value, names):
+    """The column that a heading with a unit means, "T [degC]", and a value with that unit."""
+    match = None if heading in names or not isinstance(heading, str) else re.match(r"\s*(.*?)\s*[\[(](.*)[\])]\s*\Z", heading)
+    if not match or match[1] not in names:
+        return heading, value
+    return match[1], value if value is None or isinstance(value, str) or value != value else _written(value, match[2])
+
+
 def _frame_of(new):
     import pandas
 

@@ -78,7 +78,7 @@ def rainflow(arg0: Any, arg1: bool, arg2: bool) -> tuple[Any, Any, Any]: ...
 def bearing(
     arg0: str, arg1: str, arg2: Mapping[str, str], arg3: str, arg4: str, arg5: int, arg6: int
 ) -> tuple[str, list[str], str]: ...
-def plan(
+def answer(
     arg0: str,
     arg1: str,
     arg2: Run | None,

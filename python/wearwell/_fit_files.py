@@ -156,7 +156,8 @@ class FitFiles:
         if name == "residuals" and not ("report.json" in self._files() and has_plot(self._figures, name)):
             plot = Plot(name, [residual_figure(self)])
         else:
-            plot = plot_of(self._figures, name)
+            known = None if name is None or has_plot(self._figures, name) else self.plots
+            plot = plot_of(self._figures, name, known)
         return plot if ax is None else plot.draw(ax)
 
     def to_netcdf(self, path):

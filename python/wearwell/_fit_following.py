@@ -1,4 +1,4 @@
-"""What comes after a fit: new rows, single units, forecasts against known ends, code."""
+"""What comes after a fit: new rows, single units, forecasts against known ends, damage under load histories, code."""
 
 import functools
 
@@ -6,12 +6,14 @@ from ._backtest import backtest as _backtest
 from ._export import export_c as _export_c
 from ._export import export_sql as _export_sql
 from ._fit_options import like_function
+from ._spectra import damage as _damage
+from ._spectra import design as _design
 from ._track import track as _track
 from ._update import update as _update
 
 
 class FitFollowing:
-    """Updates, trackers, backtests and exports of a fit. Part of ``Fit``."""
+    """Updates, trackers, backtests, damage and exports of a fit. Part of ``Fit``."""
 
     @functools.cached_property
     def _population(self):
@@ -67,6 +69,63 @@ class FitFollowing:
         2
         """
         return _backtest(self, readings, lives)
+
+    @like_function(_damage)
+    def damage(self, loads, *, column=None, units=None, method="four-point", residual="half", time=None, scale=None, rule=None, knee=None,
+               damage_sum="1 x/ 1.34", block=None, b_lives=(1, 10, 50), confidence=0.9, progress=None):
+        """Sum the damage of a load history along this S-N curve, and find the life under it, as ``wearwell fatigue life``.
+
+        <as the function>
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
+        >>> found = fit.damage("examples/spectrum/loads.csv", column="stress", block="350 km")
+        >>> print(f"{found.life.q50:.3g} {found.life.unit}")
+        1.74e+07 km
+        """
+        return _damage(self, loads, column=column, units=units, method=method, residual=residual, time=time, scale=scale, rule=rule,
+                       knee=knee, damage_sum=damage_sum, block=block, b_lives=b_lives, confidence=confidence, progress=progress)
+
+    def design(self, *others, names=None, stress=None, mean_stress=None, stress_ratio=None, reliability=None, confidence=None,
+               progress=None):
+        """Design curves of this S-N fit, or averaged over it and others of the same tests, as ``wearwell fatigue design``.
+
+        Parameters
+        ----------
+        *others : Fit, str or path
+            More fits of the same tests, or folders of their results.
+        names : sequence of str, optional
+            Names of this fit and the others, in their order.
+        stress, mean_stress, stress_ratio, reliability, confidence, progress
+            As in ``wearwell.design``.
+
+        Returns
+        -------
+        DesignCurves
+            ``curves`` and the weights of the ``models``.
+
+        Raises
+        ------
+        InputError
+            If a fit has no S-N curve, the fits are of different tests, or an argument is wrong; the message names it.
+
+        Warns
+        -----
+        CheckWarning
+            If a fit is not trusted, or a stress lies outside the tested range.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/spectrum/study.toml", seed=1, method="exact", draws=100, report=False)
+        >>> found = fit.design(stress=["400 MPa", "300 MPa"], mean_stress="0 MPa", reliability=0.99)
+        >>> found.curves["life"].round(-3).tolist()
+        [288000.0, 2777000.0]
+        """
+        return _design(self, *others, names=names, stress=stress, mean_stress=mean_stress, stress_ratio=stress_ratio,
+                       reliability=reliability, confidence=confidence, progress=progress)
 
     @like_function(_export_c)
     def export_c(self, folder, *, name="unit", unit=None, lines=None):

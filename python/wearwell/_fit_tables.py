@@ -150,8 +150,9 @@ class FitTables:
         Returns
         -------
         pandas.DataFrame
-            A row for each life, with the columns of ``quantities`` without ``is_life``. The life to the study's
-            threshold, if it has one, comes first; its median is ``b50``.
+            A row for each life, with the columns of ``quantities`` without ``is_life``; ``predictive``, ``bound`` and
+            ``credible_level`` only where a life has them. The life to the study's threshold, if it has one, comes first; its
+            median is ``b50``.
 
         Raises
         ------

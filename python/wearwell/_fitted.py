@@ -1,6 +1,8 @@
 """What questions about a fit or the folder of a result share."""
 
+import contextlib
 import os
+import tempfile
 
 from . import _core
 from ._data import table_of
@@ -16,6 +18,30 @@ def fitted(fit):
     if isinstance(fit, (str, os.PathLike)):
         return None, os.fspath(fit)
     raise InputError(f"fit is {type(fit).__name__}; it is a fit, or the folder of a result")
+
+
+@contextlib.contextmanager
+def named_folders(fits, names):
+    """Names and folders of fits or of folders of results: several, or a dict of them by name."""
+    from ._fit import Fit
+
+    if len(fits) == 1 and isinstance(fits[0], dict):
+        if names is not None:
+            raise InputError("names and the keys of the dict say the same; leave names out")
+        names, fits = [str(each) for each in fits[0]], list(fits[0].values())
+    if names is not None and len(names) != len(fits):
+        raise InputError(f"{len(names)} names are given for {len(fits)} fits")
+    with tempfile.TemporaryDirectory() as folder:
+        pairs = []
+        for i, each in enumerate(fits):
+            usual = chr(ord("a") + i) if i < 26 else str(i + 1)
+            if isinstance(each, Fit):
+                path = os.path.join(folder, str(i))
+                _core.write_folder(path, list(each._files().items()))
+            else:
+                path = usual = os.fspath(each)
+            pairs.append((names[i] if names else usual, path))
+        yield pairs
 
 
 def population(fit):
@@ -45,6 +71,18 @@ def rows_of(data, name):
             data = {key: [data[key]] for key in data.keys()}
     with missing_files():
         return table_of(data, name)
+
+
+def columns_of(table):
+    """What ``_core.table_of`` makes the table of again."""
+    found = []
+    for heading in table.headings():
+        try:
+            values = table.numbers(heading)
+        except InputError:
+            values = table.words(heading)
+        found.append((heading, table.unit(heading), values))
+    return found
 
 
 def _is_single(value):

@@ -75,4 +75,5 @@ def lives(summary):
         rows.insert(0, {"name": "life", "of": life.get("of", ""), "at": f"to {life['limit']:g} {life['limit_unit']}",
                         "unit": life["unit"], **{q: _life(life[q]) if q in life else _nan for q in _quantiles}, "predictive": _nan,
                         "bound": _nan, "credible_level": _nan})
-    return _frame(rows, ["name", "of", "at", "unit", *_quantiles, "predictive", "bound", "credible_level"])
+    stated = [key for key in ("predictive", "bound", "credible_level") if any(row[key] == row[key] for row in rows)]
+    return _frame(rows, ["name", "of", "at", "unit", *_quantiles, *stated])

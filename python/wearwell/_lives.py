@@ -3,7 +3,7 @@
 import re
 
 from . import _toml
-from ._ask import axis_of, columns_of, conditions_of, tables_of
+from ._ask import _written, axis_of, columns_of, conditions_of, tables_of
 from ._errors import InputError
 
 _inf, _nan = float("inf"), float("nan")
@@ -34,11 +34,12 @@ def _of_formula(study, limit, unit, survived, along):
         if unit is not None:
             raise InputError("unit needs a limit, fit.life(limit=..., unit=...): where the data are lives, the life of each item is "
                              "known, and fit.life predicts that of the next one: leave unit out")
-        measured = next(iter(study["likelihood"]))
-        shown = columns_of(study)[measured]
-        if survived is not None and not isinstance(table["survived"], str) and shown not in ("", "1"):
-            raise InputError(f"survived is {survived} without a unit, and {measured} is in {shown}: write "
-                             f"'{table['survived']} {shown}', or another unit")
+        if survived is not None:  # a plain number is in the unit of the measured life
+            measured = next(iter(study["likelihood"]))
+            shown = columns_of(study)[measured]
+            if not isinstance(table["survived"], str) and shown[:1].isdigit():  # "1e6 cycles": multiples, or cycles?
+                raise InputError(f"survived is {survived} without a unit, and {measured} is in '{shown}': write the number with its unit")
+            table["survived"] = _written(table["survived"], shown)
         return table
     columns = columns_of(study)
     if not isinstance(limit, dict):

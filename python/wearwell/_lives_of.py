@@ -4,7 +4,7 @@ import itertools
 import json
 import re
 
-from ._ask import _written, columns_of, conditions_of, tables_of
+from ._ask import _written, columns_of, conditions_of, in_column, tables_of
 from ._errors import InputError
 
 _of_life = ("status", "lower", "upper", "entry")
@@ -63,11 +63,12 @@ def conditions(fit, study, given):
         rows = _rows(given)
         if not rows:
             raise InputError("given has no rows")
-        differ = list(rows[0])
+        differ = [in_column(key, None, names)[0] for key in rows[0]]
     found = []
     for number, row in enumerate(rows):
         values = {}
         for key, value in row.items():
+            key, value = in_column(key, value, names)
             if key not in names:
                 raise InputError(f"given: the study has no condition '{key}' (conditions: {', '.join(names) or 'none'})")
             if value is None or value != value:
@@ -78,7 +79,7 @@ def conditions(fit, study, given):
                 values[key] = str(value)
             else:
                 values[key] = _written(value, columns[key])
-        found.append((tuple(row[key] for key in differ), {**usual, **values}))
+        found.append((tuple(row.values()) if given is not None else tuple(row[key] for key in differ), {**usual, **values}))
     return differ, found
 
 

@@ -1,25 +1,11 @@
 """Plans of tests and inspections to come and decisions, as the functions of wearwell.plan and wearwell.decide make them."""
 
-import csv
-import functools
-import io
-import math
-import numbers
-import os
-from collections.abc import Mapping
-from json import dumps, loads
-
-from . import _core
-from ._data import table_of
-from ._errors import InputError, warn
-from ._fit import Fit
-from ._notebook import html_of_plan
-from ._progress import reporter
-from ._study import Study
-from ._toml import quantity
+from ._answer import Answer
+from ._errors import warn
+from ._question import found
 
 
-class Plan:
+class Plan(Answer):
     """A plan of tests or inspections to come, as the functions of ``wearwell.plan`` make it.
 
     Parameters
@@ -33,7 +19,7 @@ class Plan:
     trusted : bool
         Whether the fit beneath is trusted.
     name : str
-        Name of its JSON file.
+        Name of its JSON file, without ".json".
 
     Attributes
     ----------
@@ -57,160 +43,16 @@ class Plan:
     """
 
     def __init__(self, title, text, json, tables, page, trusted, name="plan"):
-        self.title, self.json, self.summary, self.trusted = title, json, loads(json), trusted
-        self._text, self._csv, self._page, self._name = text, dict(tables), page, name
-
-    @functools.cached_property
-    def tables(self):
-        """Tables of the plan.
-
-        Returns
-        -------
-        dict of str to pandas.DataFrame
-            By name, as ``wearwell plan -o`` writes tables/NAME.csv; headings have units, "time [cycles]".
-
-        Examples
-        --------
-        >>> import wearwell as ww
-        >>> plan = ww.plan.demonstrate("B10 >= 1e6 cycles", failures="0 to 2")
-        >>> len(plan.tables["plans"])
-        3
-        """
-        import pandas
-
-        found = {}
-        for name, content in self._csv.items():
-            header = next(csv.reader(io.StringIO(content)), None)
-            found[name] = pandas.read_csv(io.StringIO(content), float_precision="round_trip") if header else pandas.DataFrame()
-        return found
-
-    def report(self, path):
-        """Write the report of the plan, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "plan.html".
-
-        Raises
-        ------
-        InputError
-            If the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> page = os.path.join(tempfile.mkdtemp(), "plan.html")
-        >>> ww.plan.demonstrate("B10 >= 1e6 cycles").report(page)
-        >>> os.path.getsize(page) > 10_000
-        True
-        """
-        _core.write_file(os.fspath(path), self._page)
-
-    def write(self, folder):
-        """Write the folder of the plan, as ``wearwell plan -o`` does: plan.json (decisions.json), tables and report, whole or not at all.
-
-        Parameters
-        ----------
-        folder : str or path
-            The folder. Files of an earlier result are replaced; other files stay.
-
-        Raises
-        ------
-        InputError
-            If the folder cannot be made, or a file in it that is not of an earlier result has the name of a new one.
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> folder = os.path.join(tempfile.mkdtemp(), "plan")
-        >>> ww.plan.demonstrate("B10 >= 1e6 cycles").write(folder)
-        >>> sorted(os.listdir(folder))
-        ['plan.json', 'report.html', 'results.sha1', 'tables']
-        """
-        files = [(f"{self._name}.json", self.json), *((f"tables/{name}.csv", text) for name, text in self._csv.items()),
-                 ("report.html", self._page)]
-        _core.write_folder(os.fspath(folder), files)
-
-    def __str__(self):
-        return self._text
-
-    def __repr__(self):
-        return f"<wearwell.Plan {self.title!r}>"
-
-    def _repr_html_(self):
-        return html_of_plan(self.title, self._text, self._page)
+        super().__init__(title, text, json, tables, page, trusted)
+        self._file = name
 
 
 Plan.__module__ = "wearwell"
 
 
-def _written(value, name):
-    """An argument as JSON has it."""
-    if value is None or isinstance(value, (str, bool)):
-        return value
-    if hasattr(value, "magnitude") and hasattr(value, "units"):  # pint
-        return quantity(value, name)
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Mapping):
-        return {str(key): _written(each, name) for key, each in value.items()}
-    if hasattr(value, "tolist"):  # a number or an array of numpy, a column of pandas
-        return _written(value.tolist(), name)
-    if isinstance(value, numbers.Integral):
-        return int(value)
-    if isinstance(value, numbers.Real):
-        if not math.isfinite(value):
-            raise InputError(f"{name} is {value!r}; a number is finite")
-        return float(value)
-    if isinstance(value, (list, tuple, range)):
-        return [_written(each, name) for each in value]
-    raise InputError(f"{name} is {type(value).__name__}; it is a text, a number, or several of them")
-
-
-def _subject(about, name):
-    """The fit, the study, the path and the tables that a question is about; three of them are none."""
-    if isinstance(about, Fit):
-        return about._live(), None, "", []
-    if isinstance(about, Study):
-        return None, about._read, "", []
-    if isinstance(about, (str, os.PathLike)):
-        return None, None, os.fspath(about), []
-    return None, None, "", _tables(about, name)
-
-
-def _several(data):
-    return [] if data is None else list(data) if isinstance(data, (list, tuple)) else [data]
-
-
-def _tables(data, name):
-    """The tables that an argument holds: one, or a list of them."""
-    return [(name, table_of(each, name)) for each in _several(data)]
-
-
-def files_and_tables(data):
-    """The paths in an argument that holds tables or files, and the others."""
-    several = _several(data)
-    is_path = [isinstance(each, (str, os.PathLike)) for each in several]
-    return [e for e, path in zip(several, is_path) if path], [e for e, path in zip(several, is_path) if not path]
-
-
 def answer(kind, arguments, about=None, name="", tables=None, threads=0, progress=None):
-    """The Plan of this kind. ``about``: what the argument called ``name`` holds. ``tables``: more data frames, by argument."""
-    if not isinstance(threads, int) or not 0 <= threads <= 1024:
-        raise InputError(f"threads is {threads!r}; it is a whole number from 0 (all) to 1024")
-    text = dumps({key: _written(value, key) for key, value in arguments.items() if value is not None})
-    run, study, path, found = _subject(about, name) if name else (None, None, "", [])
-    for key, data in (tables or {}).items():
-        found += _tables(data, key)
-    with reporter(progress) as report:
-        plan = Plan(*_core.plan(kind, text, run, study, path, found, threads, report), "decisions" if kind == "decide" else "plan")
+    """The Plan of this kind."""
+    plan = Plan(*found(kind, arguments, about, name, tables, threads, progress), "decisions" if kind == "decide" else "plan")
     if not plan.trusted:
         warn("the fit that this plan rests on is not trusted: see its checks")
     return plan

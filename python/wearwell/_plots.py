@@ -187,10 +187,10 @@ def has_plot(figures, name):
     return name in figures or bool(_of_alias(figures, name))
 
 
-def plot_of(figures, name):
+def plot_of(figures, name, known=None):
     if name is None:
         name = next(iter(figures), None)
     found = [figures[name]] if name in figures else _of_alias(figures, name) if isinstance(name, str) else []
     if not found:
-        raise InputError(f"plot: {name!r} is not a plot of this fit; it has {', '.join(names_of(figures))}")
+        raise InputError(f"plot: {name!r} is not a plot of this fit; it has {', '.join(known or names_of(figures))}")
     return Plot(name, found)

@@ -2,13 +2,12 @@
 
 import json
 import os
-import tempfile
 
 from . import _core
 from ._data import headings_of, table_of
 from ._errors import InputError, warn_of
 from ._check import checks_of
-from ._fit import Fit
+from ._fitted import named_folders
 
 
 class Selection:
@@ -285,25 +284,9 @@ def compare(*fits, names=None):
     >>> sorted(study["study"] for study in both.summary["studies"])
     ['lognormal', 'normal']
     """
-    if len(fits) == 1 and isinstance(fits[0], dict):
-        if names is not None:
-            raise InputError("names and the keys of the dict say the same; leave names out")
-        names, fits = [str(each) for each in fits[0]], list(fits[0].values())
-    if len(fits) < 2:
-        raise InputError("a comparison takes two fits at least")
-    if names is not None and len(names) != len(fits):
-        raise InputError(f"{len(names)} names are given for {len(fits)} fits")
-    with tempfile.TemporaryDirectory() as folder:
-        pairs = []
-        for i, each in enumerate(fits):
-            usual = chr(ord("a") + i) if i < 26 else str(i + 1)
-            if isinstance(each, Fit):
-                path = os.path.join(folder, str(i))
-                _core.write_folder(path, list(each._files().items()))
-                pairs.append((names[i] if names else usual, path))
-            else:
-                path = os.fspath(each)
-                pairs.append((names[i] if names else path, path))
+    with named_folders(fits, names) as pairs:
+        if len(pairs) < 2:
+            raise InputError("a comparison takes two fits at least")
         return Comparison(*_core.compared(pairs))
 
 

@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 from . import _core
 from ._errors import InputError, warn
-from ._fitted import population, rows_of
+from ._fitted import columns_of, population, rows_of
 from ._toml import quantity
 
 _nan, _inf = float("nan"), float("inf")
+_worth_a_word = 0.05  # a probability of having passed the threshold
 
 
 class Quantiles(NamedTuple):
@@ -69,12 +70,25 @@ class UnitTracker:
     """
 
     @classmethod
-    def _of(cls, found, unit, new):
+    def _of(cls, fit, unit, new):
         self = cls.__new__(cls)
-        self._followed, self._outcomes = _core.FollowedUnit(found, unit, new), []
+        self._begin(fit, unit, new)
+        return self
+
+    def _begin(self, fit, unit, new):
+        self._fit, self._followed, self._outcomes, self._taken = fit, _core.FollowedUnit(population(fit), unit, new), [], []
         start = self.summary
         self.unit, self.is_new, self._noun = start["unit"], start["new"], start["noun"]
-        return self
+
+    def __getstate__(self):
+        return {"fit": self._fit, "unit": self.unit, "new": self.is_new, "outcomes": self._outcomes, "taken": self._taken}
+
+    def __setstate__(self, state):
+        """The readings are taken again: the same numbers to the bit."""
+        self._begin(state["fit"], state["unit"], state["new"])
+        for columns in state["taken"]:
+            self._followed.update(_core.table_of("rows", columns))
+        self._outcomes, self._taken = state["outcomes"], state["taken"]
 
     def update(self, rows):
         """Take readings.
@@ -112,6 +126,7 @@ class UnitTracker:
         """
         table = rows_of(rows, "rows")
         outcomes = json.loads(self._followed.update(table))
+        self._taken.append(columns_of(table))
         for row, each in enumerate(outcomes):
             if not each["counted"] and not each["repeated"]:
                 warn(f"row {row + 1} does not count: {each['problem']}")
@@ -200,6 +215,25 @@ class UnitTracker:
         """
         return self.summary["doubt"]
 
+    @property
+    def passed(self):
+        """Probability that the threshold is passed already; ``rul`` is given that it is not.
+
+        Returns
+        -------
+        float
+            The probability; NaN if nothing determines it.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/fleet/study.toml", seed=1, method="exact", draws=100, report=False)
+        >>> fit.track("L1").passed < 0.01
+        True
+        """
+        found = self.summary["passed"]
+        return _nan if found is None else found
+
     def risk(self, within):
         """Probability that the threshold is reached within a use from now on.
 
@@ -286,6 +320,8 @@ class UnitTracker:
         if not found["known"]:
             return text + "nothing determines how it continues>"
         low, high = (f"{each:.4g}" if math.isinf(each) else _four(each) for each in (rul.q05, rul.q95))
+        if found["passed"] is not None and found["passed"] > _worth_a_word:
+            text += f"threshold passed with probability {100 * found['passed']:.0f} %, if not "
         return text + f"remaining useful life {low} to {high} {rul.unit} (90 %){', in doubt' if found['doubt'] else ''}>"
 
 
@@ -346,7 +382,7 @@ def track(fit, unit=None, *, new=False):
         raise InputError(f"unit is {unit!r}; it is the name of a unit, a text")
     if not isinstance(new, bool):
         raise InputError(f"new is {new!r}; it is True or False")
-    return UnitTracker._of(population(fit), unit or "", new)
+    return UnitTracker._of(fit, unit or "", new)
 
 
 track.__module__ = "wearwell"

@@ -9,7 +9,8 @@ import os
 
 from ._errors import InputError
 from ._fit import Fit
-from ._plan import answer, files_and_tables
+from ._plan import answer
+from ._question import files_and_tables
 from ._plan_lives import accelerate, demonstrate
 from ._study import Study
 

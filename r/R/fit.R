@@ -141,7 +141,8 @@ lives_of <- function(summary) {
     frame <- rbind(first, frame)
   }
   rownames(frame) <- NULL
-  frame
+  sometimes <- c("predictive", "bound", "credible_level")
+  frame[!names(frame) %in% sometimes | !vapply(frame, function(values) all(is.na(values)), NA)]
 }
 
 # ---- What a fit has.
@@ -157,7 +158,7 @@ of_posterior <- c("parameters", "predictions", "quantities", "lives", "draws", "
   if (name %in% of_posterior) {
     stop_input("a study of the model ", fields$summary$model, " has no ", name, "; fit$summary and fit$tables hold what it found")
   }
-  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live")), "tables", "toml")), ")")
+  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live", "rows_call")), "tables", "toml")), ")")
 }
 
 # The run; of a fit that was kept beyond its session it is done again, to the bit.
@@ -201,7 +202,7 @@ ww_require_trusted <- function(fit) {
 # ---- Files.
 
 ww_write <- function(fit, folder) {
-  if (inherits(fit, "ww_plan")) {
+  if (inherits(fit, "ww_answer")) {
     files <- c(stats::setNames(fit$json, paste0(fit$name, ".json")), stats::setNames(fit$csv, sprintf("tables/%s.csv", names(fit$csv))), report.html = fit$page)
   } else {
     files <- files_of(fit)
@@ -212,7 +213,7 @@ ww_write <- function(fit, folder) {
 }
 
 ww_report <- function(fit, path) {
-  if (inherits(fit, c("ww_selection", "ww_comparison", "ww_plan"))) {
+  if (inherits(fit, c("ww_selection", "ww_comparison", "ww_answer"))) {
     page <- fit$page
     if (!nzchar(page)) stop_input("there is no page: select again with report = TRUE")
   } else {

@@ -269,7 +269,10 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
   study$replicates <- replicates
-  if (!one_truth(fit, "fit")) return(study)
+  if (!one_truth(fit, "fit")) {
+    study$columns <- columns
+    return(study)
+  }
   found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
   with_call(found, call)
 }

@@ -25,11 +25,13 @@ asked_of_formula <- function(study, limit, unit, survived, along) {
       stop_input("unit needs a limit, ww_life(fit, limit = ..., unit = ...): where the data are lives, the life of each item is ",
                  "known, and ww_life predicts that of the next one: leave unit out")
     }
-    measured <- names(study$likelihood)[1]
-    shown <- units[[measured]]
-    if (is.double(question$survived) && !shown %in% c("", "1")) {
-      stop_input("survived is ", survived, " without a unit, and ", measured, " is in ", shown, ": write '", survived, " ", shown,
-                 "', or another unit")
+    # A plain number is in the unit of the measured life.
+    if (!is.null(survived)) {
+      measured <- names(study$likelihood)[1]
+      if (is.double(question$survived) && grepl("^[0-9]", units[[measured]])) {  # "1e6 cycles": multiples, or cycles?
+        stop_input("survived is ", survived, " without a unit, and ", measured, " is in '", units[[measured]], "': write the number with its unit")
+      }
+      question$survived <- in_unit(question$survived, units[[measured]])
     }
     return(question)
   }

@@ -41,16 +41,21 @@ plan_tables <- function(data, name) {
   stats::setNames(tables, rep(name, length(tables)))
 }
 
-# `run`, `study`, `path`: what the plan is about. `tables`: by argument.
-plan_of <- function(kind, arguments, run = NULL, study = NULL, path = "", tables = list(), threads = 0, progress = FALSE) {
+# What the library answers. `run`, `study`, `path`: what the question is about. `tables`: by argument. `file`: name of its JSON file.
+answer_of <- function(kind, file, arguments, run = NULL, study = NULL, path = "", tables = list(), threads = 0, progress = FALSE) {
   text <- json_arguments(arguments)
   threads <- whole(threads, "threads", 0, 1024)
-  found <- with_progress(progress, function(report) core(C_plan, kind, text, run, study, path, tables, threads, report))
-  found$name <- if (kind == "decide") "decisions" else "plan"
+  found <- with_progress(progress, function(report) core(C_answer, kind, text, run, study, path, tables, threads, report))
+  found$name <- file
   found$csv <- found$tables
   found$tables <- lapply(found$csv, exact_csv)
+  found
+}
+
+plan_of <- function(kind, arguments, ...) {
+  found <- answer_of(kind, if (kind == "decide") "decisions" else "plan", arguments, ...)
   if (!found$trusted) warn("the fit that this plan rests on is not trusted: see its checks")
-  structure(class = "ww_plan", found)
+  structure(class = c("ww_plan", "ww_answer"), found)
 }
 
 # A table of the program, numbers to their last bit: R's own reader may be off by one.
@@ -139,7 +144,7 @@ ww_plan_size <- function(study, goal, width, tests, assurance = 0.8, level = 0.9
           tables = plan_tables(tests, "tests"), threads = threads, progress = progress)
 }
 
-print.ww_plan <- function(x, ...) {
+print.ww_answer <- function(x, ...) {
   cat(x$text)
   invisible(x)
 }

@@ -44,8 +44,15 @@ print.ww_selection <- function(x, ...) {
 }
 
 ww_compare <- function(..., names = NULL) {
-  fits <- list(...)
-  if (length(fits) < 2) stop_input("a comparison takes two fits at least")
+  found <- with_folders(list(...), names, "a comparison", function(folders) {
+    if (length(folders) < 2) stop_input("a comparison takes two fits at least")
+    core(C_compared, folders)
+  })
+  structure(class = "ww_comparison", found)
+}
+
+# Calls `work` with the folders of fits or of results, by name. `of`: what takes them, in messages.
+with_folders <- function(fits, names, of, work) {
   if (is.null(names)) names <- names(fits)
   if (!is.null(names) && length(names) != length(fits)) stop_input(length(names), " names are given for ", length(fits), " fits")
   parent <- tempfile("wearwell")
@@ -54,7 +61,7 @@ ww_compare <- function(..., names = NULL) {
   folders <- vapply(seq_along(fits), function(i) {
     each <- fits[[i]]
     if (is_path(each)) return(path_of(each))
-    if (!inherits(each, "ww_fit")) stop_input("a comparison takes fits or folders of results, not ", kind_of(each))
+    if (!inherits(each, "ww_fit")) stop_input(of, " takes fits or folders of results, not ", kind_of(each))
     folder <- file.path(parent, i)
     core(C_write_folder, folder, files_of(each))
     folder
@@ -62,8 +69,7 @@ ww_compare <- function(..., names = NULL) {
   usual <- ifelse(vapply(fits, is_path, NA), folders, c(letters, seq_along(fits)[-(1:26)])[seq_along(fits)])
   if (is.null(names)) names <- usual
   names <- ifelse(names == "", usual, names)
-  found <- core(C_compared, stats::setNames(folders, enc2utf8(names)))
-  structure(class = "ww_comparison", found)
+  work(stats::setNames(folders, enc2utf8(names)))
 }
 
 print.ww_comparison <- function(x, ...) {

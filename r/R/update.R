@@ -6,9 +6,23 @@ several_rows <- function(data, name) {
   lapply(several, function(each) if (is_path(each)) path_of(each, name) else table_of(each, name))
 }
 
-# Whether the lives of a fit were written as Surv(), which makes the columns of its study.
-made_by_surv <- function(fit) {
-  inherits(fit, "ww_fit") && is.call(fit$call) && "Surv" %in% unlist(lapply(as.list(fit$call), all.names))
+# The call by which Surv() made the columns of a fit's study, also of one that was updated; NULL if there is none.
+surv_call <- function(fit) {
+  if (!inherits(fit, "ww_fit")) return(NULL)
+  call <- unclass(fit)$rows_call
+  if (is.null(call)) call <- fit$call
+  if (is.call(call) && "Surv" %in% unlist(lapply(as.list(call), all.names))) call
+}
+
+# New rows as the call of the fit reads them, with the columns of its study and their units.
+rows_of_surv <- function(call, data, env) {
+  options <- c("seed", "method", "chains", "draws", "warmup", "threads", "report", "progress", "title", "predict", "given")
+  call <- call[!names(call) %in% options]
+  call[[1]] <- ww_life
+  call$data <- data
+  call$fit <- FALSE
+  columns <- eval(call, env)$columns
+  table_of(lapply(columns, `[[`, "values"), "data", Filter(nzchar, vapply(columns, `[[`, "", "unit")))
 }
 
 ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, progress = interactive()) {
@@ -17,11 +31,9 @@ ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, pr
   }
   threads <- whole(threads, "threads", 0, 1024)
   report <- one_truth(report, "report")
-  rows <- several_rows(data, "data")
-  if (made_by_surv(fit) && is.data.frame(data) && !any(grepl("^life($| *\\[)", names(data)))) {
-    stop_input("data has no column 'life': this fit was made with Surv(), and new rows have the columns of its study, life with its unit in the heading, ",
-               "like 'life [h]', and status with the words failure and runout; fit$toml shows them")
-  }
+  surv <- surv_call(fit)
+  of_surv <- !is.null(surv) && is.data.frame(data) && !any(grepl("^(life|lower|upper)($| *\\[)", names(data)))
+  rows <- if (of_surv) list(rows_of_surv(surv, data, parent.frame())) else several_rows(data, "data")
   about <- fit_or_folder(fit)
   run <- with_progress(progress, function(report_progress) {
     core(C_update, about$run, about$path, rows, if (is.null(repeated)) "" else repeated, threads, report, report_progress)
@@ -31,7 +43,9 @@ ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, pr
   choice <- list(method = used$method, chains = whole(used$chains, "chains", 1, 1000),
                  warmup = if (!identical(used$method, "exact")) whole(used$warmup, "warmup", 0, 1e9),
                  draws = whole(used$draws, "draws", 1, 1e9), seed = if (is.null(used)) "" else seed_text(used$seed))
-  with_call(fit_of(study, run, choice, report), match.call())
+  updated <- unclass(with_call(fit_of(study, run, choice, report), match.call()))
+  updated$rows_call <- surv
+  structure(updated, class = "ww_fit")
 }
 
 # A study kept as the state that its fit saves, in hexadecimal digits.
@@ -92,7 +106,7 @@ quantiles_of <- function(found, key, infinite) {
 }
 
 `$.ww_tracker` <- function(x, name) {
-  known <- c("unit", "is_new", "rul", "level", "doubt", "summary", "outcomes", "path")
+  known <- c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
   if (!name %in% known) stop_input("a tracker has no '", name, "' (it has: ", words(known), ")")
   if (name == "outcomes") return(outcomes_frame(state_of_tracker(x)$outcomes))
   found <- forecast_of(x)
@@ -101,6 +115,7 @@ quantiles_of <- function(found, key, infinite) {
     is_new = found$new,
     rul = structure(quantiles_of(found, "remaining", Inf), unit = found$axis_unit),
     level = structure(quantiles_of(found, "level", NA_real_), unit = found$level_unit),
+    passed = if (is.na(found$passed)) NaN else found$passed,
     doubt = if (is.na(found$doubt)) NULL else found$doubt,
     summary = found,
     path = {
@@ -111,7 +126,7 @@ quantiles_of <- function(found, key, infinite) {
     })
 }
 
-names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "doubt", "summary", "outcomes", "path")
+names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
 
 outcomes_frame <- function(outcomes) {
   data.frame(counted = column(outcomes, "counted", NA), repeated = column(outcomes, "repeated", NA),
@@ -131,6 +146,7 @@ print.ww_tracker <- function(x, ...) {
   cat(if (found$new) "New ", found$noun, " '", found$unit, "', ", n, if (!found$new) " new", if (n == 1) " reading" else " readings", "\n", sep = "")
   if (found$known) {
     rul <- signif(quantiles_of(found, "remaining", Inf), 4)
+    if (!is.na(found$passed) && found$passed > 0.05) cat("Threshold passed with probability ", round(100 * found$passed), " %; if not:\n", sep = "")
     cat("Remaining useful life ", format(rul[["q50"]]), " ", found$axis_unit, ", ", format(rul[["q05"]]), " to ", format(rul[["q95"]]), " ",
         found$axis_unit, " (90 %)\n", sep = "")
   } else {

@@ -2,15 +2,15 @@
 
 #include "core.h"
 #include "look.h"
-#include "wearwell/embed/plan.h"
+#include "wearwell/embed/question.h"
 
 namespace wearwell::r {
 namespace {
 
-// The answer of `wearwell plan KIND`. `arguments` is a JSON object; `run` and `study` may be NULL.
-SEXP plan(const std::string& kind, const std::string& arguments, SEXP run, SEXP study,
-          const std::string& path, const Rcpp::List& tables, int threads, SEXP progress) {
-  embed::PlanSubject subject;
+// The answer to a question. `arguments` is a JSON object; `run` and `study` may be NULL.
+SEXP answered(const std::string& kind, const std::string& arguments, SEXP run, SEXP study,
+              const std::string& path, const Rcpp::List& tables, int threads, SEXP progress) {
+  embed::Subject subject;
   if (!Rf_isNull(run)) subject.run = &held<embed::Run>(run);
   if (!Rf_isNull(study)) subject.study = &held<embed::ReadStudy>(study);
   subject.path = path;
@@ -19,10 +19,10 @@ SEXP plan(const std::string& kind, const std::string& arguments, SEXP run, SEXP 
     for (R_xlen_t i = 0; i < tables.size(); ++i)
       subject.tables.emplace_back(Rcpp::as<std::string>(names[i]), held<Table>(tables[i]));
   }
-  embed::PlanAnswer answer;
+  embed::Answer answer;
   attended(progress, [&](Monitor monitor) {
     monitor.threads = threads;
-    answer = embed::plan(kind, arguments, subject, std::move(monitor));
+    answer = embed::answer(kind, arguments, subject, std::move(monitor));
   });
   std::vector<std::string> names, contents;
   for (auto& [name, content] : answer.tables) {
@@ -59,7 +59,7 @@ SEXP column_of(const Rcpp::CharacterVector& texts) {
 }  // namespace
 
 void add_plans(Doors& doors) {
-  doors.insert(doors.end(), {door<&plan>("plan"), door<&column_of>("column_of")});
+  doors.insert(doors.end(), {door<&answered>("answer"), door<&column_of>("column_of")});
 }
 
 }  // namespace wearwell::r

@@ -56,7 +56,10 @@ SEXP select(SEXP data, const Rcpp::List& asked, const Rcpp::List& how, SEXP prog
 }
 
 SEXP rainflow(const std::vector<double>& signal, bool three_points, bool repeat) {
-  const embed::Cycles cycles = embed::rainflow(signal, three_points, repeat);
+  embed::Cycles cycles;
+  attended(R_NilValue, [&](const Monitor& monitor) {
+    cycles = embed::rainflow(signal, three_points, repeat, monitor);
+  });
   return named_list({{"from", Rcpp::Shield<SEXP>(Rcpp::wrap(cycles.from))},
                      {"to", Rcpp::Shield<SEXP>(Rcpp::wrap(cycles.to))},
                      {"count", Rcpp::Shield<SEXP>(Rcpp::wrap(cycles.count))}});

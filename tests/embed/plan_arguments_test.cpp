@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "wearwell/base/error.h"
-#include "wearwell/embed/plan.h"
+#include "wearwell/embed/question.h"
 
 namespace wearwell::embed {
 namespace {
@@ -109,23 +109,24 @@ TEST(PlanArguments, OptionsInMessagesBecomeArguments) {
 }
 
 TEST(Plan, KindsAndArgumentsAreChecked) {
-  EXPECT_THAT([&] { plan("guess", "{}", {}, {}); },
-              ThrowsMessage<InputError>(HasSubstr("there is no plan of kind 'guess'")));
-  EXPECT_THAT([&] { plan("demonstrate", "[]", {}, {}); },
+  EXPECT_THAT([&] { answer("guess", "{}", {}, {}); },
+              ThrowsMessage<InputError>(HasSubstr("there is no question of kind 'guess'")));
+  EXPECT_THAT([&] { answer("demonstrate", "[]", {}, {}); },
               ThrowsMessage<InputError>("demonstrate: arguments have names"));
-  EXPECT_THAT([&] { plan("demonstrate", "{\"goal\": \"\xff\"}", {}, {}); },
+  EXPECT_THAT([&] { answer("demonstrate", "{\"goal\": \"\xff\"}", {}, {}); },
               ThrowsMessage<InputError>("demonstrate: an argument is not Unicode"));
-  EXPECT_THAT([&] { plan("demonstrate", R"({"gaol": "B10 >= 1"})", {}, {}); },
+  EXPECT_THAT([&] { answer("demonstrate", R"({"gaol": "B10 >= 1"})", {}, {}); },
               ThrowsMessage<InputError>(HasSubstr("did you mean 'goal'?")));
 }
 
 TEST(Plan, TextsAndMessagesNameArguments) {
-  const PlanAnswer answer =
-      plan("demonstrate", R"({"goal": "B10 >= 1e6 cycles", "time": "2e6 cycles"})", {}, {});
-  EXPECT_EQ(answer.text.find("--"), std::string::npos);
-  EXPECT_TRUE(answer.trusted);
-  EXPECT_THAT([&] { plan("demonstrate", R"({"goal": "B10 >= 1e6 cycles", "sigma": 1})", {}, {}); },
-              ThrowsMessage<InputError>("sigma: a Weibull distribution has a shape"));
+  const Answer found =
+      answer("demonstrate", R"({"goal": "B10 >= 1e6 cycles", "time": "2e6 cycles"})", {}, {});
+  EXPECT_EQ(found.text.find("--"), std::string::npos);
+  EXPECT_TRUE(found.trusted);
+  EXPECT_THAT(
+      [&] { answer("demonstrate", R"({"goal": "B10 >= 1e6 cycles", "sigma": 1})", {}, {}); },
+      ThrowsMessage<InputError>("sigma: a Weibull distribution has a shape"));
 }
 
 }  // namespace

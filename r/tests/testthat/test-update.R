@@ -88,3 +88,17 @@ test_that("a backtest and an export are the program's", {
   refused(ww_export_c(fit, here, lines = 3), "lines is 3; it is a whole number from 16 to 20000")
   refused(ww_export_sql(fitted_joint(), "duckdb", "fleet.cars"), "SQL export needs a study of model")
 })
+
+test_that("new rows of a fit by Surv() are read as its call reads them", {
+  pumps <- data.frame(hours = c(150, 340, 560, 800, 1150, 2470, 100, 900, 300, 700), failed = c(1, 1, 1, 1, 0, 1, 1, 1, 1, 0))
+  new <- data.frame(hours = c(420, 900.5), failed = c(1, 0))
+  fit <- quiet(ww_life(Surv(hours, failed) ~ 1, data = pumps, units = c(hours = "h"), seed = 1, method = "exact", draws = 100, report = FALSE))
+  later <- quiet(ww_update(fit, new, report = FALSE))
+  expect_identical(later$summary$update[c("rows_before", "counted")], list(rows_before = 10, counted = 2))
+  in_words <- data.frame("life [h]" = new$hours, status = c("failure", "runout"), check.names = FALSE)
+  expect_identical(later$parameters, quiet(ww_update(fit, in_words, report = FALSE))$parameters)
+  again <- quiet(ww_update(later, data.frame(hours = 610, failed = 1), report = FALSE))  # of a fit that was updated
+  expect_identical(again$summary$update$rows_before, 12)
+  refused(ww_update(fit, data.frame(hours = 3)), "failed")
+  expect_identical(ww_life(fit, b = 10, survived = 100), ww_life(fit, b = 10, survived = "100 h"))
+})

@@ -1,4 +1,4 @@
-#include "wearwell/embed/plan.h"
+#include "wearwell/embed/readers.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/embed/fitted.h"
-#include "wearwell/embed/fork_guard.h"
-#include "wearwell/embed/plan_arguments.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/next_point.h"
@@ -20,7 +18,6 @@
 #include "wearwell/plan/inspect.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/plan/size.h"
-#include "wearwell/present/page.h"
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/known_lives.h"
@@ -32,37 +29,22 @@
 namespace wearwell::embed {
 namespace {
 
-using Work = std::function<plan::Answer()>;
-
 std::unique_ptr<const Study> read_any(const Source& source) {
   return read_study(source, all_models());
 }
 
-std::vector<Table> tables_of(const PlanSubject& subject, const std::string& argument) {
-  std::vector<Table> found;
-  for (const auto& [name, table] : subject.tables)
-    if (name == argument) found.push_back(table);
-  return found;
-}
-
-const Table* table_of(const PlanSubject& subject, const std::string& argument) {
-  for (const auto& [name, table] : subject.tables)
-    if (name == argument) return &table;
-  return nullptr;
-}
-
-prognosis::CarriedState carried_posterior(const PlanSubject& subject) {
+prognosis::CarriedState carried_posterior(const Subject& subject) {
   prognosis::CarriedState state = state_of({subject.run, subject.path});
   if (state.parameters.empty())
     throw InputError("the fit has no posterior to plan with: a clutch campaign has none");
   return state;
 }
 
-Source source_for(const PlanSubject& subject) {
+Source source_for(const Subject& subject) {
   return subject.study ? *subject.study->source : source_of(subject.path);
 }
 
-Work size(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
+Work size(PlanArguments& arguments, const Subject& subject, const Monitor& monitor) {
   plan::SizeQuestion question;
   arguments.text("goal", question.goal);
   arguments.text("width", question.width);
@@ -80,7 +62,7 @@ Work size(PlanArguments& arguments, const PlanSubject& subject, const Monitor& m
   };
 }
 
-Work demonstrate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
+Work demonstrate(PlanArguments& arguments, const Subject&, const Monitor&) {
   plan::DemonstrateQuestion question;
   arguments.text("goal", question.goal);
   arguments.text("confidence", question.confidence);
@@ -104,7 +86,7 @@ struct Lives {
   prognosis::FollowedUnits followed;
 };
 
-Lives lives_of(const PlanSubject& subject, const std::string& point) {
+Lives lives_of(const Subject& subject, const std::string& point) {
   Lives result;
   const Table* table = table_of(subject, "lives");
   const bool is_result = !table && (subject.run || std::filesystem::is_directory(subject.path));
@@ -137,7 +119,7 @@ Lives lives_of(const PlanSubject& subject, const std::string& point) {
   return result;
 }
 
-Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor& monitor) {
+Work inspect(PlanArguments& arguments, const Subject& subject, const Monitor& monitor) {
   plan::InspectQuestion question;
   std::string point;
   arguments.text("at", point);
@@ -161,7 +143,7 @@ Work inspect(PlanArguments& arguments, const PlanSubject& subject, const Monitor
   };
 }
 
-Work decide(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) {
+Work decide(PlanArguments& arguments, const Subject& subject, const Monitor&) {
   prognosis::DecisionRequest request;
   std::string point, service;
   std::size_t months = 12;
@@ -193,12 +175,12 @@ Work decide(PlanArguments& arguments, const PlanSubject& subject, const Monitor&
   };
 }
 
-bool is_clutch(const PlanSubject& subject) {
+bool is_clutch(const Subject& subject) {
   return subject.run ? subject.run->result->header.model == "clutch-wear"
                      : clutch::is_clutch_result(subject.path);
 }
 
-plan::Answer next_point_of(const PlanSubject& subject, const plan::NextQuestion& question) {
+plan::Answer next_point_of(const Subject& subject, const plan::NextQuestion& question) {
   if (!subject.run) return clutch::next_point(subject.path, question);
   const Result& result = *subject.run->result;
   for (const auto& [name, content] : result.files)
@@ -208,7 +190,7 @@ plan::Answer next_point_of(const PlanSubject& subject, const plan::NextQuestion&
   throw InputError("the fit holds no model.json to plan with");
 }
 
-Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) {
+Work next(PlanArguments& arguments, const Subject& subject, const Monitor&) {
   plan::NextQuestion question;
   arguments.text("goal", question.goal);
   arguments.clauses("grid", question.grid);
@@ -246,7 +228,7 @@ Work next(PlanArguments& arguments, const PlanSubject& subject, const Monitor&) 
   };
 }
 
-Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
+Work accelerate(PlanArguments& arguments, const Subject&, const Monitor&) {
   plan::AccelerateQuestion question;
   arguments.text("goal", question.goal);
   arguments.text("use", question.use);
@@ -271,69 +253,16 @@ Work accelerate(PlanArguments& arguments, const PlanSubject&, const Monitor&) {
   return [question] { return plan::accelerate(question); };
 }
 
-using Reader = Work (*)(PlanArguments&, const PlanSubject&, const Monitor&);
+}  // namespace
 
-Reader reader_of(const std::string& kind) {
+Reader plan_reader(const std::string& kind) {
   if (kind == "next") return &next;
   if (kind == "size") return &size;
   if (kind == "demonstrate") return &demonstrate;
   if (kind == "accelerate") return &accelerate;
   if (kind == "inspect") return &inspect;
   if (kind == "decide") return &decide;
-  throw InputError(
-      fmt::format("there is no plan of kind '{}'; it is next, size, demonstrate, inspect, "
-                  "accelerate or decide",
-                  printable(kind)));
-}
-
-// Options in the texts of a page as arguments.
-void rename(std::vector<present::Block>& blocks, const PlanArguments& arguments) {
-  const auto renamed = [&](std::string& text) { text = arguments.in_arguments(text); };
-  for (present::Block& block : blocks) {
-    if (auto* const prose = std::get_if<present::Prose>(&block.content)) {
-      renamed(prose->text);
-    } else if (auto* const callout = std::get_if<present::Callout>(&block.content)) {
-      renamed(callout->text);
-    } else if (auto* const facts = std::get_if<present::Facts>(&block.content)) {
-      for (auto& [name, value] : facts->facts) renamed(name), renamed(value);
-    } else if (auto* const figures = std::get_if<present::Figures>(&block.content)) {
-      for (html::Figure& figure : figures->figures) renamed(figure.caption);
-    } else if (auto* const details = std::get_if<present::Details>(&block.content)) {
-      renamed(details->summary);
-      rename(details->blocks, arguments);
-    }
-  }
-}
-
-PlanAnswer shown(plan::Answer answer, const char* heading, const PlanArguments& arguments) {
-  for (present::Section& section : answer.sections) rename(section.blocks, arguments);
-  PlanAnswer result{answer.title,
-                    arguments.in_arguments(answer.text),
-                    printable_json(answer.json.dump(2)) + "\n",
-                    {},
-                    html_page({WEARWELL_VERSION, heading, answer.title, answer.sections}),
-                    answer.trusted};
-  for (const present::Table* table : present::tables(answer.sections))
-    result.tables.emplace_back(table->id, present::csv(*table));
-  return result;
-}
-
-}  // namespace
-
-PlanAnswer plan(const std::string& kind, const std::string& arguments, const PlanSubject& subject,
-                Monitor monitor) {
-  const ForkGuard guard;
-  monitor.threads = guard.most(monitor.threads);
-  const auto json = nlohmann::ordered_json::parse(arguments, nullptr, false);
-  if (json.is_discarded()) throw InputError(kind + ": an argument is not Unicode");
-  PlanArguments reading(kind, json);
-  const Work work = reader_of(kind)(reading, subject, monitor);
-  reading.finish();
-  try {
-    return shown(work(), kind == "decide" ? "Decisions" : "Plan", reading);
-  } catch (const InputError& error) {
-    throw InputError(reading.in_arguments(error.what()));
-  }
+  return nullptr;
 }
 
 }  // namespace wearwell::embed

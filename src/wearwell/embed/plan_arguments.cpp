@@ -26,6 +26,12 @@ std::string kind_of(const Json& value) {
   return value.is_object() ? "named values" : "a list";
 }
 
+double number_of(const char* name, const Json& value) {
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw InputError(fmt::format("{} is {}; it is a number", name, kind_of(value)));
+  return value.get<double>();
+}
+
 }  // namespace
 
 PlanArguments::PlanArguments(std::string function, const Json& arguments)
@@ -92,12 +98,26 @@ void PlanArguments::clauses(const char* name, std::string& to) {
     to += fmt::format("{}{} = {}", to.empty() ? "" : "; ", key, listed(name, each));
 }
 
-void PlanArguments::number(const char* name, std::optional<double>& to) {
+void PlanArguments::named_texts(const char* name,
+                                std::vector<std::pair<std::string, std::string>>& to) {
   const Json* value = find(name);
   if (!value) return;
-  if (!value->is_number() || !std::isfinite(value->get<double>()))
-    throw InputError(fmt::format("{} is {}; it is a number", name, kind_of(*value)));
-  to = value->get<double>();
+  if (!value->is_object())
+    throw InputError(fmt::format("{} is {}; it holds texts by name", name, kind_of(*value)));
+  to.clear();
+  for (const auto& [key, each] : value->items()) to.emplace_back(key, one_text(name, each));
+}
+
+void PlanArguments::numbers(const char* name, std::vector<double>& to) {
+  const Json* value = find(name);
+  if (!value) return;
+  to.clear();
+  if (!value->is_array()) return to.push_back(number_of(name, *value));
+  for (const Json& each : *value) to.push_back(number_of(name, each));
+}
+
+void PlanArguments::number(const char* name, std::optional<double>& to) {
+  if (const Json* value = find(name)) to = number_of(name, *value);
 }
 
 void PlanArguments::number(const char* name, double& to) {

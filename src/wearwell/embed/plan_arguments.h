@@ -26,6 +26,10 @@ class PlanArguments {
   /// A text, or an object of such lists: {"stress": "200 to 500 by 25 MPa", "stop": [1e6, 5e6]} is
   /// "stress = 200 to 500 by 25 MPa; stop = 1000000, 5000000".
   void clauses(const char* name, std::string& to);
+  /// Texts by their names, in their order.
+  void named_texts(const char* name, std::vector<std::pair<std::string, std::string>>& to);
+  /// One number or several.
+  void numbers(const char* name, std::vector<double>& to);
   void number(const char* name, double& to);
   void number(const char* name, std::optional<double>& to);
   /// A whole number that is not negative; the other one is from `least` to `most`.

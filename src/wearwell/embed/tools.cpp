@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -51,7 +53,8 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
   return selected;
 }
 
-Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat) {
+Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat,
+                const Monitor& monitor) {
   for (std::size_t i = 0; i < signal.size(); ++i) {
     if (!std::isfinite(signal[i]))
       throw InputError(fmt::format("signal, row {}: not a number", i + 1));
@@ -67,7 +70,11 @@ Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repea
   };
   const auto point = [&](double p) { counted.add(p, take); };
   fatigue::TurningPoints turns;
-  turns.add(signal, point);
+  constexpr std::size_t piece = 65'536;
+  for (std::size_t i = 0; i < signal.size(); i += piece) {
+    if (monitor.stop.stop_requested()) throw Cancelled();
+    turns.add(std::span(signal).subspan(i, std::min(piece, signal.size() - i)), point);
+  }
   turns.finish(point);
   counted.finish(take);
   return cycles;

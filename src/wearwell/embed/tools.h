@@ -35,7 +35,8 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
 struct Cycles {
   std::vector<double> from, to, count;
 };
-/// Throws InputError naming the first row that is not finite.
-Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat);
+/// Throws InputError naming the first row that is not finite; Cancelled.
+Cycles rainflow(const std::vector<double>& signal, bool three_points, bool repeat,
+                const Monitor& monitor);
 
 }  // namespace wearwell::embed

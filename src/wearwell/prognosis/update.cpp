@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/json_reader.h"
 #include "wearwell/prognosis/carry.h"
@@ -54,6 +58,63 @@ std::vector<Table> tables_of(const Source& source, const std::vector<NewRows>& r
   return tables;
 }
 
+// "seal" of "scale[seal]"; empty for another parameter.
+std::string level_of(const std::string& parameter) {
+  const std::size_t open = parameter.find('[');
+  return open == parameter.npos || parameter.back() != ']'
+             ? ""
+             : parameter.substr(open + 1, parameter.size() - open - 2);
+}
+
+bool holds(const Column& column, std::size_t row, const std::string& word) {
+  return !column.is_number && column.text[row].find(word) != std::string::npos;
+}
+
+// The first new row that has the word, and the column.
+std::optional<std::pair<std::size_t, std::string>> first_with(const JoinedData& joined,
+                                                              const std::string& word) {
+  const Table& table = data_table(joined.source);
+  for (const std::size_t row : joined.fresh) {
+    for (const Column& column : table.columns)
+      if (holds(column, row, word)) return std::pair{row, column.name};
+  }
+  return {};
+}
+
+std::string row_in_file(const std::vector<Table>& tables, const std::string& column,
+                        const std::string& word) {
+  for (const Table& table : tables) {
+    for (const Column& each : table.columns) {
+      for (std::size_t row = 0; each.name == column && row < table.rows; ++row)
+        if (holds(each, row, word)) return place(table, column, row);
+    }
+  }
+  return fmt::format("column '{}'", column);
+}
+
+// A word that no earlier row has, such as a failure mode, adds parameters that the earlier posterior
+// does not know: it may be misspelt.
+void report_new_words(const std::vector<std::string>& before, const PosteriorStudy& study,
+                      const std::vector<Table>& tables, JoinedData& joined) {
+  std::vector<std::string> known;
+  std::map<std::string, std::vector<std::string>> added;
+  for (const std::string& each : before)
+    if (const std::string level = level_of(each); !level.empty()) known.push_back(level);
+  for (const Parameter& each : study.parameters) {
+    const std::string level = level_of(each.name);
+    if (!level.empty() && std::find(known.begin(), known.end(), level) == known.end())
+      added[level].push_back(each.name);
+  }
+  for (const auto& [word, parameters] : added) {
+    const auto at = first_with(joined, word);
+    if (!at) continue;
+    joined.contradictions.push_back({at->first, row_in_file(tables, at->second, word),
+                                     fmt::format("no earlier row has '{}', which adds {}{}", word,
+                                                 fmt::join(parameters, " and "),
+                                                 known.empty() ? "" : did_you_mean(word, known))});
+  }
+}
+
 }  // namespace
 
 Repeated repeated_named(const std::string& name) {
@@ -75,11 +136,13 @@ StudyOfAllRows study_of_all_rows(const CarriedState& state, const std::vector<Ne
         std::make_shared<const CampaignOfAllRows>(read(all.source), std::move(joined), names);
     return all;
   }
-  JoinedData joined = joined_data(state.source, tables_of(state.source, rows), repeated);
+  const std::vector<Table> tables = tables_of(state.source, rows);
+  JoinedData joined = joined_data(state.source, tables, repeated);
   StudyOfAllRows all{joined.source, nullptr};
   const auto study = read(all.source);
   const PosteriorStudy& of_all = require_posterior_study(*study);
   judge_new_data(of_all, state.posterior, joined);
+  report_new_words(state.parameters, of_all, tables, joined);
   all.study =
       std::make_shared<const PosteriorStudy>(updated_study(of_all, std::move(joined), names));
   return all;

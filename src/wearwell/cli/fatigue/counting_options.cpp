@@ -5,12 +5,7 @@
 
 namespace wearwell::fatigue {
 
-CountingRule CountingOptions::rule(double class_width) const {
-  return {method == "three-point" ? Counting::three_point : Counting::four_point,
-          residual == "half" ? Residual::half : Residual::repeat, class_width};
-}
-
-void add_counting_options(CLI::App& command, CountingOptions& options,
+void add_counting_options(CLI::App& command, CountingChoice& options,
                           const std::string& of_signal) {
   command.add_option("--column", options.signal.column,
                      of_signal + "Heading of the load (default: the only numeric column)");

@@ -1,119 +1,29 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
-#include "wearwell/base/unit_system.h"
 #include "wearwell/cli/fatigue/command_parts.h"
 #include "wearwell/cli/fatigue/counting_options.h"
 #include "wearwell/cli/option_rules.h"
-#include "wearwell/input/option_value.h"
-#include "wearwell/models/fatigue/load_life_report.h"
+#include "wearwell/models/fatigue/load_life_request.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
-#include "wearwell/study/plot_study.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-// This many stresses and points determine the printed digits.
-constexpr std::size_t most_cycles = 2048, most_cycles_with_limit = 512;
-constexpr Eigen::Index most_points_with_limit = 4000;
-// Share of a posterior's weight: lighter points are merged.
-constexpr double gathered_share = 3e-5;
-
 struct LoadLifeOptions {
   std::filesystem::path result, output;
-  CountingOptions counting;
-  std::string scale, rule, knee, block;
-  std::string damage_sum = "1 x/ 1.34";
-  std::vector<double> b_lives = {1, 10, 50};
+  LoadLifeRequest request;
   double confidence = 90;
   bool json = false;
 };
-
-Knee read_knee(const std::string& text, const std::string& si) {
-  Knee knee;
-  if (text.empty()) return knee;
-  const std::size_t at = text.find_first_not_of("0123456789.,eE+- ");
-  const auto unit = at == std::string::npos ? std::nullopt : parse_unit(text.substr(at));
-  if (at == std::string::npos)
-    throw InputError(fmt::format(
-        "--knee: '{}' may be a life or a stress; write '{} cycles' or '{} {}'", text, text, text,
-        si == "Pa"  ? "MPa"
-        : si == "1" ? "%"
-                    : si));
-  const bool stress = unit && unit->dimension == parse_unit(si)->dimension;
-  const double value = option_value("--knee", text, stress ? si : "cycle", Allowed::positive);
-  (stress ? knee.stress : knee.life) = value;
-  return knee;
-}
-
-// "0.7", or "0.7 x/ 1.5".
-DamageSum read_damage_sum(const std::string& text) {
-  const std::size_t at = text.find("x/");
-  DamageSum sum{option_value("--damage-sum", text.substr(0, at), "1", Allowed::positive), 1};
-  if (at == std::string::npos) return sum;
-  sum.factor = option_value("--damage-sum", text.substr(at + 2), "1", Allowed::positive);
-  if (sum.factor < 1)
-    throw InputError(
-        fmt::format("--damage-sum: the factor {} must be at least 1: two thirds lie between the "
-                    "median divided by the factor and the median times the factor",
-                    sum.factor));
-  return sum;
-}
-
-MinerRule read_rule(const std::string& text, const SnLaw& law, const Knee& knee) {
-  if (text.empty()) {
-    if (knee.any())
-      throw InputError(
-          "--knee: add the rule below the knee: --rule original, haibach or liu-zenner");
-    return law.bends() ? MinerRule::original : MinerRule::elementary;
-  }
-  const auto& names = miner_rule_names();
-  const auto rule =
-      static_cast<MinerRule>(std::find(names.begin(), names.end(), text) - names.begin());
-  if (rule == MinerRule::elementary && knee.any())
-    throw InputError("--knee: --rule elementary has no knee; leave out one of them");
-  return rule;
-}
-
-// The use of one block: "350 km", "8 h".
-void read_block_length(const std::string& text, LoadLifeReport& report) {
-  if (text.empty()) return;
-  const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
-  const std::string unit = at == std::string::npos ? "" : text.substr(at);
-  const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
-  if (!parsed)
-    throw InputError(
-        fmt::format("--block: '{}' must be a number with a unit, like '350 km', '8 h' "
-                    "or '1 cycle'",
-                    text));
-  report.per_block = option_value("--block", text.substr(0, at), "1", Allowed::positive);
-  report.unit = unit;
-}
-
-// The points of the posterior over which damage is summed.
-WeightedDraws summed_points(const SnLaw& law, const WeightedDraws& posterior) {
-  return law.limit ? thinned(posterior, most_points_with_limit)
-                   : gathered(posterior, gathered_share);
-}
-
-// The relative change of the damage at the posterior mean with fewer classes.
-double reduction(const SnResult& result, const DamageRule& rule, const LoadCycles& all,
-                 const LoadCycles& few) {
-  const Eigen::VectorXd mean = result.posterior.values.transpose() * result.posterior.weights;
-  const double before = BlockDamage(result.law, mean.data(), rule, all).log10_damage(0);
-  const double after = BlockDamage(result.law, mean.data(), rule, few).log10_damage(0);
-  return before == after ? 0 : std::abs(std::expm1((after - before) * std::log(10.0)));
-}
 
 void write_folder(const LoadLifeReport& report, ResultFolder& folder) {
   const std::vector<present::Section> sections = load_life_sections(report);
@@ -127,33 +37,14 @@ void write_folder(const LoadLifeReport& report, ResultFolder& folder) {
 
 int run(const LoadLifeOptions& options) {
   refuse_overwriting(
-      {{"the results", options.result}, {"the history", options.counting.signal.file}},
+      {{"the results", options.result}, {"the history", options.request.counting.signal.file}},
       {{"--output", options.output}});
-  LoadLifeReport report{read_sn_result(options.result), {}, {}, 0, {}, {}};
-  const SnLaw& law = report.result.law;
-  LoadQuestion& question = report.question;
-  question.rule.knee = read_knee(options.knee, report.result.stress_si);
-  question.rule.miner = read_rule(options.rule, law, question.rule.knee);
-  question.sum = read_damage_sum(options.damage_sum);
-  question.percents = options.b_lives;
-  question.confidence = options.confidence / 100;
-  read_block_length(options.block, report);
-  const bool with_mean = law.correction != MeanStress::none;
-  const bool timed = !options.counting.signal.time.empty() && options.block.empty();
-  report.block = read_block({options.counting.signal, options.counting.rule(), options.scale,
-                             with_mean, timed, report.result.stress_si});
-  if (report.block.seconds) {
-    report.per_block = *report.block.seconds / 3600;
-    report.unit = "h";
-  }
+  SnResult result = read_sn_result(options.result);
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
-  const bool expensive = law.limit || law.scatter_grows;
-  report.cycles =
-      reduced(report.block.cycles, expensive ? most_cycles_with_limit : most_cycles, with_mean);
-  report.result.posterior = summed_points(law, report.result.posterior);
-  report.life = load_life(report.result, report.cycles, question);
-  report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
+  LoadLifeRequest request = options.request;
+  request.confidence = options.confidence / 100;
+  const LoadLifeReport report = load_life_of(request, std::move(result));
   if (folder) write_folder(report, *folder);
   if (options.json) {
     fmt::print("{}\n", printable_json(load_life_json(report).dump(2)));
@@ -174,30 +65,30 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
       ->add_option("RESULT", options->result, "Folder that wearwell fit wrote for a model \"sn\"")
       ->required();
   command
-      ->add_option("HISTORY", options->counting.signal.file,
+      ->add_option("HISTORY", options->request.counting.signal.file,
                    "One block: a signal, or counted cycles (range or amplitude, mean, cycles)")
       ->required();
-  add_counting_options(*command, options->counting, "for a signal: ");
-  command->add_option("--time", options->counting.signal.time,
+  add_counting_options(*command, options->request.counting, "for a signal: ");
+  command->add_option("--time", options->request.counting.signal.time,
                       "For a signal: a column of times; refuses a file with missing samples and, "
                       "without --block, reports lives in h");
-  command->add_option("--scale", options->scale,
+  command->add_option("--scale", options->request.scale,
                       "Factor from the load to stress, like '0.35 MPa/N'; for a strain '206 GPa'");
   command
       ->add_option(
-          "--rule", options->rule,
+          "--rule", options->request.rule,
           "Damage accumulation rule (default: elementary; original with a random fatigue limit)")
       ->check(one_of(miner_rule_names()));
-  command->add_option("--knee", options->knee,
+  command->add_option("--knee", options->request.knee,
                       "Knee of the curve: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
   command
       ->add_option(
-          "--damage-sum", options->damage_sum,
+          "--damage-sum", options->request.damage_sum,
           "Damage sum at failure: a number, or a median and the factor that covers two thirds")
       ->capture_default_str();
-  command->add_option("--block", options->block,
+  command->add_option("--block", options->request.block,
                       "Use of one block: '350 km', '8 h'; lives are reported in this unit");
-  command->add_option("--b-lives", options->b_lives, "Percentages failed")
+  command->add_option("--b-lives", options->request.b_lives, "Percentages failed")
       ->check(number_between(1e-4, 99.9999))
       ->capture_default_str();
   command->add_option("--confidence", options->confidence, "Confidence of the lower bounds, %")

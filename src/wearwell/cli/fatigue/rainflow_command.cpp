@@ -15,7 +15,7 @@
 #include "wearwell/cli/fatigue/command_parts.h"
 #include "wearwell/cli/fatigue/counting_options.h"
 #include "wearwell/cli/option_rules.h"
-#include "wearwell/models/fatigue/history_report.h"
+#include "wearwell/models/fatigue/history_request.h"
 #include "wearwell/models/fatigue/history_state.h"
 #include "wearwell/models/fatigue/signal_file.h"
 #include "wearwell/present/page.h"
@@ -25,9 +25,7 @@ namespace wearwell::fatigue {
 namespace {
 
 struct RainflowOptions {
-  CountingOptions counting;
-  int bins = 32;
-  double bin_width = 0;
+  HistoryRequest request;
   std::filesystem::path state, output;
   bool json = false;
 };
@@ -53,15 +51,6 @@ LoadHistory begin(const RainflowOptions& options, const SignalFile& file,
   return LoadHistory(std::move(saved.state));
 }
 
-void refuse_without_cycles(const SignalFile& file, const LoadHistory::Counted& counted) {
-  if (!counted.classes.cells().empty()) return;
-  if (counted.samples == 1)
-    throw InputError(fmt::format("{}, column '{}' has one sample and therefore no cycle",
-                                 file.source(), file.column()));
-  throw InputError(fmt::format("{}, column '{}' is {} throughout and has no cycle", file.source(),
-                               file.column(), counted.lowest));
-}
-
 void write_folder(const HistoryReport& report, ResultFolder& folder) {
   folder.write("rainflow.json", printable_json(history_json(report).dump(2)) + "\n");
   for (const present::Table& table :
@@ -77,32 +66,22 @@ void write_folder(const HistoryReport& report, ResultFolder& folder) {
 }
 
 void run(const RainflowOptions& options) {
-  refuse_overwriting({{"the history", options.counting.signal.file}},
+  refuse_overwriting({{"the history", options.request.counting.signal.file}},
                      {{"--state", options.state}, {"--output", options.output}});
-  const CountingRule rule = options.counting.rule(options.bin_width);
+  const CountingRule rule = options.request.counting.rule(options.request.bin_width);
   std::optional<LockFile> lock;
   const bool kept = !options.state.empty();
   if (kept)
     lock.emplace(options.state, [&] {
       fmt::print(stderr, "waiting for another wearwell that updates {}\n", options.state.string());
     });
-  SignalFile file(options.counting.signal);
+  SignalFile file(options.request.counting.signal);
   LoadHistory history = begin(options, file, rule);
   std::optional<StagedFile> state;
   if (kept) state.emplace(options.state);  // refused before the work starts
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
-  for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
-
-  HistoryReport report{file.source(),      file.column(),
-                       file.unit(),        rule,
-                       history.counted(),  static_cast<std::size_t>(options.bins),
-                       file.unread_times()};
-  if (report.counted.samples == 0) throw InputError(fmt::format("{} has no rows", file.source()));
-  refuse_without_cycles(file, report.counted);
-  if (rule.class_width > 0 && report.counted.classes.width() > rule.class_width)
-    throw InputError(fmt::format("--bin-width: {} makes too many classes of ranges up to {}",
-                                 rule.class_width, report.counted.highest - report.counted.lowest));
+  const HistoryReport report = counted_history(options.request, file, history);
   if (state) state->write(state_text({file.column(), file.unit(), history.state()}));
   if (folder) write_folder(report, *folder);
   if (state) state->commit();
@@ -122,18 +101,18 @@ void add_rainflow_command(CLI::App& fatigue) {
       "rainflow", "Count the cycles of a load history by ASTM E1049; files may exceed memory");
   const auto options = std::make_shared<RainflowOptions>();
   command
-      ->add_option("FILE", options->counting.signal.file,
+      ->add_option("FILE", options->request.counting.signal.file,
                    "Samples, or peaks and valleys, in a column (CSV, Parquet, ...)")
       ->required();
-  add_counting_options(*command, options->counting, "");
-  command->add_option("--time", options->counting.signal.time,
+  add_counting_options(*command, options->request.counting, "");
+  command->add_option("--time", options->request.counting.signal.time,
                       "A column of times; refuses a file with missing samples");
   CLI::Option* bins =
-      command->add_option("--bins", options->bins, "Largest number of range classes shown")
+      command->add_option("--bins", options->request.bins, "Largest number of range classes shown")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
   command
-      ->add_option("--bin-width", options->bin_width,
+      ->add_option("--bin-width", options->request.bin_width,
                    "Width of these classes, in the unit of the load (default: a power of two)")
       ->check(number_between(1e-300, 1e150))
       ->excludes(bins);

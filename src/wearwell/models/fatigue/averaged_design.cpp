@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/monitor.h"
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
 #include "wearwell/study/saved_result.h"
@@ -76,7 +77,8 @@ void require_same_stresses(const WeightedModel& a, const WeightedModel& b) {
 }  // namespace
 
 std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& models,
-                                         const DesignQuestion& question) {
+                                         const DesignQuestion& question,
+                                         const std::stop_token& stop) {
   std::vector<WeightedDraws> posteriors;
   for (const auto& [name, weight, result] : models)
     posteriors.push_back(curve_nodes(result.law, result.posterior, most_points_with_limit));
@@ -90,6 +92,7 @@ std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& model
       under.emplace_back(models[m].result.law, posteriors[m], point.stress);
     // The life at one level: of the mixture, and `each` gets that of every model.
     const auto at_level = [&](double reliability, double confidence, const auto& each) {
+      if (stop.stop_requested()) throw Cancelled();
       Lives mixture;
       for (std::size_t m = 0; m < models.size(); ++m) {
         const Lives own = lives_of(models[m].result.law, under[m], posteriors[m], reliability);
@@ -112,17 +115,19 @@ std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& model
   return points;
 }
 
-ModelsToAverage models_to_average(const std::vector<std::filesystem::path>& folders) {
+ModelsToAverage models_to_average(
+    const std::vector<std::pair<std::string, std::filesystem::path>>& folders) {
   std::vector<std::pair<std::string, SavedResult>> saved;
   std::vector<std::pair<std::string, SnResult>> results;
-  for (const auto& folder : folders) {
-    const std::string name = folder.string();
+  for (const auto& [name, folder] : folders) {
     if (std::any_of(saved.begin(), saved.end(),
-                    [&](const auto& each) { return each.first == name; }))
+                    [&given = name](const auto& each) { return each.first == given; }))
       throw InputError(fmt::format("{} is given twice", name));
     results.emplace_back(name, read_sn_result(folder));
-    saved.emplace_back(name, read_saved_result(folder));
+    if (folders.size() > 1) saved.emplace_back(name, read_saved_result(folder));
   }
+  if (results.size() == 1)
+    return {{{results.front().first, 1, std::move(results.front().second)}}, {}};
   const Comparison comparison = compare(std::move(saved));
   if (!comparison.comparable)
     throw InputError("no design curve is averaged over these: " + comparison.obstacle);

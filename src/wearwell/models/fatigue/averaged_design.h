@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wearwell/models/fatigue/design_curve.h"
@@ -42,17 +45,20 @@ struct DesignPoint {
 /// points of all posteriors, with each weight multiplied by its model's. Weights are those of
 /// stacking (model_weights), which makes it a quantile of the mixture with the best predictions
 /// (Yao, Vehtari, Simpson, Gelman 2018); they are not probabilities of a model being true.
+/// Throws Cancelled.
 std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& models,
-                                         const DesignQuestion& question);
+                                         const DesignQuestion& question,
+                                         const std::stop_token& stop = {});
 
-/// S-N results with their weights, the best prediction first; cautions are the comparison's. Throws
-/// InputError if they are not of the same tests (by outcomes and stresses), or one has no
-/// leave-one-out prediction.
+/// S-N results with their weights, the best prediction first; cautions are the comparison's. The
+/// folders have names for the report. Throws InputError if they are not of the same tests (by
+/// outcomes and stresses), or one has no leave-one-out prediction. One result has the weight 1.
 struct ModelsToAverage {
   std::vector<WeightedModel> models;
   std::vector<std::string> cautions;
 };
-ModelsToAverage models_to_average(const std::vector<std::filesystem::path>& folders);
+ModelsToAverage models_to_average(
+    const std::vector<std::pair<std::string, std::filesystem::path>>& folders);
 
 /// Stresses of the curves: 21 over the tested range, 9 if a model has a random limit.
 std::vector<double> design_stresses(const std::vector<WeightedModel>& models);

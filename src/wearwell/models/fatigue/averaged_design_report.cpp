@@ -34,7 +34,12 @@ std::string number(double x) {
   return std::isinf(x) ? "no end" : plain_number(x);
 }
 
+bool of_one(const AveragedDesignReport& report) {
+  return report.from.models.size() == 1;
+}
+
 std::string weights_text(const AveragedDesignReport& report) {
+  if (of_one(report)) return "From the posterior of one study.";
   std::vector<std::string> shares;
   for (const WeightedModel& each : report.from.models)
     shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
@@ -111,14 +116,17 @@ html::Figure curves_figure(const AveragedDesignReport& report) {
     marks.push_back(plot::line({{"x", x}, {"y", y}, {"life", x}, {"stress", y}}, look));
   }
   const auto [x, y] = curve([](const DesignPoint& point) { return point.averaged.front(); });
-  marks.push_back(plot::line({{"x", x}, {"y", y}, {"life", x}, {"stress", y}},
-                             {plot::colour::limit, "averaged", 1, 3, true}));
+  if (!of_one(report))
+    marks.push_back(plot::line({{"x", x}, {"y", y}, {"life", x}, {"stress", y}},
+                               {plot::colour::limit, "averaged", 1, 3, true}));
   const SnResult& first = first_of(report);
   return {
       "averaged-design", "Design curves: life against stress",
-      fmt::format("{}{}. The thick line is averaged over the models, the others are those of each "
-                  "model, paler if its weight is negligible.",
-                  report.question.levels.front().name, line_text(report)),
+      fmt::format("{}{}.{}", report.question.levels.front().name, line_text(report),
+                  of_one(report)
+                      ? ""
+                      : " The thick line is averaged over the models, the others are those of each "
+                        "model, paler if its weight is negligible."),
       plot::plot("Design curves of each model and their average",
                  {fmt::format("Life [{}]", html::unit(first.life_unit.text)), true},
                  {fmt::format("Alternating stress [{}]", html::unit(first.stress_unit.text)), true},
@@ -189,6 +197,10 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
     const DesignPoint& point = report.points[i];
     rows.push_back({fmt::format("at {:.4g} {}", in_stress(report, point.stress.alternating),
                                 first.stress_unit.text)});
+    if (of_one(report)) {
+      add(first.title, point.averaged);
+      continue;
+    }
     add("averaged", point.averaged);
     add("most cautious with weight", point.cautious);
     for (std::size_t m = 0; m < point.models.size(); ++m)
@@ -196,8 +208,10 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
           point.models[m]);
   }
   std::string text =
-      fmt::format("Design curves averaged over {} models, life [{}]{}\n", report.from.models.size(),
-                  first.life_unit.text, line_text(report)) +
+      fmt::format(
+          "Design curves{}, life [{}]{}\n",
+          of_one(report) ? "" : fmt::format(" averaged over {} models", report.from.models.size()),
+          first.life_unit.text, line_text(report)) +
       text_table(rows) + wrapped(printable(weights_text(report)), 2, 4);
   text += "\nChecks\n";
   text += checks_text(averaged_design_checks(report));
@@ -211,11 +225,12 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
 
 std::vector<present::Section> averaged_design_sections(const AveragedDesignReport& report) {
   present::Section design{"design", "Design curves"};
-  design.add(
-      present::Prose{"The life that this share of the items outlasts with this confidence, "
-                     "averaged over the uncertainty of the model. " +
-                         weights_text(report),
-                     true});
+  design.add(present::Prose{
+      fmt::format("The life that this share of the items outlasts with this "
+                  "confidence{}. ",
+                  of_one(report) ? "" : ", averaged over the uncertainty of the model") +
+          weights_text(report),
+      true});
   for (const Check& check : averaged_design_checks(report)) {
     if (check.verdict == Verdict::pass) continue;
     design.add(present::Callout{verdict_kind(check.verdict), check.name,

@@ -225,15 +225,17 @@ class CountedTable {
 
 Block read_block(const BlockChoice& choice) {
   if (choice.signal.column.empty()) {
-    const CountedTable headings(choice, ColumnStream(choice.signal.file).columns());
+    const Table* const table = choice.signal.table;
+    const CountedTable headings(choice, signal_headings(choice.signal));
     if (headings.is_one() && !choice.signal.time.empty())
       throw InputError(fmt::format(
           "{} is a table of counted cycles, which has no times: remove --time and give the use of "
           "one block with --block; or for a signal name its column: --column NAME",
-          choice.signal.file.string()));
-    if (headings.is_one()) return CountedTable(choice, read_table(choice.signal.file)).read();
+          choice.signal.source()));
+    if (headings.is_one())
+      return CountedTable(choice, table ? *table : read_table(choice.signal.file)).read();
     if (headings.doubtful())
-      throw InputError(fmt::format("{}: {}", choice.signal.file.string(), headings.doubt()));
+      throw InputError(fmt::format("{}: {}", choice.signal.source(), headings.doubt()));
   }
   return counted_signal(choice);
 }

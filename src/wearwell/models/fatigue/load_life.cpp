@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/monitor.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/predict/cell_mixture.h"
@@ -247,7 +248,8 @@ void add_extrapolation(const SnResult& result, const LoadCycles& cycles, LoadLif
 
 }  // namespace
 
-LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question) {
+LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question,
+                   const std::stop_token& stop) {
   refuse_what_has_no_sum(result.law, question.rule);
   const Draws draw(result, cycles, question);
   std::vector<Drawn> drawn(static_cast<std::size_t>(result.posterior.values.rows()));
@@ -256,8 +258,10 @@ LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQ
   std::vector<std::vector<double>> sums((drawn.size() + block - 1) / block,
                                         std::vector<double>(cycles.size(), 0));
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t b) {
-    for (std::size_t i = b * block; i < std::min(drawn.size(), (b + 1) * block); ++i)
+    for (std::size_t i = b * block; i < std::min(drawn.size(), (b + 1) * block); ++i) {
+      if (stop.stop_requested()) throw Cancelled();
       drawn[i] = draw(static_cast<Eigen::Index>(i), sums[b]);
+    }
   });
   LoadLife life;
   life.draws = drawn.size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,9 @@ struct LoadLife {
 };
 
 /// The number of cycles must be small (load_cycles.h, reduced). Throws InputError for a
-/// distribution for which damage cannot be summed, or a rule that needs a knee.
-LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question);
+/// distribution for which damage cannot be summed, or a rule that needs a knee; Cancelled.
+LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question,
+                   const std::stop_token& stop = {});
 
 /// Shares of the variance of `y` at weighted points due to the columns of their values, which may
 /// depend on each other: Shapley values of the best linear predictors (Song, Nelson and Staum

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/monitor.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
@@ -39,21 +41,43 @@ Heading load_heading(const Column& column) {
   return {column.name, "", false};
 }
 
-SignalFile::SignalFile(const SignalChoice& choice) : stream_(choice.file) {
-  choose(choice);
+Table signal_headings(const SignalChoice& choice) {
+  if (!choice.table) return ColumnStream(choice.file).columns();
+  Table headings{choice.table->source, {}};
+  for (const Column& column : choice.table->columns)
+    headings.columns.push_back({column.name, column.is_number, {}, {}, column.unit});
+  return headings;
+}
+
+SignalFile::SignalFile(const SignalChoice& choice)
+    : table_(choice.table), stop_(choice.stop), source_(choice.source()) {
+  if (!table_) {
+    stream_.emplace(choice.file);
+    source_ = stream_->source();
+  }
+  const Table headings = table_ ? signal_headings(choice) : stream_->columns();
+  choose(choice, headings);
   std::vector<std::string> columns = {column_};
   if (!choice.time.empty()) {
-    const Table table = stream_.columns();
-    const Column& times = table.column(choice.time);
+    const Column& times = headings.column(choice.time);
     time_ = times.name;
     time_unit_ = times.unit.empty() ? read_heading(times.name, "s").unit : times.unit;
     columns.push_back(time_);
   }
-  stream_.select(columns);
+  if (stream_) {
+    stream_->select(columns);
+    return;
+  }
+  for (const std::string& name : columns) {
+    chosen_.push_back(&table_->column(name));
+    if (!chosen_.back()->is_number)
+      throw InputError(
+          fmt::format("{}: column '{}' holds texts; a signal has numbers", source_, name));
+  }
+  batch_.columns.resize(chosen_.size());
 }
 
-void SignalFile::choose(const SignalChoice& choice) {
-  const Table table = stream_.columns();
+void SignalFile::choose(const SignalChoice& choice, const Table& table) {
   const Column* chosen = nullptr;
   if (!choice.column.empty()) {
     chosen = &table.column(choice.column);
@@ -94,8 +118,26 @@ void SignalFile::choose(const SignalChoice& choice) {
   unit_ = choice.unit;
 }
 
+void SignalFile::read_rows_in_memory() {
+  constexpr std::size_t most = 65'536;
+  batch_.first_row = row_;
+  batch_.rows = std::min(most, table_->rows - row_);
+  for (std::size_t c = 0; c < chosen_.size(); ++c) {
+    const auto from = chosen_[c]->numbers.begin() + static_cast<std::ptrdiff_t>(row_);
+    batch_.columns[c].assign(from, from + static_cast<std::ptrdiff_t>(batch_.rows));
+  }
+  row_ += batch_.rows;
+}
+
+bool SignalFile::read_batch() {
+  if (stop_.stop_requested()) throw Cancelled();
+  if (stream_) return stream_->next(batch_);
+  read_rows_in_memory();
+  return batch_.rows > 0;
+}
+
 std::span<const double> SignalFile::next() {
-  if (!stream_.next(batch_)) return {};
+  if (!read_batch()) return {};
   const std::vector<double>& samples = batch_.columns.front();
   bool good = true;
   for (const double x : samples) good &= std::abs(x) < largest;

@@ -3,19 +3,25 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "wearwell/input/column_stream.h"
 #include "wearwell/input/heading.h"
 
 namespace wearwell::fatigue {
 
-/// A column of a file, as named by the user.
+/// A column of a file or of a table in memory, as named by the user.
 struct SignalChoice {
   std::filesystem::path file;
-  std::string column = {};  ///< its heading; empty: the only numeric column that is not a time
-  std::string unit = {};    ///< if the heading has none
-  std::string time = {};    ///< a column of times for the check of gaps; empty for none
+  std::string column = {};       ///< its heading; empty: the only numeric column that is not a time
+  std::string unit = {};         ///< if the heading has none
+  std::string time = {};         ///< a column of times for the check of gaps; empty for none
+  const Table* table = nullptr;  ///< in memory, instead of the file; outlives its readers
+  std::stop_token stop = {};     ///< once requested, reading throws Cancelled
+
+  std::string source() const { return table ? table->source : file.string(); }
 };
 
 /// The name of a load and its unit, from a heading or from a unit beside it: "stress [MPa]" in any
@@ -23,13 +29,16 @@ struct SignalChoice {
 /// "stress_MPa" in one of a stress. Without a unit if there is none or it is ambiguous.
 Heading load_heading(const Column& column);
 
-/// A load signal in a file, piece by piece. Throws InputError that names file, row and column: no
+/// The headings of the file or table, without rows.
+Table signal_headings(const SignalChoice& choice);
+
+/// A load signal in a file or in memory, piece by piece. Throws InputError that names file, row and column: no
 /// such column or several, two units, no value (a gap), times that are not evenly spaced.
 class SignalFile {
  public:
   explicit SignalFile(const SignalChoice& choice);
 
-  const std::string& source() const { return stream_.source(); }
+  const std::string& source() const { return source_; }
   const std::string& column() const { return column_; }
   const std::string& unit() const { return unit_; }  ///< empty if unknown
   /// A column of times that was not checked for gaps; else empty.
@@ -44,10 +53,17 @@ class SignalFile {
   std::span<const double> next();
 
  private:
-  void choose(const SignalChoice& choice);
+  void choose(const SignalChoice& choice, const Table& headings);
+  bool read_batch();
+  void read_rows_in_memory();
   void check_times();
 
-  ColumnStream stream_;
+  std::optional<ColumnStream> stream_;  // of a file
+  const Table* table_ = nullptr;        // in memory
+  std::vector<const Column*> chosen_;   // of the table
+  std::size_t row_ = 0;                 // of the table: the next one
+  std::stop_token stop_;
+  std::string source_;
   ColumnStream::Batch batch_;
   std::string column_, unit_, time_, unread_times_;
   std::string time_unit_;

@@ -8,6 +8,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/json_reader.h"
 #include "wearwell/prognosis/carried_state.h"
+#include "wearwell/study/header_json.h"
 #include "wearwell/study/saved_result.h"
 
 namespace wearwell::fatigue {
@@ -102,22 +103,21 @@ nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data) {
   return json;
 }
 
-SnResult read_sn_result(const std::filesystem::path& folder) {
-  const SavedResult saved = read_saved_result(folder);
-  const std::filesystem::path file = summary_file(folder);
-  if (saved.header.model != "sn")
-    throw InputError(
-        fmt::format("{}: its model is \"{}\"; this command needs an S-N curve, model \"sn\"",
-                    folder.string(), saved.header.model));
-  const Json summary = read_json(file);
+SnResult sn_result_of(const Json& summary, const std::filesystem::path& file,
+                      const std::string& name,
+                      const std::function<prognosis::CarriedState()>& read_state) {
   const JsonReader root(summary, file);
+  const Header header = read_header(root);
+  if (header.model != "sn")
+    throw InputError(fmt::format("{}: its model is \"{}\"; an S-N curve is needed, model \"sn\"",
+                                 name, header.model));
   const auto json = root.find("fatigue");
   if (!json)
     throw InputError(fmt::format(
         "{} has no \"fatigue\": an earlier wearwell wrote it; fit the study again", file.string()));
-  SnResult result{saved.header.title,
-                  saved.header.equation,
-                  saved.header.trusted,
+  SnResult result{header.title,
+                  header.equation,
+                  header.trusted,
                   read_law(*json),
                   {},
                   {},
@@ -136,15 +136,22 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   span.tests = static_cast<int>(tested.at("tests").integer(1, 1 << 30));
   span.failures = static_cast<int>(tested.at("failures").integer(0, span.tests));
 
-  for (const ParameterSummary& each : saved.parameters) result.parameters.push_back(each.name);
+  for (const auto& [parameter, each] : root.at("parameters").members())
+    result.parameters.push_back(parameter);
   if (std::ssize(result.parameters) != result.law.dimension())
     throw InputError(fmt::format("{}: {} parameters do not match the named model", file.string(),
                                  result.parameters.size()));
-  prognosis::CarriedState state = prognosis::read_state(folder);
+  prognosis::CarriedState state = read_state();
   prognosis::require_parameters(state, result.parameters);
   result.posterior.values = std::move(state.posterior.values);
   result.posterior.weights = std::move(state.posterior.weights);
   return result;
+}
+
+SnResult read_sn_result(const std::filesystem::path& folder) {
+  const std::filesystem::path file = summary_file(folder);
+  return sn_result_of(read_json(file), file, folder.string(),
+                      [&] { return prognosis::read_state(folder); });
 }
 
 }  // namespace wearwell::fatigue

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_law.h"
+#include "wearwell/prognosis/carried_state.h"
 
 namespace wearwell::fatigue {
 
@@ -34,6 +36,12 @@ struct SnResult {
 
 /// The entry "fatigue" that `fit` writes to summary.json: the model's options and the tested range.
 nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data);
+
+/// A study from its summary.json and its saved state; `name` is its name in messages, `file` that of the
+/// summary. Throws InputError as below.
+SnResult sn_result_of(const nlohmann::ordered_json& summary, const std::filesystem::path& file,
+                      const std::string& name,
+                      const std::function<prognosis::CarriedState()>& state);
 
 /// Reads summary.json and the posterior of state.bin. Throws InputError for a folder without
 /// results, of another model, or of an earlier version.
