@@ -221,6 +221,7 @@ class Predictions {
                                    [](double y) { return y; },
                                    function_of(program),
                                    {}});
+      study_.quantities.back().with_mean = true;
     }
   }
 
