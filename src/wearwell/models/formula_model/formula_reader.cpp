@@ -277,7 +277,7 @@ class Reader {
     static const std::regex call(R"((coffin_manson|norris_landzberg)\s*\(\s*(\w+)\s*,\s*(\w+))");
     for (const std::string& text : texts_) {
       for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it) {
-        for (const std::string name : {(*it)[2].str(), (*it)[3].str()}) {
+        for (const std::string& name : std::vector<std::string>{(*it)[2], (*it)[3]}) {
           const NumberColumn* column = model_->data.number(name);
           if (column && column->unit.unit.offset != 0)
             root_.required_table("data").required_table("columns").fail(
