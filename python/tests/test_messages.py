@@ -21,6 +21,7 @@ from wearwell._messages import in_arguments
     ("is not possible with `wearwell plan next`: more", "is not possible with wearwell.plan.next: more"),
     ("are for the command line (wearwell plan inspect, wearwell decide)", "are for the command line (wearwell plan inspect, wearwell decide)"),
     ("  with --rows here, or in tables/coverage.csv", "  in tables/coverage.csv"),
+    ("44 more rows: -o writes all to tables/inspections.csv", '44 more rows: tables["inspections"] has all'),
     ("columns '--draws', a--draws and --draws=3 stay", "columns '--draws', a--draws and --draws=3 stay")])
 def test_options_become_arguments(text, python):
     assert in_arguments(text) == python

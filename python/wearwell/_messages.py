@@ -30,9 +30,10 @@ _functions = re.compile(r"`?\bwearwell (plan (?:next|size|inspect|demonstrate|ac
 
 def in_arguments(message):
     """A message, a check's advice or a report in text, with arguments and functions in place of options and commands."""
-    if "--" not in message and "wearwell " not in message:
+    if not re.search(r"--|-o |wearwell ", message):
         return message
     message = message.replace("fitted with --no-report", "fitted with report=False")
+    message = re.sub(r"-o writes all to tables/([\w-]+)\.csv", r'tables["\1"] has all', message)
     message = re.sub(r"with --rows here,\s+or in", "in", message)
     message = re.sub(r"\bwearwell update \S+ TESTS -o NEW", "wearwell.update(fit, tests)", message)
     message = message.replace("wearwell decide --inspect-after", "wearwell.decide(inspect_after=...)")

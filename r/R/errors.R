@@ -7,8 +7,9 @@ stop_input <- function(...) stop(condition(paste0(...), "wearwell_input_error", 
 # A message, a check's advice or a report in text, with arguments and functions in place of options and commands. What
 # stands in quotes is the user's text.
 in_arguments <- function(text) {
-  if (!any(grepl("--|wearwell ", text))) return(text)
+  if (!any(grepl("--|-o |wearwell ", text))) return(text)
   text <- gsub("fitted with --no-report", "fitted with report = FALSE", text, fixed = TRUE)
+  text <- gsub("-o writes all to tables/([\\w-]+)\\.csv", "tables[[\"\\1\"]] has all", text, perl = TRUE)
   text <- gsub("with --rows here,\\s+or in", "in", text, perl = TRUE)
   text <- gsub("\\bwearwell update \\S+ TESTS -o NEW", "ww_update(fit, tests)", text, perl = TRUE)
   text <- gsub("wearwell decide --inspect-after", "ww_decide(inspect_after = ...)", text, fixed = TRUE)

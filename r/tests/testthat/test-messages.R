@@ -12,6 +12,7 @@ test_that("options become arguments", {
     "is not possible with `wearwell plan next`: more" = "is not possible with ww_plan_next: more",
     "are for the command line (wearwell plan inspect, wearwell decide)" = "are for the command line (wearwell plan inspect, wearwell decide)",
     "  with --rows here, or in tables/coverage.csv" = "  in tables/coverage.csv",
+    "44 more rows: -o writes all to tables/inspections.csv" = "44 more rows: tables[[\"inspections\"]] has all",
     "columns '--draws', a--draws and --draws=3 stay" = "columns '--draws', a--draws and --draws=3 stay")
   expect_identical(wearwell:::in_arguments(names(texts)), unname(texts))
   expect_identical(wearwell:::in_arguments(unname(texts)), unname(texts))
