@@ -129,8 +129,9 @@ class FitTables:
             A row for each quantity. Columns: ``name``, ``of`` (which item or population), ``at`` (under which
             conditions), ``unit``, ``is_life``; posterior quantiles ``q05``, ``q50``, ``q95``; of lives the B-lives
             ``b1``, ``b10``, ``b50`` averaged over the posterior; of B-lives over all items ``predictive`` (B-life of
-            the next item) and ``bound`` (lower bound that is exceeded with probability ``credible_level``). Infinity
-            is a life that never ends; NaN is a number that the quantity does not have.
+            the next item) and ``bound`` (lower bound that is exceeded with probability ``credible_level``); of
+            functions of the parameters ``mean``. Infinity is a life that never ends; NaN is a number that the
+            quantity does not have.
 
         Examples
         --------

@@ -57,13 +57,13 @@ def _lives_and_quantities(summary):
             "name": each["name"], "of": each["of"], "at": each["at"], "unit": each["unit"], "is_life": is_life,
             **{q: (_life if is_life else _number)(each[q]) if q in each else _nan for q in _quantiles},
             "predictive": _number(each.get("predictive")), "bound": _number(each.get("bound")),
-            "credible_level": _number(each.get("credible_level"))})
+            "credible_level": _number(each.get("credible_level")), "mean": _number(each.get("mean"))})
     return rows
 
 
 def quantities(summary):
     return _frame(_lives_and_quantities(summary),
-                  ["name", "of", "at", "unit", "is_life", *_quantiles, "predictive", "bound", "credible_level"])
+                  ["name", "of", "at", "unit", "is_life", *_quantiles, "predictive", "bound", "credible_level", "mean"])
 
 
 def lives(summary):

@@ -120,7 +120,7 @@ quantities_of <- function(summary) {
   is_life <- vapply(rows, function(row) !is.null(row$b10), NA)
   frame <- cbind(data.frame(name = column(rows, "name", ""), of = column(rows, "of", ""), at = column(rows, "at", ""),
                             unit = column(rows, "unit", ""), is_life = is_life),
-                 numbers_of(rows, c(quantiles, "predictive", "bound", "credible_level")))
+                 numbers_of(rows, c(quantiles, "predictive", "bound", "credible_level", "mean")))
   for (key in quantiles) {
     never <- is_life & vapply(rows, function(row) !is.null(row[[key]]) && is.na(row[[key]]), NA)
     frame[[key]][never] <- Inf
@@ -130,7 +130,7 @@ quantities_of <- function(summary) {
 
 lives_of <- function(summary) {
   frame <- quantities_of(summary)
-  frame <- frame[frame$is_life, setdiff(names(frame), "is_life")]
+  frame <- frame[frame$is_life, setdiff(names(frame), c("is_life", "mean"))]
   if (!is.null(summary$life)) {
     entry <- summary$life
     if (is.null(entry$q50)) entry$q50 <- entry$b50

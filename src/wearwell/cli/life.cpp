@@ -199,8 +199,11 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
     fmt::print("  probability that it never ends: {}\n", probability_text(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
     fmt::print("  check {}: {}\n", each.place, each.why);
-  fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), unit,
-             shown(life.quantile(0.05)), shown(life.quantile(0.95)), unit);
+  const auto with_unit = [&](double value) {
+    return std::isfinite(value) ? shown(value) + " " + unit : shown(value);
+  };
+  fmt::print("  median {}, {} to {} (90 %)\n", with_unit(life.quantile(0.5)),
+             shown(life.quantile(0.05)), with_unit(life.quantile(0.95)));
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.numerical_error.value_or(0) > least_numerical_error)
@@ -209,8 +212,8 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   if (life.horizon)
     fmt::print("  probability of reaching the end within {} {}: {}\n", plain_given(*life.horizon),
                unit, probability_text(*life.reached));
-  fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
-             shown(life.inspect_within), unit, probability_text(life.risk));
+  fmt::print("  inspect again within {}: {} risk of reaching the end before\n",
+             with_unit(life.inspect_within), probability_text(life.risk));
 }
 
 // The name of a part may also be that of a stress.

@@ -8,8 +8,8 @@
 
 namespace wearwell::plan {
 
-/// Throws InputError where a study of lives has subpopulations or shares that never fail or are dead on arrival: tests of such
-/// populations cannot be planned. `command` is "wearwell plan next".
+/// Throws InputError where a study of lives has subpopulations or shares that never fail or are dead on arrival, or step-stress tests: tests of such
+/// kinds cannot be planned. `command` is "wearwell plan next".
 inline void refuse_mixtures(const TomlReader& root, const std::string& command) {
   const std::string why = fmt::format(
       "is not possible with `{}`; plan with a study of one population in which every part can fail",
@@ -20,6 +20,7 @@ inline void refuse_mixtures(const TomlReader& root, const std::string& command) 
     const TomlReader own = likelihoods->required_table(column);
     for (const char* key : {"share_defective", "share_dead_on_arrival"})
       if (own.has(key)) own.fail(key, why);
+    if (own.has("steps")) own.fail("steps", fmt::format("is not possible with `{}`", command));
   }
 }
 

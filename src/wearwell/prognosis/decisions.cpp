@@ -90,14 +90,17 @@ Decisions decide(const KnownLives& lives, const Question& question) {
   decisions.age = cheapest_age(lives.fresh, question.costs);
   decisions.reference = decisions.age->rate;
   if (question.claims) decisions.warranty = longest_warranty(lives.fresh, *question.claims);
-  if (question.hidden) {
+  if (question.hidden || question.inspected) {
     for (const WeightedLives& each : lives.fresh.lives) {
-      if (!std::isfinite(each.points().back()))
-        throw InputError(
-            fmt::format("{}: some {} never fail, so an undetected failure has no long-run cost; "
-                        "leave out the cost of downtime",
-                        lives.title, plural(lives.noun)));
+      if (!each.points().empty() && !std::isfinite(each.points().back()))
+        throw InputError(fmt::format(
+            "{}: some {} never fail, so {} has no long-run cost; leave out the cost of {}",
+            lives.title, plural(lives.noun),
+            question.hidden ? "an undetected failure" : "inspection until failure",
+            question.hidden ? "downtime" : "an inspection"));
     }
+  }
+  if (question.hidden) {
     decisions.inspection = cheapest_hidden_interval(lives.fresh, question.costs, *question.hidden);
   } else if (question.inspected) {
     decisions.inspection = cheapest_interval(lives.fresh, question.costs);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "wearwell/base/error.h"
@@ -66,8 +67,16 @@ std::string level_of(const std::string& parameter) {
              : parameter.substr(open + 1, parameter.size() - open - 2);
 }
 
+// Whether a cell is the word, or has it among several: "A|B".
 bool holds(const Column& column, std::size_t row, const std::string& word) {
-  return !column.is_number && column.text[row].find(word) != std::string::npos;
+  if (column.is_number) return false;
+  std::istringstream cell(column.text[row]);
+  for (std::string part; std::getline(cell, part, '|');) {
+    const std::size_t first = part.find_first_not_of(' ');
+    if (first != part.npos && part.substr(first, part.find_last_not_of(' ') - first + 1) == word)
+      return true;
+  }
+  return false;
 }
 
 // The first new row that has the word, and the column.

@@ -109,7 +109,9 @@ double WeightedLives::cdf(double x) const {
   const double done = cumulated_[i - 1] + 0.5 * weight_[i - 1];
   if (i == life_.size() || life_[i - 1] == infinity || life_[i] == infinity) return done;
   const double share = (x - life_[i - 1]) / (life_[i] - life_[i - 1]);
-  return cumulated_[i - 1] + share * (cumulated_[i] - cumulated_[i - 1]);
+  const double between = cumulated_[i - 1] + share * (cumulated_[i] - cumulated_[i - 1]);
+  // Lives of 0 have ended at once; they are not spread over a cell.
+  return life_.front() == 0 ? std::max(weight_.front(), between) : between;
 }
 
 double WeightedLives::quantile(double p) const {

@@ -61,6 +61,7 @@ Json to_json(const QuantityQuantiles& q, bool is_life) {
   if (is_life) json.update({{"b1", q.b1}, {"b10", q.b10}, {"b50", q.b50}});
   if (q.predictive) json["predictive"] = *q.predictive;
   if (q.bound) json["bound"] = *q.bound;
+  if (q.mean) json["mean"] = *q.mean;
   if (q.numerical_error) json["numerical_error"] = *q.numerical_error;
   return json;
 }

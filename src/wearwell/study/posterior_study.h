@@ -75,6 +75,7 @@ struct QuantityRequest {
   /// The conservative quantile for design: 0.05 of a life, 0.95 of a required length.
   std::optional<double> safe_end = {};
   bool headline = false;  ///< one of the main answers of the study
+  bool with_mean = false;  ///< the posterior mean is reported, too
 };
 
 /// The predictive distribution of a life, SI, from where it counts on, given that the unit has survived until there.

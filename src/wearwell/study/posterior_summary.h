@@ -79,6 +79,7 @@ struct QuantityQuantiles {
   /// Estimated largest relative change of these numbers if they were summed over the whole
   /// posterior (study/numerical_error.h). Empty if they are.
   std::optional<double> numerical_error = {};
+  std::optional<double> mean = {};  ///< of a function of the parameters: its posterior mean
 };
 
 struct QuantitySummary {

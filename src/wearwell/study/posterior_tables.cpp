@@ -158,6 +158,9 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
   // If there are lower bounds, they are the design values.
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.best().bound.has_value(); });
+  const bool means = std::any_of(quantities.begin(), quantities.end(),
+                                 [](const auto& each) { return each.best().mean.has_value(); });
+  if (means) table.columns.push_back({"Mean"});
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
@@ -168,6 +171,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
         {each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50), value(q.q95),
          bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
          each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
+    if (means) table.rows.back().push_back(q.mean ? value(*q.mean) : Cell());
   }
   add_numerical_errors(table, quantities, false);
   return table;

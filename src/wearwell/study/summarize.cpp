@@ -62,7 +62,7 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
   for (double* each : {&q.q05, &q.q50, &q.q95, &q.b1, &q.b10, &q.b50}) {
     *each = from_si(unit, *each);
   }
-  for (std::optional<double>* each : {&q.predictive, &q.bound}) {
+  for (std::optional<double>* each : {&q.predictive, &q.bound, &q.mean}) {
     if (*each) *each = from_si(unit, **each);
   }
   return q;
@@ -87,6 +87,10 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
     result.b1 = quantile(0.01);
     result.b10 = quantile(0.1);
     result.b50 = result.q50;
+  }
+  if (request.with_mean) {
+    const auto of_value = [&](const double* x) { return request.value(request.driver(x)); };
+    result.mean = from_si(request.unit, QuantityDistribution(draws, of_value).mean());
   }
   return result;
 }

@@ -155,6 +155,9 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows = {{"", "5 %", "50 %", "95 %"}};
   if (!bounds) rows[0].push_back("design with");
   rows[0].insert(rows[0].end(), {"B1", "B10"});
+  const bool means = std::any_of(quantities.begin(), quantities.end(),
+                                 [](const auto& each) { return each.best().mean.has_value(); });
+  if (means) rows[0].push_back("mean");
   std::string above;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
@@ -174,6 +177,7 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
                                            : shown_value(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
+    if (means) rows.back().push_back(q.mean ? shown_value(*q.mean) : "-");
   }
   if (rows.size() == 1) return "";
   return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +

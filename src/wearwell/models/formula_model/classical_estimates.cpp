@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "wearwell/models/formula_model/classical_quantities.h"
@@ -132,7 +133,12 @@ ClassicalGroup classical_group(const AskedOfClassics& asked, const LifeGroup& gr
             !(y.entry > -infinity);
     items += group.counts[i];
   }
-  const ResponseForm& form = *asked.model->measured.front().form;
+  const std::vector<Measured>& measured = asked.model->measured;
+  const ResponseForm& form = *measured.front().form;
+  // The lines have the parameters of one family; a mode of another one has none.
+  const bool one_mode = asked.model->modes && std::has_single_bit(group.modes);
+  if (one_mode && measured[static_cast<std::size_t>(std::countr_zero(group.modes))].form != &form)
+    return found;
   if (!plain || items > most_ranked || !form.paper.straight) return found;
   for (const MedianRanks ranks : {MedianRanks::exact, MedianRanks::benard}) {
     const auto fit = rank_regression(ranked_failures(group.responses, group.counts, ranks),

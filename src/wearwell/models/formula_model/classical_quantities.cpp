@@ -18,7 +18,7 @@ std::string without_level(const std::string& name) {
   return name.substr(0, name.find('['));
 }
 
-double same(double y) {
+double identity(double y) {
   return y;
 }
 double exponential(double y) {
@@ -42,7 +42,7 @@ ScaledQuantity life_quantity(const ClassicalLife& own, const std::string& name,
               return positive ? std::log(found) : found;
             };
           },
-          positive ? exponential : same,
+          positive ? exponential : identity,
           [life = own.life, posterior, argument](const WeightedDraws& draws) {
             return posterior(*life, draws, argument).distribution;
           }};
@@ -114,7 +114,7 @@ ScaledQuantity scaled_parameter(const Parameter& parameter, std::size_t i, Norma
           parameter.unit,
           logarithm ? "log" : "natural",
           {},
-          logarithm ? exponential : same,
+          logarithm ? exponential : identity,
           [i](const WeightedDraws& draws) {
             return QuantityDistribution(draws, [i](const double* x) { return x[i]; });
           }};

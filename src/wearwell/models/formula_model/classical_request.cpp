@@ -81,6 +81,12 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
                        "regression and Kaplan-Meier take all items as independent");
   if (model.measured.size() > 1 && !model.modes)
     asked.predict.fail("classical", "is for one measured life; this study has several");
+  if (!model.measured.front().life.plain())
+    asked.predict.fail("classical",
+                       "is for one distribution of lives, without shares or subpopulations");
+  if (model.steps)
+    asked.predict.fail("classical",
+                       "is for lives under constant conditions, not for a step-stress test");
   const ClassicalLevel level{asked.part.levels.credible_level, reads_two_sides(asked.predict)};
   if (!(level.within() > 0))
     asked.predict.fail("credible_level",

@@ -131,6 +131,7 @@ std::vector<Driver> drivers_of(const FormulaModel& model) {
   std::vector<Driver> all;
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
     const std::string& name = model.row_symbols.columns[c].name;
+    if (model.steps && name == model.steps->duration) continue;  // the life itself
     if (changes(model, model.data.number(name)->values)) continue;
     bool used = false, whole = true;
     Driver driver{name, {}};

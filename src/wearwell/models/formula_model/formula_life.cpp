@@ -308,6 +308,17 @@ LifeDistribution::Known LifeDistribution::ratio(const WeightedDraws& draws,
       share_of_points);
 }
 
+LifeDistribution::Known LifeDistribution::ratio_of_middles(const WeightedDraws& draws,
+                                                           const LifeDistribution& other,
+                                                           double share_of_points) const {
+  return compared(
+      draws, other,
+      [](const LifeAtPoint& here, const LifeAtPoint& there) {
+        return here.middle() / there.middle();
+      },
+      share_of_points);
+}
+
 LifeDistribution::Known LifeDistribution::survival_difference(const WeightedDraws& draws,
                                                               const LifeDistribution& other,
                                                               double life,

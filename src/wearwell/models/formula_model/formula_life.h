@@ -75,6 +75,9 @@ class LifeDistribution {
   /// The p-quantile over that of `other`.
   Known ratio(const WeightedDraws& draws, const LifeDistribution& other, double p,
               double share_of_points = 1) const;
+  /// The same of the lives in the middle of those that end (LifeAtPoint::middle).
+  Known ratio_of_middles(const WeightedDraws& draws, const LifeDistribution& other,
+                         double share_of_points = 1) const;
   /// The share that outlasts a life, less that of `other`.
   Known survival_difference(const WeightedDraws& draws, const LifeDistribution& other, double life,
                             double share_of_points = 1) const;

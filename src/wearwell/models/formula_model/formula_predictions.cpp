@@ -103,6 +103,11 @@ class Predictions {
     std::shared_ptr<const LifeDistribution> fast, other;
     std::string fast_words, other_words;
     if (const auto compared = predict_.table("compared_with")) {
+      if (measured.life.limited || measured.life.dead)
+        predict_.fail(
+            "compared_with",
+            "is not possible with share_defective or share_dead_on_arrival, where lives have "
+            "no ratio; compare two results by wearwell life --against");
       const Conditions conditions = read_conditions(*compared, *model_);
       other_words = conditions.words;
       other = life_distribution(predict_, "compared_with", model_,
@@ -221,6 +226,7 @@ class Predictions {
                                    [](double y) { return y; },
                                    function_of(program),
                                    {}});
+      study_.quantities.back().with_mean = true;
     }
   }
 

@@ -95,6 +95,7 @@ class Reader {
     choose_units();
     read_along();
     read_symbols();
+    refuse_ranges_in_celsius();
     read_parameters();
     add_drawn_effects(root_, drawn_, *model_);
     read_effects();
@@ -228,6 +229,11 @@ class Reader {
     for (const char* share : {"share_defective", "share_dead_on_arrival"})
       if (table.has(share)) table.fail(share, "is not possible with steps");
     if (written_.size() > 1) table.fail("steps", "needs one measured column, the life");
+    if (special_columns(model_->data).entry)
+      table.fail("steps",
+                 "is not possible with data.columns.entry: a step-stress test begins at 0");
+    if (const auto predict = root_.table("predict"); predict && predict->has("along"))
+      predict->fail("along", "is not possible with steps, which are in the order of their ages");
     if (!model_->data.label(model_->steps->label))
       table.fail("steps", "must name the column of the specimens under data.columns");
     if (!model_->data.number(life.column)) fail_without_column(life);
@@ -264,6 +270,29 @@ class Reader {
     model_->lines = lines.lines();
     written_.front() =
         mixture_of(root_, *model_->subpopulations, written_.front(), of_subpopulations_, lines);
+  }
+
+  // A difference of temperatures has no zero in degrees Celsius: 100 degC would be 373 K.
+  void refuse_ranges_in_celsius() const {
+    static const std::regex call(R"((coffin_manson|norris_landzberg)\s*\(\s*(\w+)\s*,\s*(\w+))");
+    for (const std::string& text : texts_) {
+      for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it) {
+        for (const std::string name : {(*it)[2].str(), (*it)[3].str()}) {
+          const NumberColumn* column = model_->data.number(name);
+          if (column && column->unit.unit.offset != 0)
+            root_.required_table("data").required_table("columns").fail(
+                name, fmt::format("is the range of {}, a difference of temperatures: give it in K, "
+                                  "not in {}",
+                                  (*it)[1].str(), column->unit.unit.text));
+          const auto constants = root_.table("constants");
+          if (constants && constants->is_text(name) &&
+              formula::read_any_quantity(constants->required_text(name)).quantity.unit.offset != 0)
+            constants->fail(name, fmt::format("is the range of {}, a difference of temperatures: "
+                                              "give it in K",
+                                              (*it)[1].str()));
+        }
+      }
+    }
   }
 
   // Replaces the one likelihood by those of the failure modes, and the lines that depend on the mode by

@@ -314,7 +314,10 @@ void require_numbers(const FormulaModel& model) {
     const auto fault =
         bound.measured->program.first_fault(bound.data, 0, bound.data.rows(), {x, {}});
     if (!fault) continue;
-    const std::size_t row = bound.measured->observed.rows[bound.term[fault->row]];
+    const std::vector<std::size_t>& rows = bound.measured->observed.rows;
+    const std::size_t term = bound.term[fault->row];
+    // Rows without an observation only continue a path, which has all rows in order.
+    const std::size_t row = term < rows.size() ? rows[term] : model.order[fault->row];
     throw InputError(fmt::format("{}{}: {} in '{}' ({}), at the start values of the parameters",
                                  model.data.table.source,
                                  fault->uniform ? "" : fmt::format(", row {}", row + 1), fault->why,
@@ -357,6 +360,8 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   tell_data(*model, study);
   if (model->has_random_effects()) {
     study.observation = *model->label;
+  } else if (model->steps) {
+    study.observation = model->steps->label;
   } else if (model->has_process()) {
     study.observation =
         model->symbols.labels.size() == 1 ? model->symbols.labels.front().name : "unit";
@@ -368,7 +373,9 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   };
   study.fit_data = formula_model::fit_data(rows);
   study.checks = [rows](const Fit& fit) {
-    return std::vector<Check>{formula_model::identified(*rows, rows->model().parameters, fit)};
+    std::vector<Check> all = {formula_model::identified(*rows, rows->model().parameters, fit)};
+    if (rows->model().subpopulations) all.push_back(formula_model::told_apart(rows->model(), fit));
+    return all;
   };
   formula_model::tell_drawn_effects(model, study);
   formula_model::read_own_predictions(root, model, rows, study);

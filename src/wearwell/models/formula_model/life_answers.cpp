@@ -44,7 +44,7 @@ std::vector<std::function<Known()>> known_answers(const AskedOfLife& asked,
     all.push_back([=, &draws, &life] { return life.hazard(draws, each.si(), points); });
   if (asked.fast)
     all.push_back(
-        [=, &draws, &life, &asked] { return life.ratio(draws, *asked.fast, 0.5, points); });
+        [=, &draws, &life, &asked] { return life.ratio_of_middles(draws, *asked.fast, points); });
   return all;
 }
 

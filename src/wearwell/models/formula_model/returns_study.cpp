@@ -78,6 +78,9 @@ AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
 void add_returns(const TomlReader& root, const Source& source,
                  const std::shared_ptr<const FormulaModel>& model, PosteriorStudy& study) {
   if (!root.required_table("data").has("returns")) return;
+  if (study.addition)
+    root.required_table("predict").fail(
+        "classical", "is for a table of lives, not for a triangle of returns in [data.returns]");
   const AskedReturns asked = read_asked_returns(root, source, model);
   const std::shared_ptr<const FieldReturns>& returns = asked.returns;
   const std::vector<std::string> notes = notes_of_returns(*returns);

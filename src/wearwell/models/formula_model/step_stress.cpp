@@ -110,6 +110,8 @@ Observed last_steps(const StepStress& steps, const std::string& life, const Form
       const auto refuse = [&](const std::string& what) {
         throw InputError(fmt::format("{}: {}", place(data.table, ages.column, row), what));
       };
+      if (all.counts[row] != all.counts[rows.back()])
+        refuse("the steps of one specimen have one count");
       if (row != rows.back()) {
         if (response.seen != Censoring::right)
           refuse(

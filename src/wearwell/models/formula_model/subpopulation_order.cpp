@@ -1,5 +1,7 @@
 #include "wearwell/models/formula_model/subpopulation_order.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -54,15 +56,25 @@ SubpopulationOrder::SubpopulationOrder(const FormulaModel& model)
       family_parameters_(measured_.life.parameters()),
       log_median_(measured_.life.families.size()) {}
 
-double SubpopulationOrder::value(std::span<const double> x, std::span<double> gradient) {
+void SubpopulationOrder::find_medians(std::span<const double> x) {
   measured_.program.forward(data_, 0, 1, {x, {}}, workspace_);
   for (std::size_t o = 0; o < measured_.wanted.size(); ++o)
     family_parameters_[measured_.family_parameter[o]] = workspace_.values(o)[0];
   for (std::size_t k = 0; k < log_median_.size(); ++k) {
     log_median_[k] = std::log(quantile(measured_.life.families[k], 0.5,
                                        &family_parameters_[k * most_response_parameters]));
-    if (!std::isfinite(log_median_[k])) return -infinity;
   }
+}
+
+bool SubpopulationOrder::holds(std::span<const double> x) {
+  find_medians(x);
+  return std::is_sorted(log_median_.begin(), log_median_.end());
+}
+
+double SubpopulationOrder::value(std::span<const double> x, std::span<double> gradient) {
+  find_medians(x);
+  for (const double each : log_median_)
+    if (!std::isfinite(each)) return -infinity;
   const OrderTerm term = log_share_of_order(log_median_, sharpness);
   if (!gradient.empty()) add_gradient(x, term.slope, gradient);
   return term.value;
@@ -86,6 +98,39 @@ void SubpopulationOrder::add_gradient(std::span<const double> x,
   for (std::size_t o = 0; o < measured_.wanted.size(); ++o)
     workspace_.adjoints(o)[0] = slope[measured_.family_parameter[o]];
   measured_.program.reverse(data_, 0, 1, {x, {}}, workspace_, gradient);
+}
+
+Check told_apart(const FormulaModel& model, const Fit& fit) {
+  // Names in the other order throughout are told apart as well.
+  constexpr double sure = 0.99, enough = 0.95;
+  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
+  SubpopulationOrder order(model);
+  double share = 0;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    const std::span<const double> x(draws.values.row(i).data(),
+                                    static_cast<std::size_t>(draws.values.cols()));
+    if (order.holds(x)) share += draws.weights[i];
+  }
+  share /= draws.weights.sum();
+  const double apart = std::max(share, 1 - share);
+  Findings findings("subpopulations");
+  if (apart < sure) {
+    const bool exchangeable = model.subpopulations->exchangeable;
+    findings.add(
+        apart < enough && !exchangeable ? Verdict::fail : Verdict::warn,
+        fmt::format(
+            "the median lives are in the order of the names with a probability of {:.2g}: "
+            "parameters and lives of single subpopulations mix both; those of the part do not",
+            share),
+        exchangeable
+            ? "The data do not show several subpopulations clearly: compare with one distribution."
+            : "Give the subpopulations the same expressions and priors, so that they are ordered "
+              "by "
+              "their median lives, or priors that say which one is which.");
+  }
+  return findings.result(
+      fmt::format("the median lives are in {} order with a probability of {:.4g}",
+                  share > 0.5 ? "the named" : "the opposite", apart));
 }
 
 double log_orders(const FormulaModel& model) {

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "wearwell/infer/check.h"
+#include "wearwell/infer/fit.h"
 #include "wearwell/models/formula_model/formula_model.h"
 
 namespace wearwell::formula_model {
@@ -24,7 +26,11 @@ class SubpopulationOrder {
   /// The log factor; adds its derivatives to `gradient`, if it is not empty. One thread at a time.
   double value(std::span<const double> x, std::span<double> gradient = {});
 
+  /// Whether the medians at these parameters are in the order of the names.
+  bool holds(std::span<const double> x);
+
  private:
+  void find_medians(std::span<const double> x);
   void add_gradient(std::span<const double> x, std::span<const double> by_log_median,
                     std::span<double> gradient);
 
@@ -33,6 +39,10 @@ class SubpopulationOrder {
   formula::Workspace workspace_;
   std::vector<double> family_parameters_, log_median_;
 };
+
+/// Whether the posterior tells subpopulations apart: how often their medians are in the order of their names. One that
+/// mixes both orders has no parameters of "early" and "late".
+Check told_apart(const FormulaModel& model, const Fit& fit);
 
 /// ln K!: by how much the prior of ordered subpopulations is denser than the product of their priors; 0 without order.
 double log_orders(const FormulaModel& model);
