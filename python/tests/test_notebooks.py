@@ -15,8 +15,8 @@ pytest.importorskip("ipykernel")
 notebooks = sorted(glob.glob(os.path.join(source, "examples", "notebooks", "*.ipynb")))
 
 
-def test_there_is_one_for_each_preset():
-    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "formula", "joint"]
+def test_there_is_one_for_each_preset_and_each_tutorial():
+    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "fleet", "formula", "joint", "lasers", "life", "springs"]
 
 
 @pytest.mark.parametrize("notebook", notebooks, ids=lambda n: os.path.basename(n)[:-6])

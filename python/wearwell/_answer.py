@@ -7,6 +7,7 @@ import os
 from json import loads
 
 from . import _core
+from ._messages import in_arguments
 from ._notebook import html_of_plan
 
 
@@ -98,10 +99,10 @@ class Answer:
         _core.write_folder(os.fspath(folder), files)
 
     def __str__(self):
-        return self._text
+        return in_arguments(self._text)
 
     def __repr__(self):
         return f"<wearwell.{type(self).__name__} {self.title!r}>"
 
     def _repr_html_(self):
-        return html_of_plan(self.title, self._text, self._page)
+        return html_of_plan(self.title, str(self), self._page)

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from ._messages import in_arguments
+
 
 class Check(NamedTuple):
     """One check of a result: of the computation, of the model against the data, or of the question.
@@ -33,4 +35,4 @@ class Check(NamedTuple):
 
 def checks_of(summary):
     """The checks of summary.json."""
-    return [Check(c["name"], c["verdict"], c["detail"], c.get("advice", "")) for c in summary["checks"]]
+    return [Check(c["name"], c["verdict"], in_arguments(c["detail"]), in_arguments(c.get("advice", ""))) for c in summary["checks"]]

@@ -1,9 +1,11 @@
-"""Exceptions and warnings: the words are those of the command line."""
+"""Exceptions and warnings: the words are those of the command line, with arguments in place of its options."""
 
 import contextlib
 import os
 import sys
 import warnings
+
+from ._messages import in_arguments
 
 
 class InputError(ValueError):
@@ -20,6 +22,9 @@ class InputError(ValueError):
     ...     print(str(error).split(";")[0])
     median is list
     """
+
+    def __init__(self, *args):
+        super().__init__(*(in_arguments(each) if isinstance(each, str) else each for each in args))
 
 
 class MissingFileError(InputError, FileNotFoundError):
@@ -99,7 +104,7 @@ def warn(message):
     here, frame, level = os.path.dirname(__file__), sys._getframe(1), 2
     while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
         frame, level = frame.f_back, level + 1
-    warnings.warn(message, CheckWarning, stacklevel=level)
+    warnings.warn(in_arguments(message), CheckWarning, stacklevel=level)
 
 
 def warn_of(checks):

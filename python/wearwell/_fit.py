@@ -10,6 +10,7 @@ from ._fit_files import FitFiles
 from ._fit_following import FitFollowing
 from ._fit_lives import FitLives
 from ._fit_tables import FitTables
+from ._messages import in_arguments
 from ._notebook import html_of
 
 
@@ -107,7 +108,7 @@ class Fit(FitTables, FitAnswers, FitLives, FitFollowing, FitFiles):
 
     @functools.cached_property
     def _terminal(self):
-        return self._live().terminal()
+        return in_arguments(self._live().terminal())
 
     def __repr__(self):
         word = "trusted" if self.trusted else "not trusted"

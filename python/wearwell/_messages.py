@@ -1,4 +1,4 @@
-"""What the library says of keys of a study file, as arguments of a function."""
+"""What the library says of keys of a study file and of options of the command line, as arguments of a function."""
 
 import re
 
@@ -21,3 +21,24 @@ def in_python(message, arguments=None):
     for key, argument in sorted(arguments.items(), key=lambda each: -len(each[0])):
         message = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w])", argument, message)
     return re.sub(r"(?<![\w.])prior\.(?=[A-Za-z])", "priors: ", message)
+
+
+_option = re.compile(r"(?:(?<=[\s(])|\A)--([a-z][a-z-]*[a-z])(?![\w=-])")  # a quoted one is the user's text
+_words = re.compile(r"( ?)(?<![\w-])--(method|repeated)(\s+)(exact|nuts|metropolis|once|another)(?![\w-])")  # options whose values are few
+_functions = re.compile(r"`?\bwearwell (plan (?:next|size|inspect|demonstrate|accelerate)|decide|update)\b`?(?! -)")
+
+
+def in_arguments(message):
+    """A message, a check's advice or a report in text, with arguments and functions in place of options and commands."""
+    if not re.search(r"--|-o |wearwell ", message):
+        return message
+    message = message.replace("fitted with --no-report", "fitted with report=False")
+    message = re.sub(r"-o writes all to tables/([\w-]+)\.csv", r'tables["\1"] has all', message)
+    message = re.sub(r"with --rows here,\s+or in", "in", message)
+    message = re.sub(r"\bwearwell update \S+ TESTS -o NEW", "wearwell.update(fit, tests)", message)
+    message = message.replace("wearwell decide --inspect-after", "wearwell.decide(inspect_after=...)")
+    if "for the command line" not in message:
+        message = _functions.sub(lambda m: "wearwell." + m[1].replace(" ", "."), message)
+    # The blank of a wrapped line is kept: the line breaks there.
+    message = _words.sub(lambda m: (m[1] if m[3] == " " else m[3]) + f'{m[2]}="{m[4]}"', message)
+    return _option.sub(lambda m: m[1].replace("-", "_"), message)

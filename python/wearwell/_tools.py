@@ -6,6 +6,7 @@ import os
 from . import _core
 from ._data import headings_of, table_of
 from ._errors import InputError, warn_of
+from ._messages import in_arguments
 from ._check import checks_of
 from ._fitted import named_folders
 
@@ -97,7 +98,7 @@ class Selection:
         _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):
-        return self._text
+        return in_arguments(self._text)
 
     def __repr__(self):
         return f"<wearwell.Selection {self.summary['equation']!r}>"
@@ -247,7 +248,7 @@ class Comparison:
         _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):
-        return self._text
+        return in_arguments(self._text)
 
     def __repr__(self):
         return f"<wearwell.Comparison of {', '.join(s['study'] for s in self.summary['studies'])}>"

@@ -1,18 +1,40 @@
-# Conditions: the words are those of the command line.
+# Conditions: the words are those of the command line, with arguments in place of its options.
 
 condition <- function(message, ...) structure(class = c(..., "condition"), list(message = message, call = NULL))
 
 stop_input <- function(...) stop(condition(paste0(...), "wearwell_input_error", "wearwell_error", "error"))
 
+# A message, a check's advice or a report in text, with arguments and functions in place of options and commands. What
+# stands in quotes is the user's text.
+in_arguments <- function(text) {
+  if (!any(grepl("--|-o |wearwell ", text))) return(text)
+  text <- gsub("fitted with --no-report", "fitted with report = FALSE", text, fixed = TRUE)
+  text <- gsub("-o writes all to tables/([\\w-]+)\\.csv", "tables[[\"\\1\"]] has all", text, perl = TRUE)
+  text <- gsub("with --rows here,\\s+or in", "in", text, perl = TRUE)
+  text <- gsub("\\bwearwell update \\S+ TESTS -o NEW", "ww_update(fit, tests)", text, perl = TRUE)
+  text <- gsub("wearwell decide --inspect-after", "ww_decide(inspect_after = ...)", text, fixed = TRUE)
+  others <- !grepl("for the command line", text, fixed = TRUE)
+  text[others] <- gsub("`?\\bwearwell plan (next|size|inspect|demonstrate|accelerate)\\b`?(?! -)", "ww_plan_\\1", text[others], perl = TRUE)
+  text[others] <- gsub("`?\\bwearwell (decide|update)\\b`?(?! -)", "ww_\\1", text[others], perl = TRUE)
+  # Options whose values are few; the blank of a wrapped line is kept, the line breaks there.
+  few <- "(?<![\\w-])--(method|repeated)%s(exact|nuts|metropolis|once|another)(?![\\w-])"
+  text <- gsub(sprintf(few, " "), "\\1 = \"\\2\"", text, perl = TRUE)
+  text <- gsub(paste0(" ?", sprintf(few, "(\\s+)")), "\\2\\1 = \"\\3\"", text, perl = TRUE)
+  option <- "(?:^|(?<=[\\s(]))--([a-z][a-z-]*[a-z])(?![\\w=-])"
+  found <- gregexpr(option, text, perl = TRUE)
+  regmatches(text, found) <- lapply(regmatches(text, found), function(each) gsub("-", "_", substring(each, 3), fixed = TRUE))
+  text
+}
+
 # Calls the library. What it refuses comes as a value, and is raised here, where nothing of C++ stands on the stack.
 core <- function(door, ...) {
   found <- .Call(door, ...)
   if (inherits(found, "wearwell_failure"))
-    stop(condition(found[2], paste0("wearwell_", found[1], "_error"), "wearwell_error", "error"))
+    stop(condition(in_arguments(found[2]), paste0("wearwell_", found[1], "_error"), "wearwell_error", "error"))
   found
 }
 
-warn <- function(message) warning(condition(message, "wearwell_check_warning", "warning"))
+warn <- function(message) warning(condition(in_arguments(message), "wearwell_check_warning", "warning"))
 
 reason <- function(check) trimws(paste0(check$name, ": ", check$detail, ". ", check$advice), "right")
 

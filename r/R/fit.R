@@ -43,7 +43,7 @@ with_progress <- function(progress, work) {
 fit_of <- function(study, run, choice, report) {
   summary <- core(C_summary, run)
   fit <- list(study = study, summary = summary, trusted = summary$trusted, checks = checks_of(summary),
-              seed = summary$seed, text = core(C_terminal, run), choice = choice, report = report, live = living(run))
+              seed = summary$seed, text = in_arguments(core(C_terminal, run)), choice = choice, report = report, live = living(run))
   if (is_posterior(summary)) {
     fit$parameters <- parameters_of(summary)
     fit$predictions <- predictions_of(summary)
@@ -85,7 +85,7 @@ column <- function(rows, key, type = NA_real_) {
 
 checks_of <- function(summary) {
   data.frame(name = column(summary$checks, "name", ""), verdict = column(summary$checks, "verdict", ""),
-             detail = column(summary$checks, "detail", ""), advice = column(summary$checks, "advice", ""))
+             detail = in_arguments(column(summary$checks, "detail", "")), advice = in_arguments(column(summary$checks, "advice", "")))
 }
 
 numbers_of <- function(rows, keys, missing = NA_real_) {

@@ -47,6 +47,7 @@ answer_of <- function(kind, file, arguments, run = NULL, study = NULL, path = ""
   threads <- whole(threads, "threads", 0, 1024)
   found <- with_progress(progress, function(report) core(C_answer, kind, text, run, study, path, tables, threads, report))
   found$name <- file
+  found$text <- in_arguments(found$text)
   found$csv <- found$tables
   found$tables <- lapply(found$csv, exact_csv)
   found

@@ -34,7 +34,7 @@ ww_select <- function(data, response, inputs = character(), degree = NULL, terms
   warn_of(checks)
   structure(class = "ww_selection", list(
     summary = found$summary, trusted = found$summary$trusted, checks = checks,
-    models = read.csv(text = found$models, check.names = FALSE), text = found$text, page = found$page))
+    models = read.csv(text = found$models, check.names = FALSE), text = in_arguments(found$text), page = found$page))
 }
 
 print.ww_selection <- function(x, ...) {

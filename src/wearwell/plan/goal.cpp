@@ -231,8 +231,8 @@ Goal goal_of(const PosteriorStudy& study, const std::string& text) {
   std::vector<std::string> near = known;
   for (const NamedGoal& each : all)
     if (!each.of.empty()) near.push_back(each.of);
-  throw InputError(fmt::format("--goal: the study has no '{}'{}; its goals are: {}",
-                               printable(text), did_you_mean(text, near), fmt::join(known, "; ")));
+  throw InputError(fmt::format("--goal: the study has no '{}'; its goals are: {}{}",
+                               printable(text), fmt::join(known, "; "), did_you_mean(text, near)));
 }
 
 double GoalValues::in_unit(double on_scale) const {

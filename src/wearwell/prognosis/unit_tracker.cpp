@@ -38,7 +38,7 @@ void require_unit(const Tracker& tracker, const std::string& unit, bool fresh) {
     throw InputError(fmt::format("unit: {}", refusal));
   if (!known && !fresh)
     throw InputError(fmt::format(
-        "unit: the study has no {} '{}'{}; track it as a new one (new) to begin without readings",
+        "unit: the study has no {} '{}'; track it as a new one (new) to begin without readings{}",
         tracker.noun(), printable(unit),
         did_you_mean(unit, std::vector<std::string>(seen.begin(), seen.end()))));
 }
