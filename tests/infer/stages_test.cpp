@@ -188,7 +188,7 @@ Posterior joint(const std::vector<double>& work, const std::vector<double>& volu
           joint::archard_likelihood(law, ObservationFamily::normal, {work, volume}, work.size())};
 }
 
-// k and V0 are not told apart by inspections after the same work.
+// k and V0 are not distinguished by inspections after the same work.
 TEST(Stages, ARidgeOfTwoParametersIsImproper) {
   const Verdicts found = judge(joint({1e4, 1e4, 1e4, 1e4, 1e4, 1e4},
                                      {4e-9, 5e-9, 4.5e-9, 5.2e-9, 4.1e-9, 4.7e-9}, true, 1e-9));

@@ -100,8 +100,8 @@ void SubpopulationOrder::add_gradient(std::span<const double> x,
   measured_.program.reverse(data_, 0, 1, {x, {}}, workspace_, gradient);
 }
 
-Check told_apart(const FormulaModel& model, const Fit& fit) {
-  // Names in the other order throughout are told apart as well.
+Check distinguished(const FormulaModel& model, const Fit& fit) {
+  // Names in the other order throughout are distinguished as well.
   constexpr double sure = 0.99, enough = 0.95;
   const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
   SubpopulationOrder order(model);

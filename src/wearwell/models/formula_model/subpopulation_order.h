@@ -40,9 +40,9 @@ class SubpopulationOrder {
   std::vector<double> family_parameters_, log_median_;
 };
 
-/// Whether the posterior tells subpopulations apart: how often their medians are in the order of their names. One that
+/// Whether the posterior distinguishes subpopulations: how often their medians are in the order of their names. One that
 /// mixes both orders has no parameters of "early" and "late".
-Check told_apart(const FormulaModel& model, const Fit& fit);
+Check distinguished(const FormulaModel& model, const Fit& fit);
 
 /// ln K!: by how much the prior of ordered subpopulations is denser than the product of their priors; 0 without order.
 double log_orders(const FormulaModel& model);
