@@ -374,7 +374,8 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   study.fit_data = formula_model::fit_data(rows);
   study.checks = [rows](const Fit& fit) {
     std::vector<Check> all = {formula_model::identified(*rows, rows->model().parameters, fit)};
-    if (rows->model().subpopulations) all.push_back(formula_model::distinguished(rows->model(), fit));
+    if (rows->model().subpopulations)
+      all.push_back(formula_model::distinguished(rows->model(), fit));
     return all;
   };
   formula_model::tell_drawn_effects(model, study);
