@@ -74,7 +74,7 @@ struct QuantityRequest {
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
   /// The conservative quantile for design: 0.05 of a life, 0.95 of a required length.
   std::optional<double> safe_end = {};
-  bool headline = false;  ///< one of the main answers of the study
+  bool headline = false;   ///< one of the main answers of the study
   bool with_mean = false;  ///< the posterior mean is reported, too
 };
 
