@@ -10,6 +10,7 @@
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/copied_rows.h"
 #include "wearwell/infer/distribution_tests.h"
+#include "wearwell/infer/judged_counts.h"
 #include "wearwell/infer/residual_tests.h"
 #include "wearwell/infer/row_sample.h"
 
@@ -22,8 +23,6 @@ constexpr Eigen::Index fewest_draws = 40, most_draws = 400;
 // A larger table is tested on a random sample of this size, with fewer draws because its posterior is narrow.
 constexpr std::size_t most_judged = 20'000;
 constexpr Eigen::Index fewest_of_many = 10;
-// Limits for the repetitions of observations with counts: of one, and of all.
-constexpr double most_alike = 1000, most_items = 60'000;
 // A passing check mentions a test with a p value below this.
 constexpr double noted_below = 0.005;
 constexpr std::uint64_t seed = 20261121;  // for the random scores of interval-censored observations
@@ -240,26 +239,6 @@ void add_copies(const CopiedRows& copies, Findings& findings) {
       "several observations were really equal, state it in a column `count`.");
 }
 
-// How many of each observation are judged. Where one stands for very many, the same share of all observations,
-// spread evenly over them: fewer of it alone would shift the distribution.
-std::vector<int> judged_counts(const FitData& data, std::size_t rows, double& share) {
-  if (data.counts.empty()) return std::vector<int>(rows, 1);
-  std::vector<int> counts(data.counts.begin(), data.counts.end());
-  double sum = 0;
-  for (const int each : counts) sum += each;
-  sum *= std::min(1.0, static_cast<double>(most_judged) / static_cast<double>(rows));
-  const double largest = *std::max_element(counts.begin(), counts.end());
-  share = std::min({1.0, most_alike / largest, most_items / sum});
-  if (!(share < 1)) return counts;
-  double before = 0;
-  for (int& each : counts) {
-    const double after = before + each;
-    each = static_cast<int>(std::floor(share * after + 0.5) - std::floor(share * before + 0.5));
-    before = after;
-  }
-  return counts;
-}
-
 }  // namespace
 
 FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo& loo) {
@@ -271,7 +250,7 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   const std::size_t rows = of_first.size() - of_effects;
   std::vector<bool> exact;
   for (std::size_t i = 0; i < rows; ++i) exact.push_back(of_first[i].exact());
-  const std::vector<int> counts = judged_counts(data, rows, outcome.share);
+  const std::vector<int> counts = judged_counts(data.counts, rows, most_judged, outcome.share);
   std::vector<std::size_t> row;  // of each single observation
   for (const std::size_t i : row_sample(rows, most_judged, Rng(seed, of_the_sample)))
     row.insert(row.end(), static_cast<std::size_t>(counts[i]), i);
@@ -354,7 +333,7 @@ Check fit_check(const FitOutcome& outcome) {
   if (outcome.residuals.size() > most_judged)
     of_what += fmt::format(" of {} rows, sampled from {},", most_judged, outcome.residuals.size());
   if (outcome.share < 1)
-    of_what += fmt::format(" of {:.2g} % of the items of each row,", 100 * outcome.share);
+    of_what += fmt::format(" of {:.2g} % of the items of each row", 100 * outcome.share);
   const FitTest& least = *std::min_element(
       sorted.begin(), sorted.end(), [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
   std::string passed =

@@ -1,4 +1,4 @@
-#include "wearwell/infer/density_profile.h"
+#include "wearwell/infer/profile.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "wearwell/infer/density_profile.h"
 #include "wearwell/infer/natural_density.h"
 #include "wearwell/math/view.h"
 

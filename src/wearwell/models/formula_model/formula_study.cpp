@@ -24,6 +24,7 @@
 #include "wearwell/models/formula_model/subpopulation_order.h"
 #include "wearwell/prognosis/plural.h"
 
+// Longer than others: one study, with its description, notes, checks and columns.
 namespace wearwell {
 namespace {
 
