@@ -11,6 +11,7 @@ namespace wearwell::plan {
 /// Throws InputError where a study of lives has subpopulations or shares that never fail or are dead on arrival, or step-stress tests: tests of such
 /// kinds cannot be planned. `command` is "wearwell plan next".
 inline void refuse_mixtures(const TomlReader& root, const std::string& command) {
+  if (root.text("model").value_or("") != "formula") return;
   const std::string why = fmt::format(
       "is not possible with `{}`; plan with a study of one population in which every part can fail",
       command);
