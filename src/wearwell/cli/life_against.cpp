@@ -59,14 +59,10 @@ void refuse_other_dimension(const Unit& unit, const Unit& other) {
         fmt::format("--against: lives in {} and in {} cannot be compared", unit.text, other.text));
 }
 
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json();
-}
-
+// The library writes null for infinite numbers.
 ordered_json json_of(const ComparedValue& value) {
-  return {{"q05", number(value.q05)},        {"q50", number(value.q50)},
-          {"q95", number(value.q95)},        {"mean", number(value.mean)},
-          {"at_least", number(value.lower)}, {"better", value.larger}};
+  return {{"q05", value.q05},   {"q50", value.q50},        {"q95", value.q95},
+          {"mean", value.mean}, {"at_least", value.lower}, {"better", value.larger}};
 }
 
 ordered_json json_of(const prognosis::LivesAgainst& found, const Compared& life,
