@@ -68,6 +68,30 @@ def test_readings_are_stored(url):
     assert found["readings"] == 1 and found["refused"] == 1 and found["problem"]
 
 
+def test_events_of_a_unit_are_reported(url):
+    monitor = ww.Monitor(url)
+    rows = [{"time": f"2026-05-0{day}T12:00:00Z", "machine": "M5", "use_h": 400.0 * day, "wear_um": 9.0 * day} for day in (1, 2, 3)]
+    monitor.send(rows)
+    assert until(lambda: "M5" in monitor.units().index and monitor.units().loc["M5", "readings"] == 3)
+    before = monitor.unit("M5")
+    keys = [each["key"] for each in before["moments"]]
+    assert monitor.report("M5", "replaced", key=keys[2], use=1000.0, by="J. Doe", note="new guide")["events"] == 1
+    assert until(lambda: monitor.unit("M5")["part"] == 2)
+    assert monitor.unit("M5")["at"] == 200 and monitor.unit("M5")["quality"]["readings"] == 1
+    event = monitor.unit("M5")["events"][0]
+    assert (event["event"], event["use"], event["by"], event["note"]) == ("replaced", 1000, "J. Doe", "new guide")
+    assert monitor.report("M5", "cancelled", number=event["number"], by="J. Doe")["events"] == 1
+    assert until(lambda: monitor.unit("M5")["part"] == 1) and monitor.unit("M5")["risk"] == before["risk"]
+    monitor.report("M5", "failed", key=keys[2], use=1210.0, by="J. Doe")
+    assert until(lambda: monitor.units().loc["M5", "service"] == "failed")
+    with pytest.raises(ww.InputError, match="must be one of replaced, removed"):
+        monitor.report("M5", "repaired", key=1, by="x")
+    with pytest.raises(ww.InputError, match="has no stored reading with key 7"):
+        monitor.report("M5", "withdrawn", key=7, by="x")
+    with pytest.raises(ww.InputError, match="is not a unit"):
+        monitor.report("M55", "withdrawn", key=7, by="x")
+
+
 def test_events(url):
     monitor = ww.Monitor(url)
     events = monitor.events()

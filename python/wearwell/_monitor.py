@@ -103,8 +103,8 @@ class Monitor:
         -------
         pandas.DataFrame
             A row for each unit, indexed by name: ``alarm``, ``at``, quantiles of the level now (``level_q05``, ...) and of the
-            remaining useful life (``rul_q05``, ...; infinity: never), ``b10``, ``risk``, ``passed``, ``doubt``, ``beyond`` and
-            ``readings``. ``attrs`` has ``axis_unit`` and ``level_unit``. NaN where nothing determines a number.
+            remaining useful life (``rul_q05``, ...; infinity: never), ``b10``, ``risk``, ``passed``, ``doubt``, ``beyond``,
+            ``service`` (``"in service"``, ``"removed"``, ``"failed"``) and ``readings``. ``attrs`` has ``axis_unit`` and ``level_unit``. NaN where nothing determines a number.
 
         Raises
         ------
@@ -201,6 +201,44 @@ class Monitor:
             total["problem"] = total["problem"] or delivery["problem"]
         return total
 
+    def report(self, unit, event, **fields):
+        """Report an event of a unit: a part is replaced or has failed, a reading is corrected, ...
+
+        Parameters
+        ----------
+        unit : str
+            Name of the unit.
+        event : str
+            ``"replaced"``, ``"removed"``, ``"failed"``, ``"sensor"``, ``"corrected"``, ``"withdrawn"`` or ``"cancelled"``.
+        **fields
+            ``by``, who reports it; perhaps ``note``; ``key``, the place among the unit's readings (as in ``moments`` of
+            ``unit()``); and by the names of the study's columns what the event needs: the use on the counter, the offset of a
+            sensor, all values of a corrected reading. ``number`` of the event that is cancelled.
+
+        Returns
+        -------
+        dict
+            ``events``: 1, and ``repeated``: 0; or the other way round, where the same event is stored already.
+
+        Raises
+        ------
+        InputError
+            If the event cannot be taken: the message says why.
+        MachineError
+            If the monitor or its store cannot be reached: report it again.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> monitor = ww.Monitor(url)
+        >>> name = monitor.units().index[0]
+        >>> last = monitor.unit(name)["moments"][-1]["key"]
+        >>> monitor.report(name, "withdrawn", key=last, by="J. Doe", note="wrong gauge")["events"]
+        1
+        """
+        body = json.dumps({"event": event, **{key: _plain(value, key, 1) for key, value in fields.items()}}).encode()
+        return self._post(body, f"/api/units/{urllib.parse.quote(str(unit), safe='')}/events")
+
     def events(self):
         """Changes as they come.
 
@@ -254,9 +292,9 @@ class Monitor:
         except urllib.error.HTTPError as error:
             raise self._refusal(error) from None
 
-    def _post(self, body):
+    def _post(self, body, path="/api/readings"):
         try:
-            with self._open("/api/readings", body) as answer, _reading(self.url):
+            with self._open(path, body) as answer, _reading(self.url):
                 return json.load(answer)
         except urllib.error.HTTPError as error:
             raise self._refusal(error) from None
@@ -280,7 +318,7 @@ class Monitor:
 Monitor.__module__ = "wearwell"
 
 _columns = ("alarm", "at", "level_q05", "level_q50", "level_q95", "rul_q05", "rul_q50", "rul_q95", "b10", "risk", "passed", "doubt", "beyond",
-            "readings")
+            "service", "readings")
 
 
 @contextlib.contextmanager
@@ -309,7 +347,8 @@ def _row(unit):
 
     quantiles = ("q05", "q50", "q95")
     return [unit["alarm"], number(unit["at"]), *(number(level.get(q)) for q in quantiles), *(number(remaining.get(q), never) for q in quantiles),
-            number(unit["b10"], never), number(unit["risk"]), number(unit["passed"]), unit["doubt"], unit["beyond"], unit["quality"]["readings"]]
+            number(unit["b10"], never), number(unit["risk"]), number(unit["passed"]), unit["doubt"], unit["beyond"], unit["service"],
+            unit["quality"]["readings"]]
 
 
 def _records(readings):

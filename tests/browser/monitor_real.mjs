@@ -107,6 +107,28 @@ try {
   const view = await (await fetch(`${address}api/units/L00`)).json();
   check(risk.includes(`${(100 * view.risk).toFixed(0)}\u202f%`) || view.risk > 0.999, `"${risk}", and the risk is ${view.risk}`);
   await page.screenshot({path: join(folder, 'page.png')});
+
+  // A part is replaced, by the form; then the replacement is cancelled.
+  await page.click('.report summary');
+  await page.fill('.event-form input[name="by"]', 'A. <b>Smith</b>');
+  await page.fill('.event-form input[name="note"]', 'new laser');
+  await page.fill('.event-form .fields input[type="number"]', '2500');
+  await page.fill('.event-form input[type="datetime-local"]', '2100-01-01T00:00');
+  await page.screenshot({path: join(folder, 'form.png'), fullPage: true});
+  await page.click('.event-form button');
+  await page.waitForFunction(() => document.querySelector('.events-list li')?.textContent.includes('A new part is installed'), null, {timeout: 60000})
+      .catch(() => faults.push('the reported event does not show'));
+  check((await page.textContent('.events-list')).includes('A. <b>Smith</b>'), 'who reported it does not show as text');
+  check((await page.textContent('.named')).includes('part 2'), 'the part is not named');
+  const replaced = await (await fetch(`${address}api/units/L00`)).json();
+  check(replaced.part === 2 && replaced.events[0].use === 2500 && replaced.quality.readings === 0, `part ${replaced.part} after the replacement`);
+  const event = (body) => fetch(`${address}api/units/L00/events`, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
+  check((await event({event: 'cancelled', number: 1})).status === 400, 'an event that names no one is taken');
+  check((await event({event: 'cancelled', number: 1, by: 'x'})).status === 200, 'an event cannot be cancelled');
+  await page.waitForFunction(() => document.querySelector('.events-list li.cancelled'), null, {timeout: 60000}).catch(() => faults.push('a cancelled event does not show'));
+  const back = await (await fetch(`${address}api/units/L00`)).json();
+  check(back.part === 1 && back.risk === view.risk && back.quality.readings === 10, 'a cancelled event changes the forecast');
+  await page.screenshot({path: join(folder, 'events.png'), fullPage: true});
 } finally {
   await browser.close();
   program.kill('SIGTERM');

@@ -75,7 +75,8 @@ class FleetRig : public ScratchTest {
     std::string all;
     std::map<std::string, std::string> states;
     for (const Checkpoint& each : store_->states("population")) {
-      UnitRecord record = restored_record(each, tracker_);
+      UnitRecord record =
+          restored_record(each, tracker_, events_of(events_of_units(*store_, tracker_), each.unit));
       record.last_received_ms = 0;  // all but when messages came
       for (UnitMoment& moment : record.moments) moment.time_ms = 0;
       states[each.unit] = bytes_of(record);
@@ -94,7 +95,7 @@ class FleetRig : public ScratchTest {
   std::vector<std::string> changes_;
   GrowthTracker tracker_;
   Notices quiet_{nullptr};
-  const SourceSettings source_ = source();
+  SourceSettings source_ = source();
   std::unique_ptr<Store> store_;
   std::unique_ptr<Tally> tally_;
   std::unique_ptr<Fleet> fleet_;

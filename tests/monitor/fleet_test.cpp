@@ -454,7 +454,21 @@ class FailingStore : public Store {
     }
     store_->of_unit(unit, after, last, visit);
   }
+  std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override {
+    look();
+    return store_->reading(unit, key);
+  }
   std::uint64_t count() override { return store_->count(); }
+  std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override {
+    if (adds == Fails::before) throw StoreError("the disk is full");
+    auto kept = store_->add_events(events);
+    if (adds == Fails::after) throw StoreError("the connection was lost");
+    return kept;
+  }
+  std::vector<UnitEvent> events_after(std::int64_t number) override {
+    look();
+    return store_->events_after(number);
+  }
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override {
     store_->save(population, states, all_up_to);

@@ -20,6 +20,7 @@ namespace wearwell::monitor {
 class ProgramRig : public ScratchTest {
  protected:
   static constexpr const char* columns = R"(sequence = "n"
+event = "event"
 time = "t"
 time_format = "unix s"
 [reading.columns]

@@ -4,6 +4,7 @@
 #include <sys/mount.h>
 
 #include <cstdlib>
+#include <set>
 #include <thread>
 
 #include "monitor/program_rig.h"
@@ -33,6 +34,17 @@ class Programs : public ProgramRig {
         run_wearwell("monitor '" + config.string() + "' --once --threads 1 --quiet");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return known(config);
+  }
+  /// One of three kinds of events, of the n-th reading of a machine.
+  static std::string event_line(int kind, int machine, int n) {
+    const std::string head =
+        fmt::format("{{\"machine\": \"M{:02}\", \"n\": {}, \"by\": \"x\"", machine, n);
+    const double km = 0.5 * n;
+    if (kind == 0) return head + fmt::format(", \"event\": \"replaced\", \"km\": {}}}", km);
+    if (kind == 1)
+      return head +
+             fmt::format(", \"event\": \"corrected\", \"km\": {}, \"h\": {}}}", km, 0.7 * km);
+    return head + ", \"event\": \"withdrawn\"}";
   }
 };
 
@@ -159,6 +171,7 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   const auto file = config.parent_path() / "incoming" / "a.jsonl";
   const int rounds = kills(), machines = 8;
   const auto lines = readings(machines, 10 * (rounds + 1));
+  std::vector<std::string> events;  // replacements, corrections and withdrawals among the readings
   std::size_t sent = 0;
   for (int round = 0; round <= rounds; ++round) {
     ChildProcess monitor = start(config);
@@ -166,7 +179,12 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
     const std::size_t end = std::min(lines.size(), sent + 10 * machines);
     append(file, {lines.begin() + static_cast<std::ptrdiff_t>(sent),
                   lines.begin() + static_cast<std::ptrdiff_t>(end)});
-    append(file, {lines[rng.bits() % end], "{half"});  // and what comes again
+    for (int i = 0; i < 3; ++i)
+      events.push_back(event_line(i, static_cast<int>(rng.bits() % machines),
+                                  1 + static_cast<int>(rng.bits() % (end / machines))));
+    append(file, {events.end() - 3, events.end()});
+    append(file, {lines[rng.bits() % end], events[rng.bits() % events.size()],
+                  "{half"});  // and what comes again
     sent = end;
     sleep_s(rng.uniform(0, 1.5));
     monitor.end(SIGKILL);
@@ -178,7 +196,11 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   })) << log(config);
   ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
-  EXPECT_TRUE(known(config) == undisturbed(lines));
+  std::set<std::string> different(events.begin(), events.end());
+  EXPECT_EQ(look(config, "fleet.sqlite")->events_after(0).size(), different.size());
+  auto all = lines;
+  all.insert(all.end(), events.begin(), events.end());
+  EXPECT_TRUE(known(config) == undisturbed(all));
 }
 
 class PostgresPrograms : public Programs {

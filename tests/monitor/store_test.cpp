@@ -89,6 +89,46 @@ TEST_P(Stores, KeepAlarmsAndFiles) {
   EXPECT_EQ(store->files(), (std::map<std::string, std::int64_t>{{"x", 9}}));
 }
 
+TEST_P(Stores, KeepEventsInTheirOrder) {
+  auto store = open();
+  UnitEvent replaced{0, "b", EventKind::replaced, 5, 77, "A. \"Smith\" ü", "new\tbearing"};
+  replaced.use = 1.0 / 3;
+  UnitEvent corrected{0, "a", EventKind::corrected, 1, 78, "x", ""};
+  corrected.numbers = {1e-300, std::nan("")};
+  corrected.labels = {"a \"b\" ü"};
+  UnitEvent cancelled{0, "b", EventKind::cancelled, 0, 79, "x", ""};
+  cancelled.cancels = 1;
+  EXPECT_THAT(store->add_events({replaced, corrected, replaced}),
+              ElementsAre(Kept::stored, Kept::stored, Kept::repeated));
+  EXPECT_THAT(store->add_events({corrected, cancelled}), ElementsAre(Kept::repeated, Kept::stored));
+  store = nullptr;
+  store = open();
+  const auto events = store->events_after(0);
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0].use, 1.0 / 3);
+  EXPECT_EQ(events[0].author, replaced.author);
+  EXPECT_EQ(events[0].note, replaced.note);
+  EXPECT_EQ(events[0].key, 5);
+  EXPECT_EQ(events[0].received_ms, 77);
+  EXPECT_EQ(events[1].kind, EventKind::corrected);
+  EXPECT_EQ(events[1].numbers[0], 1e-300);
+  EXPECT_TRUE(std::isnan(events[1].numbers[1]));
+  EXPECT_EQ(events[1].labels, corrected.labels);
+  EXPECT_TRUE(std::isnan(events[1].use));
+  EXPECT_EQ(events[2].cancels, 1);
+  EXPECT_EQ(store->events_after(events[0].number).size(), 2U);
+  // A sensor's offset, and readings as they were stored.
+  UnitEvent sensor{0, "a", EventKind::sensor, 3, 80, "x", ""};
+  sensor.offset = -2.5e-6;
+  store->add_events({sensor});
+  EXPECT_EQ(store->events_after(events[2].number)[0].offset, -2.5e-6);
+  store->add({reading("a", 3, 0.5)});
+  ASSERT_TRUE(store->reading("a", 3));
+  EXPECT_EQ(store->reading("a", 3)->numbers[0], 0.5);
+  EXPECT_FALSE(store->reading("a", 4));
+  EXPECT_FALSE(store->reading("b", 3));
+}
+
 TEST_P(Stores, AreOfOneMonitor) {
   const auto store = open();
   EXPECT_THAT(message_of<InputError>([&] { open(); }),
@@ -180,7 +220,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   const StoreColumns columns{{"wear", "time"}, {"site"}, true};
   // Who only reads changes nothing, and another result's columns neither.
   EXPECT_THAT(message_of<InputError>([&] { open(columns, Access::read); }),
-              HasSubstr("is a store of version 1, and this wearwell reads version 2"));
+              HasSubstr("is a store of version 1, and this wearwell reads version 3"));
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear"}, {"site"}, true});
               }),
@@ -188,7 +228,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   std::vector<std::string> reported;
   const auto tell = [&](const std::string& what) { reported.push_back(what); };
   auto store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 2")));
+  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 3")));
   EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
   ASSERT_EQ(store->states("p").size(), 1U);
   EXPECT_EQ(store->states("p")[0].bytes, "old");
@@ -197,6 +237,8 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   EXPECT_EQ(store->alarms()[0].risk, 0.125);
   EXPECT_EQ(store->alarms()[0].place, 0);
   // And goes on as one that was begun anew.
+  EXPECT_THAT(store->add_events({{0, "a", EventKind::withdrawn, 3, 5, "x", ""}}),
+              ElementsAre(Kept::stored));
   store->log({{"a", 9, Alarm::act, 0.5, 8}});
   EXPECT_EQ(store->alarms()[0].place, 8);
   EXPECT_THAT(store->add({reading("a", 4, 1)}), ElementsAre(Kept::stored));
@@ -226,12 +268,12 @@ TEST_P(OldStores, StayAsTheyWereWhereAStepFails) {
 TEST_P(OldStores, OfLaterVersionsAreRefused) {
   if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
   run(old_tables());
-  for (const char* version : {"3", "0", "-1", "2.5", "", "two"}) {
+  for (const char* version : {"4", "0", "-1", "2.5", "", "two"}) {
     run(fmt::format("UPDATE wearwell SET value = '{}' WHERE name = 'version';", version));
     if (server_ && !*version) continue;  // no store at all
     EXPECT_THAT(message_of<InputError>([&] { open(); }),
                 HasSubstr(fmt::format("is a store of version '{}'; this wearwell reads versions 1 "
-                                      "to 2",
+                                      "to 3",
                                       version)));
   }
 }

@@ -12,12 +12,12 @@ namespace wearwell {
 namespace {
 
 // All readings of a unit that its state has processed; the store outlives it.
-prognosis::History history_of(monitor::Store& store, const std::string& name, std::int64_t until) {
-  return [&store, name, until](const std::function<void(const prognosis::Reading&)>& visit) {
-    store.of_unit(name, 0, until, [&](const monitor::StoredReading& each) {
-      visit({each.numbers, each.labels});
-    });
-  };
+prognosis::History history_of(monitor::Store& store, const monitor::UnitRecord& record) {
+  return monitor::counted_history(record, record.place, store);
+}
+
+bool in_service(const monitor::UnitRecord& record) {
+  return record.events->part().service == monitor::Service::in_service;
 }
 
 // Units of a monitored fleet, as its store holds them.
@@ -32,11 +32,12 @@ void read_fleet(const std::filesystem::path& path, Models models, LivesInput& in
   }
   input.lives = prognosis::lives_of_new(*fleet.tracker, path.string(), fleet.trusted);
   for (const auto& [name, record] : input.stored) {
+    if (!in_service(record)) continue;
     // `stored` must stay alive as long as lives are requested.
     const std::shared_ptr<const prognosis::TrackedUnit> unit(std::shared_ptr<void>(),
                                                              record.state.get());
     input.lives.units.push_back(
-        prognosis::known_unit(name, unit, history_of(*input.store, name, record.place)));
+        prognosis::known_unit(name, unit, history_of(*input.store, record)));
   }
   input.tracker = std::move(fleet.tracker);
 }
@@ -48,14 +49,16 @@ prognosis::FollowedUnits LivesInput::followed() const {
   prognosis::FollowedUnits units = prognosis::units_of_study(*tracker);
   if (!store) return units;
   units.source = "fleet";
-  for (const auto& [name, record] : stored) units.names.push_back(name);
+  for (const auto& [name, record] : stored) {
+    if (in_service(record)) units.names.push_back(name);
+  }
   units.unit = [this, of_study = units.unit](const std::string& name) {
     const auto at = stored.find(name);
     return at == stored.end() ? of_study(name) : tracker->restore(at->second.state->save());
   };
   units.history = [this, of_study = units.history](const std::string& name) {
     const auto at = stored.find(name);
-    return at == stored.end() ? of_study(name) : history_of(*store, name, at->second.place);
+    return at == stored.end() ? of_study(name) : history_of(*store, at->second);
   };
   return units;
 }

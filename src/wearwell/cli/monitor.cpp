@@ -10,6 +10,7 @@
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/monitored.h"
+#include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_text.h"
@@ -19,7 +20,7 @@ namespace wearwell {
 namespace {
 
 struct MonitorCommand {
-  std::filesystem::path config, exported;
+  std::filesystem::path config, exported, exported_lives;
   monitor::MonitorOptions run;
   bool check = false, json = false, quiet = false;
 };
@@ -36,6 +37,19 @@ void export_readings(const MonitoredFleet& read, const MonitorCommand& command) 
                                    ? monitor::readings_as_csv(*store, *read.tracker, count)
                                    : monitor::readings_as_parquet(*store, *read.tracker, count));
   if (!command.quiet) fmt::print("{} readings are in {}\n", count, command.exported.string());
+}
+
+void export_lives(const MonitoredFleet& read, const MonitorCommand& command) {
+  refuse_overwriting({{"the configuration", command.config}},
+                     {{"--export-lives", command.exported_lives}});
+  if (command.exported_lives.extension() != ".csv")
+    throw InputError(
+        fmt::format("--export-lives: {} must end in .csv", command.exported_lives.string()));
+  const auto store = store_to_read(read);
+  std::uint64_t count = 0;
+  write_file(command.exported_lives, monitor::lives_as_csv(*store, *read.tracker, count));
+  if (!command.quiet)
+    fmt::print("the lives of {} parts are in {}\n", count, command.exported_lives.string());
 }
 
 std::string in_json(const monitor::FleetReader& fleet) {
@@ -76,9 +90,10 @@ void run(const MonitorCommand& command, Models models) {
     const std::size_t sources = read.config.sources.size();
     fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,
                sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
-  } else if (!command.exported.empty()) {
+  } else if (!command.exported.empty() || !command.exported_lives.empty()) {
     try {
-      export_readings(read, command);
+      if (!command.exported.empty()) export_readings(read, command);
+      if (!command.exported_lives.empty()) export_lives(read, command);
     } catch (const monitor::StoreError& error) {
       throw MachineError(error.what());
     }
@@ -103,8 +118,16 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
           ->excludes(once);
   monitor
       ->add_option("--export", command->exported,
-                   "Write all stored readings to this file (.parquet, .csv) and end; a monitor may "
-                   "be running")
+                   "Write all stored readings that count to this file (.parquet, .csv) and end; a "
+                   "monitor may be running")
+      ->type_name("FILE")
+      ->excludes(once)
+      ->excludes(check);
+  monitor
+      ->add_option(
+          "--export-lives", command->exported_lives,
+          "Write the use of each part at its failure, removal or last reading to this file "
+          "(.csv) and end")
       ->type_name("FILE")
       ->excludes(once)
       ->excludes(check);
@@ -123,7 +146,8 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
       "Examples:\n"
       "  wearwell monitor fleet.toml\n"
       "  wearwell monitor fleet.toml --once < readings.jsonl\n"
-      "  wearwell monitor fleet.toml --export readings.parquet\n\n"
+      "  wearwell monitor fleet.toml --export readings.parquet\n"
+      "  wearwell monitor fleet.toml --export-lives lives.csv\n\n"
       "Exit codes: 0 ended as requested; 2 the configuration is wrong, nothing was started; 3 the "
       "machine failed.");
   monitor->callback([command, models, &exit_code] {

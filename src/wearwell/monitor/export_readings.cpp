@@ -12,23 +12,39 @@
 namespace wearwell::monitor {
 namespace {
 
-void for_each_reading(Store& store, const std::function<void(const StoredReading&)>& visit) {
+/// Readings that count, under the name of their part.
+void for_each_reading(Store& store, const prognosis::Tracker& tracker,
+                      const std::function<void(const StoredReading&)>& visit) {
+  for_each_counted(store, tracker, [&](const std::string& unit, CountedReading& seen) {
+    if (seen.state != CountedReading::State::counts) return;
+    seen.reading.unit = part_name(unit, seen.part);
+    visit(seen.reading);
+  });
+}
+
+}  // namespace
+
+void for_each_counted(
+    Store& store, const prognosis::Tracker& tracker,
+    const std::function<void(const std::string& unit, CountedReading& seen)>& visit) {
   constexpr std::size_t at_once = 10'000;
+  const EventsOfUnits events = events_of_units(store, tracker);
   std::int64_t place = 0;
   for (;;) {
     const std::vector<StoredReading> readings = store.after(place, at_once);
     if (readings.empty()) return;
-    for (const StoredReading& each : readings) visit(each);
+    for (const StoredReading& each : readings) {
+      CountedReading seen = events_of(events, each.unit)->counted(each);
+      visit(each.unit, seen);
+    }
     place = readings.back().place;
   }
 }
 
-std::string heading(const prognosis::ReadingColumn& column) {
+std::string column_heading(const prognosis::ReadingColumn& column) {
   return column.unit.text == "1" ? column.name
                                  : fmt::format("{} [{}]", column.name, column.unit.text);
 }
-
-}  // namespace
 
 std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
                                 std::uint64_t& count) {
@@ -38,9 +54,9 @@ std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
   const auto columns = tracker.columns();
   std::vector<NumberColumn> numbers = {{"key", {}}, {"time_ms", {}}, {"received_ms", {}}};
   const std::size_t first = numbers.size();
-  for (const auto& each : columns) numbers.push_back({heading(each), {}});
+  for (const auto& each : columns) numbers.push_back({column_heading(each), {}});
   count = 0;
-  for_each_reading(store, [&](const StoredReading& reading) {
+  for_each_reading(store, tracker, [&](const StoredReading& reading) {
     ++count;
     unit.values.push_back(reading.unit);
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i].values.push_back(reading.labels[i]);
@@ -61,10 +77,10 @@ std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker, std
   std::string text = printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun());
   for (const std::string& each : tracker.labels()) text += "," + printable_csv_cell(each);
   text += ",key,time,received";
-  for (const auto& each : columns) text += "," + printable_csv_cell(heading(each));
+  for (const auto& each : columns) text += "," + printable_csv_cell(column_heading(each));
   text += "\n";
   count = 0;
-  for_each_reading(store, [&](const StoredReading& reading) {
+  for_each_reading(store, tracker, [&](const StoredReading& reading) {
     ++count;
     text += printable_csv_cell(reading.unit);
     for (const std::string& each : reading.labels) text += "," + printable_csv_cell(each);

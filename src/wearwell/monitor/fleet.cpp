@@ -33,12 +33,15 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
       notices_(notices),
       settings_(std::move(settings)),
       reported_(tracker),
+      columns_(prognosis::watched_columns(tracker)),
       started_ms_(unix_ms_now()) {
   place_ = store_.all_up_to(settings_.population);
+  events_ = events_of_units(store_, tracker_);
+  for (const auto& [unit, events] : events_) last_event_ = std::max(last_event_, events->last());
   for (const Checkpoint& each : store_.states(settings_.population)) {
     Unit& unit = unit_named(each.unit);
     try {
-      unit.record = restored_record(each, tracker_);
+      unit.record = restored_record(each, tracker_, events_of(events_, each.unit));
       unit.lost = false;
       unit.stale = unit.queued = true;
       stale_.push_back(&unit);
@@ -81,6 +84,7 @@ std::size_t Fleet::apply() {
   const std::vector<StoredReading> readings = store_.after(place_, most);
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
+  take_events();
   if (any_lost_.exchange(false)) {
     for (const auto& [name, unit] : units_) {
       if (unit->lost) of_unit[name];
@@ -117,6 +121,24 @@ std::size_t Fleet::apply() {
   return readings.size();
 }
 
+// A unit with new events is rebuilt from its readings in their light.
+void Fleet::take_events() {
+  std::map<std::string, std::vector<UnitEvent>> lists;
+  for (UnitEvent& each : store_.events_after(last_event_)) {
+    last_event_ = each.number;
+    auto& list = lists[each.unit];
+    if (list.empty()) list = events_of(events_, each.unit)->list();
+    list.push_back(std::move(each));
+  }
+  for (auto& [name, list] : lists) {
+    events_[name] = std::make_shared<const UnitEvents>(std::move(list), columns_);
+    Unit& unit = unit_named(name);
+    const std::lock_guard lock(unit.moving);
+    unit.lost = any_lost_ = true;
+    unit.by_risk = Alarm::ok;  // a new part knows nothing of earlier alarms
+  }
+}
+
 void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
   const auto take_one = [&](const StoredReading& each) {
     if (each.place <= unit.record.place) return;
@@ -138,8 +160,10 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
       const std::int64_t before = readings.empty() ? place_ : readings.front()->place - 1;
       {
         const std::lock_guard lock(unit.moving);
-        unit.record = begun_record(unit.record.unit, tracker_);
+        unit.record =
+            begun_record(unit.record.unit, tracker_, events_of(events_, unit.record.unit));
         unit.lost = false;  // from here on it is consistent, if not up to date
+        unit.stale = unit.unsaved = true;
       }
       if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
     }
@@ -157,7 +181,10 @@ void Fleet::forecast(Unit& unit) {
   const double risk = known ? risk_within(forecast, settings_.alarm.horizon) : 0;
   unit.by_risk = known ? alarm_at(risk, unit.by_risk, settings_.alarm) : Alarm::unknown;
   const prognosis::ChangeWatch& watch = unit.record.watch;
-  unit.alarm = alarm_of_readings(unit.by_risk, watch.is_beyond(), watch.in_doubt());
+  const UnitPart& part = unit.record.events->part();
+  unit.alarm = part.service == Service::in_service
+                   ? alarm_of_readings(unit.by_risk, watch.is_beyond(), watch.in_doubt())
+                   : Alarm::unknown;
   auto seen = std::make_shared<Seen>();
   UnitView& view = seen->view;
   const UnitRecord& record = unit.record;
@@ -176,6 +203,8 @@ void Fleet::forecast(Unit& unit) {
   if (known) view.passed = std::clamp(forecast.passed, 0.0, 1.0);
   view.doubt = watch.reason();
   view.beyond = watch.is_beyond();
+  view.part = part.number;
+  view.service = name(part.service);
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;
@@ -189,6 +218,7 @@ void Fleet::forecast(Unit& unit) {
                       ? unit.seen->moments
                       : std::make_shared<const std::vector<UnitMoment>>(record.moments);
   seen->place = record.place;
+  seen->events = record.events;
   seen->ahead = std::make_shared<Seen::Ahead>(unit);
   unit.seen = std::move(seen);
   unit.stale = false;

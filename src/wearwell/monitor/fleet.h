@@ -21,8 +21,9 @@ namespace wearwell::monitor {
 
 struct FleetSettings {
   std::string title;
-  bool trusted = true;     ///< the result that the population comes from
-  std::string population;  ///< SHA-1 of the population
+  bool keys_are_times = false;  ///< not sequence numbers
+  bool trusted = true;          ///< the result that the population comes from
+  std::string population;       ///< SHA-1 of the population
   AlarmSettings alarm;
   int threads = 1;
   /// Called with a change of alarm, the previous alarm, and the unit.
@@ -39,7 +40,7 @@ class Fleet : public FleetReader {
         FleetSettings settings);
   ~Fleet() override;
 
-  /// Processes the next readings of the store; returns their number. Throws StoreError: the next
+  /// Processes the next readings and events of the store; returns the number of readings. Throws StoreError: the next
   /// call then continues from there.
   std::size_t apply();
   /// Forecasts changed units, each at most once a second, and together at most in a tenth of the
@@ -71,6 +72,7 @@ class Fleet : public FleetReader {
   Alarm shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const;
   void publish(std::vector<Unit*>& units);
   void fall_silent();
+  void take_events();
 
   const prognosis::Tracker& tracker_;
   Store& store_;
@@ -78,9 +80,12 @@ class Fleet : public FleetReader {
   Notices& notices_;
   const FleetSettings settings_;
   const TrackerUnits reported_;
+  const prognosis::WatchedColumns columns_;
   const std::int64_t started_ms_;
 
   std::unordered_map<std::string, std::unique_ptr<Unit>> units_;
+  EventsOfUnits events_;
+  std::int64_t last_event_ = 0;
   std::vector<AlarmChange> unlogged_;
   std::int64_t place_ = 0;
   std::vector<Unit*> stale_;  ///< units whose forecast is older than their readings, each once

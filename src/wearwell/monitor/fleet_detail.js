@@ -3,7 +3,7 @@
 (() => {
   const {element, given, quantity, range, probability, unit: words} = wearwell;
   const detail = document.getElementById('detail');
-  let fleet = null, opened = '', serial = 0, waiting = null;
+  let fleet = null, opened = '', serial = 0, waiting = null, form = null;
 
   const finite = (x) => typeof x === 'number' && Number.isFinite(x);
   const name = (what, unit) => (words(unit) ? `${wearwell.capital(what)} (${words(unit)})` : wearwell.capital(what));
@@ -114,6 +114,7 @@
   const tile = (what, value, note) => element('div', {}, element('dt', {}, what), element('dd', {class: 'value'}, value), element('dd', {class: 'note'}, note));
 
   function lead(view) {
+    if (view.service !== 'in service') return element('p', {class: 'lead'}, `This ${fleet.noun} is out of service: ${view.service}. Below is what was known when it was last in use.`);
     if (!view.known) return element('p', {class: 'lead'}, `There is no forecast for this ${fleet.noun} yet: its readings do not determine how it continues.`);
     const sure = view.passed > 0.5 ? `This ${fleet.noun} has already reached its limit of ${given(fleet.limit, fleet.level_unit)} with probability ${probability(view.passed)}.`
                                    : `This ${fleet.noun} reaches its limit of ${given(fleet.limit, fleet.level_unit)} within the next ${given(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
@@ -151,12 +152,12 @@
   function head(view) {
     return element('div', {class: 'head'},
         element('a', {class: 'back', href: '#'}, '← Fleet'),
-        element('div', {class: 'named'}, element('h2', {id: 'unit-name'}, view.unit), wearwell.badge(view.alarm)),
+        element('div', {class: 'named'}, element('h2', {id: 'unit-name'}, view.unit), wearwell.badge(view.alarm, wearwell.stateOf(view)), view.part > 1 ? element('span', {class: 'note'}, `part ${view.part}`) : null),
         ...warnings(view), lead(view), tiles(view));
   }
 
-  // A plot stays while the user reads it; the values above it are updated.
-  const busy = () => detail.querySelector('svg.plot:hover, svg.plot:focus') !== null;
+  // A plot stays while the user reads it, and a form while it is filled in; the values above are updated.
+  const busy = () => detail.querySelector('svg.plot:hover, svg.plot:focus, .event-form input:focus, .event-form select:focus') !== null;
 
   function figures(view) {
     if (!view.known) return element('div', {class: 'figures'});
@@ -179,8 +180,9 @@
     }
     waiting = null;
     const focused = document.activeElement?.closest?.('figure')?.id;
+    if (!same || !form) form = wearwell.eventForm(fleet, view, load);
     detail.dataset.unit = view.unit;
-    detail.replaceChildren(head(view), figures(view), tally(view.forecasts), quality(view.quality));
+    detail.replaceChildren(head(view), figures(view), tally(view.forecasts), wearwell.eventSection(fleet, view, form), quality(view.quality));
     if (same && focused) document.querySelector(`#${focused} svg`)?.focus({preventScroll: true});
     if (!same) detail.scrollTop = 0;
   }

@@ -27,16 +27,38 @@ Json json_of_known(const UnitView& unit, const Interval& interval) {
 }
 
 Json json_of_moment(const UnitMoment& moment) {
-  return {{"time_ms", moment.time_ms},
+  return {{"key", moment.key},
+          {"time_ms", moment.time_ms},
           {"at", number(moment.at)},
           {"measured", moment.measured ? number(*moment.measured) : Json(nullptr)},
           {"level", json_of_interval(moment.level)},
           {"life", json_of_interval(moment.life)}};
 }
 
+Json json_of_event(const EventView& view) {
+  const UnitEvent& event = view.event;
+  Json json = {{"number", event.number}, {"event", name(event.kind)}};
+  if (event.kind == EventKind::cancelled) {
+    json["cancels"] = event.cancels;
+  } else {
+    json["key"] = event.key;
+    json["cancelled"] = view.cancelled;
+  }
+  if (std::isfinite(view.use)) json["use"] = view.use;
+  if (event.kind == EventKind::sensor) json["offset"] = view.offset;
+  json["received_ms"] = event.received_ms;
+  json["by"] = event.author;
+  json["note"] = event.note;
+  return json;
+}
+
 }  // namespace
 
 Json json_of(const FleetView& fleet) {
+  Json columns = Json::array();
+  for (const ColumnView& each : fleet.columns)
+    columns.push_back({{"name", each.name},
+                       {"unit", each.unit.empty() ? Json(nullptr) : Json(each.unit)}});
   return {{"title", fleet.title},
           {"noun", fleet.noun},
           {"axis", fleet.axis},
@@ -45,6 +67,9 @@ Json json_of(const FleetView& fleet) {
           {"level_unit", fleet.level_unit},
           {"limit", number(fleet.limit)},
           {"horizon", number(fleet.horizon)},
+          {"keys", fleet.keys_are_times ? "time" : "sequence"},
+          {"columns", std::move(columns)},
+          {"level_measured", fleet.level_measured},
           {"trusted", fleet.trusted},
           {"units",
            {{"all", fleet.units},
@@ -78,6 +103,8 @@ Json json_of(const UnitView& unit) {
           {"passed", json_of_known(unit, unit.passed)},
           {"doubt", unit.doubt.empty() ? Json(nullptr) : Json(unit.doubt)},
           {"beyond", unit.beyond},
+          {"part", unit.part},
+          {"service", unit.service},
           {"quality",
            {{"readings", unit.quality.readings},
             {"repeated", unit.quality.repeated},
@@ -97,6 +124,9 @@ Json json_of(const UnitDetail& detail) {
     survival.push_back({{"remaining", number(remaining)}, {"survival", number(probability)}});
   }
   Json json = json_of(detail.view);
+  Json events = Json::array();
+  for (const EventView& each : detail.events) events.push_back(json_of_event(each));
+  json["events"] = std::move(events);
   json["moments"] = std::move(moments);
   json["path"] = std::move(path);
   json["survival"] = std::move(survival);
@@ -105,11 +135,9 @@ Json json_of(const UnitDetail& detail) {
 }
 
 Json json_of(const Delivery& delivery) {
-  return {{"stored", delivery.stored},
-          {"readings", delivery.readings},
-          {"repeated", delivery.repeated},
-          {"refused", delivery.refused},
-          {"problem", delivery.problem}};
+  return {{"stored", delivery.stored},   {"readings", delivery.readings},
+          {"events", delivery.events},   {"repeated", delivery.repeated},
+          {"refused", delivery.refused}, {"problem", delivery.problem}};
 }
 
 std::string text_of(const Json& json) {

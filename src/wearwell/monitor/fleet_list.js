@@ -42,7 +42,7 @@
                  : !each.known ? 'unknown'
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
-      wearwell.badge(each.alarm),
+      wearwell.badge(each.alarm, wearwell.stateOf(each)),
       element('span', {class: 'name'}, each.unit),
       element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
       element('span', {class: past ? 'life past' : 'life'}, past || !each.known || each.doubt ? null : interval(each.remaining),

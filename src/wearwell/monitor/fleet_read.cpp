@@ -37,6 +37,11 @@ FleetView Fleet::fleet() const {
   view.level_unit = tracker_.limit().unit.text;
   view.limit = tracker_.limit().value;
   view.horizon = reported_.along(settings_.alarm.horizon);
+  view.keys_are_times = settings_.keys_are_times;
+  for (const prognosis::ReadingColumn& each : tracker_.columns())
+    view.columns.push_back({each.name, each.unit.text});
+  for (const std::string& each : tracker_.labels()) view.columns.push_back({each, ""});
+  view.level_measured = columns_.level.has_value();
   view.trusted = settings_.trusted;
   const Tally::Total total = tally_.total();
   view.messages = total.messages;
@@ -63,6 +68,7 @@ FleetView Fleet::fleet() const {
 std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset, std::size_t count,
                                    std::uint64_t* matching) const {
   const std::string wanted = lower(search);
+  const std::string in_service = name(Service::in_service);
   std::vector<std::shared_ptr<const Seen>> found;
   {
     const std::lock_guard lock(lock_);
@@ -76,7 +82,8 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
   std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     const auto order = [&](const UnitView& view) {
       const double least = view.beyond ? 1 : view.doubt.empty() ? 0 : settings_.alarm.act;
-      return std::tuple(!view.known && least == 0, -std::max(view.risk, least), view.remaining.q05);
+      return std::tuple(view.service != in_service || (!view.known && least == 0),
+                        -std::max(view.risk, least), view.remaining.q05);
     };
     return order(a->view) < order(b->view);
   });
@@ -98,6 +105,10 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   }
   UnitDetail detail;
   detail.view = counted(seen->view, tally_);
+  for (const UnitEvent& each : seen->events->list())
+    detail.events.push_back({each, reported_.along(each.use),
+                             reported_.level(each.offset) - reported_.level(0),
+                             seen->events->is_cancelled(each.number)});
   detail.held = seen->held;
   detail.judged = seen->judged;
   detail.moments = *seen->moments;

@@ -15,6 +15,7 @@ struct Fleet::Seen {
   std::shared_ptr<const std::vector<UnitMoment>> moments;
   std::uint64_t held = 0, judged = 0;
   std::int64_t place = 0;  ///< of its last processed reading
+  std::shared_ptr<const UnitEvents> events;
 
   /// The forecast band, computed at the first request, for the state at that time.
   struct Ahead {

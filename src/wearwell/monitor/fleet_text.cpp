@@ -25,7 +25,7 @@ present::Table fleet_table(const FleetReader& reader, std::size_t most) {
   for (const UnitView& unit : reader.units("", 0, most)) {
     if (!unit.known) {
       table.rows.push_back({printable(unit.unit),
-                            std::string(name(unit.alarm)),
+                            shown_state(unit),
                             {},
                             {},
                             {},
@@ -35,8 +35,8 @@ present::Table fleet_table(const FleetReader& reader, std::size_t most) {
                             present::count(unit.quality.readings)});
       continue;
     }
-    table.rows.push_back({printable(unit.unit), std::string(name(unit.alarm)), unit.at,
-                          unit.level.q50, Range{unit.level.q05, unit.level.q95}, unit.remaining.q50,
+    table.rows.push_back({printable(unit.unit), shown_state(unit), unit.at, unit.level.q50,
+                          Range{unit.level.q05, unit.level.q95}, unit.remaining.q50,
                           Range{unit.remaining.q05, unit.remaining.q95}, percent * unit.risk,
                           present::count(unit.quality.readings)});
   }

@@ -1,5 +1,7 @@
 #include "wearwell/monitor/fleet_view.h"
 
+#include "wearwell/monitor/unit_events.h"
+
 namespace wearwell::monitor {
 
 const char* name(Alarm alarm) {
@@ -16,6 +18,10 @@ const char* name(Alarm alarm) {
       break;
   }
   return "unknown";
+}
+
+std::string shown_state(const UnitView& unit) {
+  return unit.service == name(Service::in_service) ? name(unit.alarm) : unit.service;
 }
 
 }  // namespace wearwell::monitor

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/monitor/unit_event.h"
 #include "wearwell/prognosis/tracker_units.h"
 
 namespace wearwell::monitor {
@@ -39,8 +40,13 @@ struct UnitView {
   double passed = 0;           ///< probability that it is already reached
   std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
   bool beyond = false;         ///< the last reading measures a level beyond the threshold
+  std::int64_t part = 1;       ///< which one it is: later ones are installed by `replaced`
+  std::string service = "in service";  ///< or "removed", "failed": then the alarm is unknown
   Quality quality;
 };
+
+/// The alarm in a word; of a part out of service, why it is.
+std::string shown_state(const UnitView& unit);
 
 /// One point in the history of a unit: its reading, and the forecast at that time.
 struct UnitMoment {
@@ -48,6 +54,15 @@ struct UnitMoment {
   double at = 0;
   std::optional<double> measured;
   Interval level, life;  ///< `life`: predicted end on the axis, not the remaining life
+  std::int64_t key = 0;  ///< of the reading
+};
+
+/// An event as readers see it.
+struct EventView {
+  UnitEvent event;    ///< its own numbers in SI
+  double use = 0;     ///< in `axis_unit`; NaN if not given
+  double offset = 0;  ///< in `level_unit`
+  bool cancelled = false;
 };
 
 struct UnitDetail {
@@ -65,13 +80,22 @@ struct UnitDetail {
   /// Earlier forecasts of `level` (5 to 95 %) compared with the next reading: number covered,
   /// number in all.
   std::uint64_t held = 0, judged = 0;
+  std::vector<EventView> events = {};  ///< in the order of their arrival
+};
+
+/// A column of a reading, for those who report corrections.
+struct ColumnView {
+  std::string name, unit;  ///< unit empty: a label
 };
 
 /// The properties common to all units.
 struct FleetView {
   std::string title, noun, axis, axis_unit, limited, level_unit;
   double limit = 0, horizon = 0;  ///< in these units
-  bool trusted = true;            ///< the result that the population comes from
+  bool keys_are_times = false;    ///< keys of readings: Unix times in ms, not sequence numbers
+  std::vector<ColumnView> columns;
+  bool level_measured = false;  ///< whether a column of a reading measures the level
+  bool trusted = true;          ///< the result that the population comes from
   std::uint64_t units = 0, ok = 0, watch = 0, act = 0, doubt = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;
@@ -101,6 +125,7 @@ struct Delivery {
   bool stored = false;
   std::uint64_t readings = 0, repeated = 0, refused = 0;
   std::string problem = {};  ///< the first one
+  std::uint64_t events = 0;
 };
 class Inbox {
  public:

@@ -92,18 +92,23 @@ wearwell.element = (name, attributes = {}, ...children) => {
         wearwell.element('span', {}, word));
   };
 
+  // The alarm; of a part out of service, why it is.
+  wearwell.stateOf = (view) => (view.service === 'in service' ? view.alarm : view.service);
+
   // The server's clock: ages are correct even if this machine's clock is wrong.
   let ahead = 0;
   wearwell.hear = (now) => { ahead = now - Date.now(); };
   wearwell.now = () => Date.now() + ahead;
 
-  wearwell.ask = async (path) => {
-    const response = await fetch(path, {cache: 'no-store'});
+  async function answer(path, request) {
+    const response = await fetch(path, {cache: 'no-store', ...request});
     if (response.status === 401) location.assign('/login');
     if (!response.ok) {
-      const {error} = await response.json().catch(() => ({}));
-      throw Object.assign(new Error(error || `the server responds with status ${response.status}`), {status: response.status});
+      const {error, problem} = await response.json().catch(() => ({}));
+      throw Object.assign(new Error(error || problem || `the server responds with status ${response.status}`), {status: response.status});
     }
     return response.json();
-  };
+  }
+  wearwell.ask = (path) => answer(path, {});
+  wearwell.send = (path, body) => answer(path, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
 })();

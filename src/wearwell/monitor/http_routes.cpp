@@ -19,7 +19,13 @@ constexpr std::size_t units_at_once = 500;
 constexpr std::size_t units_measured = 10'000;
 /// With more changes an event says only that many units changed, not which.
 constexpr std::size_t names_at_once = 200;
-constexpr std::string_view unit_prefix = "/api/units/";
+constexpr std::string_view unit_prefix = "/api/units/", events_suffix = "/events";
+
+/// "/api/units/NAME/events"; a slash of a name is encoded.
+bool is_events_of_unit(std::string_view path) {
+  return path.starts_with(unit_prefix) && path.ends_with(events_suffix) &&
+         path.size() > unit_prefix.size() + events_suffix.size();
+}
 
 std::string_view path_of(const HttpRequest& question) {
   return std::string_view(question.target).substr(0, question.target.find('?'));
@@ -28,7 +34,7 @@ std::string_view path_of(const HttpRequest& question) {
 /// The methods of a path; "" if there is no such path.
 std::string methods_of(std::string_view path) {
   if (path == "/api/events") return "GET";
-  if (path == "/api/readings" || path == "/logout") return "POST";
+  if (path == "/api/readings" || path == "/logout" || is_events_of_unit(path)) return "POST";
   if (path == "/login") return "GET, HEAD, POST";
   static constexpr std::string_view shown[] = {"/", "/api/fleet", "/api/units", "/metrics",
                                                "/health"};
@@ -66,6 +72,20 @@ std::string media_type(const std::string& field) {
   return type;
 }
 
+// Rejected permanently with 400, to be repeated with 503.
+HttpResponse answer_of(Delivery delivery) {
+  HttpResponse answer;
+  if (!delivery.stored) {
+    answer.status = 503;
+    answer.fields.emplace_back("Retry-After", "5");
+  } else if (delivery.readings + delivery.events + delivery.repeated == 0) {
+    answer.status = 400;
+    if (delivery.problem.empty()) delivery.problem = "it contains no reading";
+  }
+  answer.body = text_of(json_of(delivery));
+  return answer;
+}
+
 std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
   if (!question.content_encoding.empty() && question.content_encoding != "identity") {
     return refusal(415, "the body is compressed; send it uncompressed");
@@ -88,10 +108,12 @@ std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
 
 }  // namespace
 
-HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* inbox)
+HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* readings,
+                       Inbox* events)
     : access_(access),
       reader_(reader),
-      inbox_(inbox),
+      inbox_(readings),
+      events_(events),
       page_(fleet_page(access.needs_token())),
       login_(login_page(false)),
       wrong_(login_page(true)),
@@ -107,7 +129,7 @@ bool HttpRoutes::is_supervision(const HttpRequest& question) {
 }
 
 bool HttpRoutes::is_delivery(const HttpRequest& question) {
-  return path_of(question) == "/api/readings";
+  return path_of(question) == "/api/readings" || is_events_of_unit(path_of(question));
 }
 
 std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) const {
@@ -154,6 +176,10 @@ HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& h
     }
     if (path == "/api/units") return units(target);
     if (path == "/api/readings") return readings(question.body);
+    if (is_events_of_unit(path)) {
+      const std::size_t around = unit_prefix.size() + events_suffix.size();
+      return event_of_unit(path.substr(unit_prefix.size(), path.size() - around), question.body);
+    }
     return unit(path.substr(unit_prefix.size()));
   } catch (const InputError& error) {
     return refusal(400, error.what());
@@ -209,20 +235,17 @@ HttpResponse HttpRoutes::unit(const std::string& encoded) const {
   return {200, "application/json", text_of(json)};
 }
 
-// Rejected permanently with 400, to be repeated with 503.
 HttpResponse HttpRoutes::readings(const std::string& body) const {
   if (!inbox_) return refusal(404, "this monitor takes no readings by HTTP");
-  Delivery delivery = inbox_->deliver("", body);
-  HttpResponse answer;
-  if (!delivery.stored) {
-    answer.status = 503;
-    answer.fields.emplace_back("Retry-After", "5");
-  } else if (delivery.readings + delivery.repeated == 0) {
-    answer.status = 400;
-    if (delivery.problem.empty()) delivery.problem = "it contains no reading";
-  }
-  answer.body = text_of(json_of(delivery));
-  return answer;
+  return answer_of(inbox_->deliver("", body));
+}
+
+HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::string& body) const {
+  if (!events_) return refusal(404, "this monitor takes no events by HTTP");
+  const std::string name = percent_decoded(encoded);
+  if (!reader_.unit(name))
+    return refusal(404, fmt::format("\"{}\" is not a unit", shortened(name)));
+  return answer_of(events_->deliver(name, body));
 }
 
 HttpResponse HttpRoutes::metrics(const HttpCounts& http) const {

@@ -15,8 +15,8 @@ namespace wearwell::monitor {
 /// The routes and their answers (docs/reference/monitor-api.md). Any thread may ask.
 class HttpRoutes {
  public:
-  /// `inbox`: null if readings are not accepted by HTTP.
-  HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* inbox);
+  /// `readings`, `events`: null if these are not accepted by HTTP.
+  HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* readings, Inbox* events);
 
   /// The header is enough to refuse a request: sender, path and method, type of body.
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
@@ -42,11 +42,12 @@ class HttpRoutes {
   HttpResponse units(const HttpTarget& target) const;
   HttpResponse unit(const std::string& encoded) const;
   HttpResponse readings(const std::string& body) const;
+  HttpResponse event_of_unit(const std::string& encoded, const std::string& body) const;
   HttpResponse metrics(const HttpCounts& http) const;
 
   const HttpAccess& access_;
   const FleetReader& reader_;
-  Inbox* inbox_;
+  Inbox *inbox_, *events_;
   ServedPage page_, login_, wrong_;
   std::int64_t started_ms_;
 };

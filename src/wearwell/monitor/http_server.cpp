@@ -92,11 +92,11 @@ Tcp::acceptor listening(const HttpSettings& settings, const Tcp::endpoint& endpo
 }  // namespace
 
 struct HttpServer::State {
-  State(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox)
+  State(const HttpSettings& settings, const FleetReader& reader, Inbox* readings, Inbox* events)
       : tls(tls_of(settings)),
         access(settings, tls ? [this](const std::string& name) { return tls->covers(name); }
                              : std::function<bool(const std::string&)>()),
-        routes(access, reader, inbox),
+        routes(access, reader, readings, events),
         hub(routes, settings.limits),
         fleet(reader),
         acceptor(hub.io),
@@ -243,8 +243,9 @@ struct HttpServer::State {
   std::thread thread;
 };
 
-HttpServer::HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox)
-    : state_(std::make_unique<State>(settings, reader, inbox)) {
+HttpServer::HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* readings,
+                       Inbox* events)
+    : state_(std::make_unique<State>(settings, reader, readings, events)) {
   state_->accept();
   state_->run_ticks();
   state_->thread = std::thread([state = state_.get()] { state->run(); });

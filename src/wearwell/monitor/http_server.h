@@ -14,11 +14,12 @@ namespace wearwell::monitor {
 /// and the next contains all changes since.
 class HttpServer {
  public:
-  /// Listening when it returns. `inbox`: null if readings are not accepted by HTTP. Reader and
-  /// inbox must outlive it. Throws InputError for invalid settings (beyond loopback without token
+  /// Listening when it returns. `readings`, `events`: null if these are not accepted by HTTP. All
+  /// must outlive it. Throws InputError for invalid settings (beyond loopback without token
   /// or TLS, a certificate that does not match its key, an unknown address), MachineError if the
   /// port is not available.
-  HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox);
+  HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* readings,
+             Inbox* events = nullptr);
   /// Stops.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

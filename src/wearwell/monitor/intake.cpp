@@ -4,6 +4,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/monitor/event_row.h"
 #include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
@@ -31,6 +32,8 @@ Delivery Intake::deliver(const SourceSettings& source, std::span<const Row> rows
 Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
   Delivery delivery;
   if (!batch.readings.empty()) commit(batch);
+  // After the readings: an event may be of one in the same message.
+  if (!batch.events.empty() && batch.trouble.empty()) commit_events(batch);
   if (!batch.trouble.empty()) {
     delivery.problem = batch.trouble;
     return delivery;
@@ -56,6 +59,8 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
              delivery);
     }
   }
+  for (std::size_t i = 0; i < batch.kept_events.size(); ++i)
+    ++(batch.kept_events[i] == Kept::stored ? delivery.events : delivery.repeated);
   tally_.stored(delivery.readings);
   return delivery;
 }
@@ -98,11 +103,20 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
 void Intake::read_row(const SourceSettings& source, const Fields& fields, const std::string& unit,
                       std::int64_t now_ms, Batch& batch) {
   ++batch.rows;
-  try {
-    StoredReading reading = reading_of(fields, unit, source.mapping, now_ms);
-    if (!tally_.admit(reading.unit))
+  const auto admit = [&](const std::string& name) {
+    if (!tally_.admit(name))
       throw InputError(fmt::format(
-          "'{}' is a new unit, and the number of units has reached limits.units", reading.unit));
+          "'{}' is a new unit, and the number of units has reached limits.units", name));
+  };
+  try {
+    if (is_event(fields, source.mapping)) {
+      UnitEvent event = event_of(fields, unit, source.mapping, now_ms);
+      admit(event.unit);
+      batch.events.push_back(std::move(event));
+      return;
+    }
+    StoredReading reading = reading_of(fields, unit, source.mapping, now_ms);
+    admit(reading.unit);
     batch.readings.push_back(std::move(reading));
   } catch (const InputError& error) {
     const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
@@ -121,6 +135,59 @@ void Intake::commit(Batch& batch) {
       store_waiting(lock);
     }
   }
+}
+
+/// What an event refers to and the store does not have; empty if it is there.
+std::string Intake::missing_reference(const UnitEvent& event) {
+  if (event.kind == EventKind::corrected || event.kind == EventKind::withdrawn) {
+    if (store_.reading(event.unit, event.key)) return {};
+    return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),
+                       event.unit, event.key);
+  }
+  if (event.kind != EventKind::cancelled) return {};
+  for (const UnitEvent& each : store_.events_after(event.cancels - 1)) {
+    if (each.number != event.cancels) break;
+    if (each.unit == event.unit && each.kind != EventKind::cancelled) return {};
+  }
+  return fmt::format("cancelled: unit '{}' has no event with number {}", event.unit, event.cancels);
+}
+
+void Intake::commit_events(Batch& batch) {
+  try {
+    std::vector<UnitEvent> events;
+    std::vector<Refusal> refusals;
+    for (const UnitEvent& each : batch.events) {
+      const std::string missing = missing_reference(each);
+      if (missing.empty()) {
+        events.push_back(each);
+      } else {
+        refusals.push_back({each.unit, missing});
+      }
+    }
+    batch.kept_events = store_.add_events(events);
+    batch.refusals.insert(batch.refusals.end(), refusals.begin(), refusals.end());
+    stored_();
+  } catch (const std::exception& error) {
+    batch.trouble = *error.what() ? error.what() : "the store failed";
+    notices_.tell("store", fmt::format("cannot store events, which wait: {}", batch.trouble));
+  }
+}
+
+EventInbox::EventInbox(Intake& intake, const prognosis::Tracker& tracker) : intake_(intake) {
+  source_.name = "http";
+  source_.mapping = plain_mapping(tracker);
+}
+
+Delivery EventInbox::deliver(const std::string& unit, const std::string& payload) {
+  Row row{unit, {}};
+  try {
+    row.fields = fields_of_json(payload);
+    if (!is_event(row.fields, source_.mapping))
+      row.problem = fmt::format("event is missing: one of {}", event_names());
+  } catch (const InputError& error) {
+    row.problem = fmt::format("the event {}", error.what());
+  }
+  return intake_.deliver(source_, std::span(&row, 1));
 }
 
 void Intake::store_waiting(std::unique_lock<std::mutex>& lock) {

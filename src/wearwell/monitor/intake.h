@@ -50,9 +50,10 @@ class Intake {
   };
   struct Batch {
     std::vector<StoredReading> readings = {};
+    std::vector<UnitEvent> events = {};
     std::vector<Refusal> refusals = {};  // counted when the others are stored, and so only once
     std::size_t rows = 0;
-    std::vector<Kept> kept = {};
+    std::vector<Kept> kept = {}, kept_events = {};
     std::string trouble = {};
     bool done = false;
   };
@@ -62,6 +63,8 @@ class Intake {
   Delivery deliver(const SourceSettings& source, Batch& batch);
   void refuse(const SourceSettings& source, const Refusal& refusal, Delivery& delivery);
   void commit(Batch& batch);
+  void commit_events(Batch& batch);
+  std::string missing_reference(const UnitEvent& event);
   void store_waiting(std::unique_lock<std::mutex>& lock);
 
   Store& store_;
@@ -72,6 +75,18 @@ class Intake {
   std::condition_variable changed_;
   std::vector<Batch*> waiting_;
   bool storing_ = false;
+};
+
+/// The inbox of events that are reported by HTTP: one JSON object each, its fields in the units of
+/// the study; the topic is the unit's name.
+class EventInbox : public Inbox {
+ public:
+  EventInbox(Intake& intake, const prognosis::Tracker& tracker);
+  Delivery deliver(const std::string& unit, const std::string& payload) override;
+
+ private:
+  Intake& intake_;
+  SourceSettings source_;
 };
 
 /// The inbox of one source.

@@ -205,12 +205,14 @@ class Follower {
 class Outlets {
  public:
   Outlets(const MonitorConfig& config, const MonitorOptions& options, const Fleet& fleet,
-          Intake& intake, Notices& notices) {
+          Intake& intake, const prognosis::Tracker& tracker, Notices& notices)
+      : events_(intake, tracker) {
     if (options.once) return;
     for (const SourceSettings& source : config.sources) {
       if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
     }
-    if (config.http) server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get());
+    if (config.http)
+      server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get(), &events_);
     if (config.publish)
       publisher_ = std::jthread([&](std::stop_token stop) {
         publish_states(fleet, *config.publish, notices, std::move(stop));
@@ -219,6 +221,7 @@ class Outlets {
   std::string address() const { return server_ ? server_->address() : std::string(); }
 
  private:
+  EventInbox events_;
   std::unique_ptr<SourceInbox> inbox_;
   std::unique_ptr<HttpServer> server_;
   std::jthread publisher_;
@@ -268,8 +271,13 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   const auto store =
       open_store(config.store, config.folder, store_columns(config, population.tracker),
                  Access::write, [&](const std::string& what) { notices.tell("store", what); });
-  FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
-                         threads_or_all(options.threads)};
+  FleetSettings settings;
+  settings.title = config.title;
+  settings.trusted = population.trusted;
+  settings.population = population.fingerprint;
+  settings.alarm = config.alarm;
+  settings.threads = threads_or_all(options.threads);
+  settings.keys_are_times = !config.sequence;
   const bool tells = !options.once;
   settings.on_alarm = [&](const AlarmChange& change, Alarm before, const UnitView& unit) {
     if (tells)
@@ -283,7 +291,7 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   catch_up(fleet, signals);
   WakeSignal wake;
   Intake intake(*store, tally, notices, [&] { wake.ring(); });
-  const Outlets outlets(config, options, fleet, intake, notices);
+  const Outlets outlets(config, options, fleet, intake, population.tracker, notices);
   started(fleet, outlets.address());
   Sources sources(config, options.once, intake, *store, notices, wake);
   Follower follower(fleet, notices);

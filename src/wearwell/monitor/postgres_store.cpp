@@ -30,10 +30,15 @@ constexpr const char* tables = R"(
   CREATE INDEX wearwell_alarm_of_unit ON wearwell_alarm (unit, number);
   CREATE TABLE wearwell_file (name text PRIMARY KEY, bytes bigint NOT NULL))";
 
+constexpr const char* event_table = R"(
+  CREATE TABLE wearwell_event (
+    number bigserial PRIMARY KEY, unit text NOT NULL, event text NOT NULL, key bigint NOT NULL, received_ms bigint NOT NULL,
+    author text NOT NULL, note text NOT NULL, content text NOT NULL, UNIQUE (unit, event, key, author, note, content)))";
+
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
 constexpr const char* steps[] = {
-    "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0"};
+    "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0", event_table};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -69,7 +74,10 @@ class PostgresStore : public Store {
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
   void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
                const std::function<void(const StoredReading&)>& visit) override;
+  std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
+  std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
+  std::vector<UnitEvent> events_after(std::int64_t number) override;
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override;
   std::vector<Checkpoint> states(const std::string& population) override;
@@ -104,6 +112,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     if (fresh && access == Access::read) return;
     if (fresh) {
       work.exec(tables);
+      work.exec(event_table);
       put(work, "version", fmt::format("{}", store_version));
       put(work, "numbers", json_of(columns.numbers));
       put(work, "labels", json_of(columns.labels));
@@ -229,6 +238,56 @@ void PostgresStore::of_unit(const std::string& unit, std::int64_t after, std::in
       readings.push_back(reading_in(row));
   });
   for (const StoredReading& each : readings) visit(each);
+}
+
+std::optional<StoredReading> PostgresStore::reading(const std::string& unit, std::int64_t key) {
+  std::optional<StoredReading> found;
+  read_.run([&](pqxx::work& work) {
+    found.reset();
+    for (const auto& row :
+         work.exec(fmt::format("SELECT {} FROM wearwell_reading WHERE unit = {} AND key = {}",
+                               reading_columns, work.quote(unit), key)))
+      found = reading_in(row);
+  });
+  return found;
+}
+
+std::vector<Kept> PostgresStore::add_events(const std::vector<UnitEvent>& events) {
+  std::vector<Kept> kept;
+  write_.run([&](pqxx::work& work) {
+    kept.clear();
+    for (const UnitEvent& each : events) {
+      const pqxx::result stored = work.exec_params(
+          "INSERT INTO wearwell_event (unit, event, key, received_ms, author, note, content) "
+          "VALUES ($1, $2, $3, $4, $5, $6, $7) ON CONFLICT DO NOTHING RETURNING number",
+          each.unit, name(each.kind), each.key, each.received_ms, each.author, each.note,
+          content_of(each));
+      kept.push_back(stored.empty() ? Kept::repeated : Kept::stored);
+    }
+  });
+  return kept;
+}
+
+std::vector<UnitEvent> PostgresStore::events_after(std::int64_t number) {
+  std::vector<UnitEvent> events;
+  read_.run([&](pqxx::work& work) {
+    events.clear();
+    for (const auto& row : work.exec_params(
+             "SELECT number, unit, event, key, received_ms, author, note, content FROM "
+             "wearwell_event WHERE number > $1 ORDER BY number",
+             number)) {
+      UnitEvent event{row[0].as<std::int64_t>(),
+                      row[1].c_str(),
+                      stored_event(row[2].c_str()),
+                      row[3].as<std::int64_t>(),
+                      row[4].as<std::int64_t>(),
+                      row[5].c_str(),
+                      row[6].c_str()};
+      read_content(row[7].c_str(), event);
+      events.push_back(std::move(event));
+    }
+  });
+  return events;
 }
 
 std::uint64_t PostgresStore::count() {

@@ -12,6 +12,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/implausible_reading.h"
 #include "wearwell/monitor/time_text.h"
+#include "wearwell/monitor/unit_events.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -154,6 +155,18 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
   }
 }
 
+/// What a tracker says to readings and events, without fields.
+ReadingMapping mapping_for(const prognosis::Tracker& tracker) {
+  ReadingMapping mapping;
+  mapping.implausible = implausible_reading(tracker);
+  mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
+  mapping.event_problem = [&tracker](const UnitEvent& event) {
+    return event_problem(event, tracker);
+  };
+  mapping.watched = prognosis::watched_columns(tracker);
+  return mapping;
+}
+
 }  // namespace
 
 double required_si(const TomlReader& table, const std::string& key, const Unit& like) {
@@ -168,10 +181,9 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
 
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {
-  ReadingMapping mapping;
-  mapping.implausible = implausible_reading(tracker);
-  mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
+  ReadingMapping mapping = mapping_for(tracker);
   read_identity(reading, topic_names_unit, mapping);
+  mapping.event = reading.text("event").value_or("");
   const TomlReader columns = reading.required_table("columns");
   std::vector<std::string> missing;
   for (const prognosis::ReadingColumn& column : tracker.columns()) {
@@ -197,6 +209,16 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
   return mapping;
 }
 
+ReadingMapping plain_mapping(const prognosis::Tracker& tracker) {
+  ReadingMapping mapping = mapping_for(tracker);
+  mapping.sequence = "key";
+  mapping.event = "event";
+  for (const prognosis::ReadingColumn& each : tracker.columns())
+    mapping.columns.push_back({each.name, each.measured, each.name, each.unit, {}});
+  mapping.labels.assign(tracker.labels().begin(), tracker.labels().end());
+  return mapping;
+}
+
 std::vector<std::string> needed_fields(const ReadingMapping& mapping) {
   std::vector<std::string> fields;
   for (const std::string* each : {&mapping.unit, &mapping.sequence, &mapping.time}) {
@@ -209,8 +231,8 @@ std::vector<std::string> needed_fields(const ReadingMapping& mapping) {
   return fields;
 }
 
-StoredReading reading_of(const Fields& fields, const std::string& unit,
-                         const ReadingMapping& mapping, std::int64_t received_ms) {
+StoredReading identity_of(const Fields& fields, const std::string& unit,
+                          const ReadingMapping& mapping, std::int64_t received_ms) {
   StoredReading reading;
   if (mapping.unit.empty()) {
     Field topic{"{unit}", Field::Kind::text};
@@ -236,9 +258,18 @@ StoredReading reading_of(const Fields& fields, const std::string& unit,
       throw InputError(fmt::format("{} must be a whole number", shown_value(mapping.sequence)));
     reading.key = sequence->integer;
   }
+  return reading;
+}
+
+double value_of(const Fields& fields, const ColumnField& column) {
+  return number_of(column.constant ? nullptr : find_field(fields, column.field), column);
+}
+
+StoredReading reading_of(const Fields& fields, const std::string& unit,
+                         const ReadingMapping& mapping, std::int64_t received_ms) {
+  StoredReading reading = identity_of(fields, unit, mapping, received_ms);
   for (const ColumnField& column : mapping.columns)
-    reading.numbers.push_back(
-        number_of(column.constant ? nullptr : find_field(fields, column.field), column));
+    reading.numbers.push_back(value_of(fields, column));
   refuse_missing(reading, mapping);
   for (const std::string& label : mapping.labels)
     reading.labels.push_back(name_of(find_field(fields, label), label));

@@ -8,6 +8,8 @@
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/monitor/message.h"
 #include "wearwell/monitor/store.h"
+#include "wearwell/monitor/unit_event.h"
+#include "wearwell/prognosis/change_watch.h"
 #include "wearwell/prognosis/tracker.h"
 
 namespace wearwell::monitor {
@@ -35,6 +37,10 @@ struct ReadingMapping {
   std::function<std::string(const std::string& unit)> refusal = {};  ///< Tracker::refusal
   /// Why a reading is refused, see `implausible_reading`.
   std::function<std::string(const StoredReading& reading)> implausible = {};
+  std::string event = {};  ///< field: rows that have it are events; empty: none are
+  /// Why an event is refused, see `event_problem`.
+  std::function<std::string(const UnitEvent& event)> event_problem = {};
+  prognosis::WatchedColumns watched = {};
 };
 
 /// A quantity with the dimension of `like`, in SI. Throws for a plain number if the unit's size is
@@ -50,6 +56,16 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
 
 /// The required fields of a row: its identifier, conditions and labels.
 std::vector<std::string> needed_fields(const ReadingMapping& mapping);
+
+/// The mapping of rows whose fields are the study's columns, in its units, with a whole number
+/// `key`; the unit is given beside them.
+ReadingMapping plain_mapping(const prognosis::Tracker& tracker);
+
+/// The unit, key and times of a row; no values. As `reading_of`.
+StoredReading identity_of(const Fields& fields, const std::string& unit,
+                          const ReadingMapping& mapping, std::int64_t received_ms);
+/// A column's value in SI; NaN if the row has none. Throws InputError that names the field.
+double value_of(const Fields& fields, const ColumnField& column);
 
 /// The reading in a row of a message. `unit`: from the topic, or empty. Throws InputError that
 /// names the field and its value.

@@ -27,9 +27,15 @@ constexpr const char* tables = R"(
   CREATE INDEX alarm_of_unit ON alarm (unit, number);
   CREATE TABLE file (name TEXT PRIMARY KEY, bytes INTEGER NOT NULL) WITHOUT ROWID;)";
 
+constexpr const char* event_table = R"(
+  CREATE TABLE event (
+    number INTEGER PRIMARY KEY, unit TEXT NOT NULL, event TEXT NOT NULL, key INTEGER NOT NULL, received_ms INTEGER NOT NULL,
+    author TEXT NOT NULL, note TEXT NOT NULL, content TEXT NOT NULL, UNIQUE (unit, event, key, author, note, content));)";
+
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
-constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0"};
+constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
+                                 event_table};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -49,7 +55,10 @@ class SqliteStore : public Store {
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
   void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
                const std::function<void(const StoredReading&)>& visit) override;
+  std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
+  std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
+  std::vector<UnitEvent> events_after(std::int64_t number) override;
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override;
   std::vector<Checkpoint> states(const std::string& population) override;
@@ -124,6 +133,7 @@ SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& 
 void SqliteStore::begin_tables(const StoreColumns& columns) {
   SqliteTransaction transaction(write_);
   write_.run(tables);
+  write_.run(event_table);
   put("version", fmt::format("{}", store_version));
   put("numbers", json_of(columns.numbers));
   put("labels", json_of(columns.labels));
@@ -208,6 +218,50 @@ void SqliteStore::of_unit(const std::string& unit, std::int64_t after, std::int6
     of_unit_->reset();
   }
   for (const StoredReading& each : readings) visit(each);
+}
+
+std::optional<StoredReading> SqliteStore::reading(const std::string& unit, std::int64_t key) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(
+      read_, fmt::format("SELECT {} FROM reading WHERE unit = ? AND key = ?", reading_columns));
+  select.bind(1, std::string_view(unit)).bind(2, key);
+  if (!select.next()) return {};
+  return reading_in(select);
+}
+
+std::vector<Kept> SqliteStore::add_events(const std::vector<UnitEvent>& events) {
+  const std::lock_guard lock(write_lock_);
+  std::vector<Kept> kept;
+  SqliteTransaction transaction(write_);
+  SqliteStatement insert(write_,
+                         "INSERT INTO event (unit, event, key, received_ms, author, note, content) "
+                         "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  for (const UnitEvent& each : events) {
+    const std::string content = content_of(each);
+    insert.bind(1, std::string_view(each.unit)).bind(2, std::string_view(name(each.kind)));
+    insert.bind(3, each.key).bind(4, each.received_ms).bind(5, std::string_view(each.author));
+    insert.bind(6, std::string_view(each.note)).bind(7, std::string_view(content)).run();
+    kept.push_back(write_.changes() == 1 ? Kept::stored : Kept::repeated);
+  }
+  transaction.commit();
+  return kept;
+}
+
+std::vector<UnitEvent> SqliteStore::events_after(std::int64_t number) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_,
+                         "SELECT number, unit, event, key, received_ms, author, note, content FROM "
+                         "event WHERE number > ? ORDER BY number");
+  select.bind(1, number);
+  std::vector<UnitEvent> events;
+  while (select.next()) {
+    UnitEvent event{select.integer(0), select.text(1),    stored_event(select.text(2)),
+                    select.integer(3), select.integer(4), select.text(5),
+                    select.text(6)};
+    read_content(select.text(7), event);
+    events.push_back(std::move(event));
+  }
+  return events;
 }
 
 std::uint64_t SqliteStore::count() {

@@ -5,11 +5,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "wearwell/monitor/fleet_view.h"
+#include "wearwell/monitor/unit_event.h"
 
 namespace wearwell::monitor {
 
@@ -69,7 +71,14 @@ class Store {
   /// One unit's readings after `after` and up to `last`, in order.
   virtual void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
                        const std::function<void(const StoredReading&)>& visit) = 0;
+  /// The reading of a unit with this key, as it was stored.
+  virtual std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) = 0;
   virtual std::uint64_t count() = 0;
+
+  /// Stores new events, all or, when it throws, none; the same one again counts as repeated.
+  virtual std::vector<Kept> add_events(const std::vector<UnitEvent>& events) = 0;
+  /// Events with a larger number, in order.
+  virtual std::vector<UnitEvent> events_after(std::int64_t number) = 0;
 
   /// States of the units, of this population only (a SHA-1); `all_up_to`: all readings up to there
   /// are included.
@@ -114,8 +123,8 @@ std::string shown_store(const std::string& url);
 /// A URL of PostgreSQL without user and password.
 std::string shown_url(const std::string& url);
 
-/// The version of the tables that this program writes. 2: alarms have a place.
-inline constexpr int store_version = 2;
+/// The version of the tables that this program writes. 2: alarms have a place; 3: events of units.
+inline constexpr int store_version = 3;
 
 /// The version of the store `name` from its own text, if it is supported: 1 to `store_version`.
 /// Throws InputError.

@@ -17,6 +17,7 @@ using Json = nlohmann::json;
 UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
                      const TrackerUnits& units) {
   UnitMoment moment;
+  moment.key = reading.key;
   moment.time_ms = reading.time_ms ? reading.time_ms : reading.received_ms;
   moment.at = units.at(forecast.now);
   moment.measured = units.measured(reading.numbers);
@@ -27,18 +28,20 @@ UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& fo
 }
 
 Json json_of_moment(const UnitMoment& each) {
-  return {each.time_ms,   each.at,        each.measured ? Json(*each.measured) : Json(),
-          each.level.q05, each.level.q50, each.level.q95,
-          each.life.q05,  each.life.q50,  each.life.q95};
+  return {
+      each.key,       each.time_ms,   each.at,        each.measured ? Json(*each.measured) : Json(),
+      each.level.q05, each.level.q50, each.level.q95, each.life.q05,
+      each.life.q50,  each.life.q95};
 }
 
 UnitMoment moment_of(const Json& json) {
   UnitMoment moment;
-  moment.time_ms = json.at(0);
-  moment.at = json.at(1);
-  if (!json.at(2).is_null()) moment.measured = json.at(2).get<double>();
-  moment.level = {json.at(3), json.at(4), json.at(5)};
-  moment.life = {json.at(6), json.at(7), json.at(8)};
+  moment.key = json.at(0);
+  moment.time_ms = json.at(1);
+  moment.at = json.at(2);
+  if (!json.at(3).is_null()) moment.measured = json.at(3).get<double>();
+  moment.level = {json.at(4), json.at(5), json.at(6)};
+  moment.life = {json.at(7), json.at(8), json.at(9)};
   return moment;
 }
 
@@ -60,6 +63,16 @@ std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLive
   return curve;
 }
 
+prognosis::History counted_history(const UnitRecord& record, std::int64_t until, Store& store) {
+  return [&store, unit = record.unit, events = record.events, until](const auto& visit) {
+    store.of_unit(unit, 0, until, [&](const StoredReading& each) {
+      const CountedReading seen = events->counted(each);
+      if (seen.part == events->part().number && seen.state == CountedReading::State::counts)
+        visit({seen.reading.numbers, seen.reading.labels});
+    });
+  };
+}
+
 bool is_kept_moment(std::uint64_t n) {
   constexpr std::uint64_t all = 12;
   constexpr double step = 0.12;  // of the logarithm
@@ -70,9 +83,21 @@ bool is_kept_moment(std::uint64_t n) {
   return class_of(n) != class_of(n - 1);
 }
 
-void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& units,
+void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& units,
           Store& store) {
-  record.place = reading.place;
+  using State = CountedReading::State;
+  record.place = stored.place;
+  const CountedReading seen = record.events->counted(stored);
+  if (seen.part != record.events->part().number || seen.state == State::withdrawn) return;
+  if (seen.state == State::out_of_service) {
+    ++record.not_counted;
+    record.last_problem = fmt::format(
+        "a reading came after the part was out of service ({}); if a new one is installed, report "
+        "the event \"replaced\"",
+        name(record.events->part().service));
+    return;
+  }
+  const StoredReading& reading = seen.reading;
   record.last_time_ms = std::max(record.last_time_ms, reading.time_ms);
   record.last_received_ms = reading.received_ms;
   const bool first = record.readings == 0;
@@ -80,11 +105,7 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   record.late += late;
   record.last_key = first ? reading.key : std::max(record.last_key, reading.key);
   ++record.readings;
-  const prognosis::History history = [&](const auto& visit) {
-    store.of_unit(record.unit, 0, reading.place - 1, [&](const StoredReading& each) {
-      visit({each.numbers, each.labels});
-    });
-  };
+  const prognosis::History history = counted_history(record, reading.place - 1, store);
   const prognosis::UpdateResult taken =
       record.watch.update({units.tracker(), units.watched(), record.unit, *record.state},
                           {reading.numbers, reading.labels}, late, history);
@@ -111,10 +132,12 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   if (!std::isnan(forecast.passed)) record.moments.push_back(moment_of(reading, forecast, units));
 }
 
-UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker) {
+UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker,
+                        std::shared_ptr<const UnitEvents> events) {
   UnitRecord record;
   record.unit = unit;
-  record.state = tracker.begin(unit);
+  record.state = tracker.begin(part_name(unit, events->part().number));
+  record.events = std::move(events);
   return record;
 }
 
@@ -139,17 +162,23 @@ std::string bytes_of(const UnitRecord& record) {
       {"received_ms", record.last_received_ms},
       {"moments", moments},
       {"watch", Json::binary({watch.begin(), watch.end()})},
+      {"event", record.events->last()},
   };
   const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
   return {bytes.begin(), bytes.end()};
 }
 
-UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker) {
+UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker,
+                           std::shared_ptr<const UnitEvents> events) {
   try {
     const Json json = Json::from_cbor(checkpoint.bytes);
+    if (json.value("event", std::int64_t{0}) != events->last())
+      throw InputError(fmt::format("the state of unit '{}' is from before event {}",
+                                   checkpoint.unit, events->last()));
     const auto& state = json.at("state").get_binary();
     UnitRecord record;
     record.unit = checkpoint.unit;
+    record.events = std::move(events);
     record.place = checkpoint.place;
     record.state = tracker.restore(std::string(state.begin(), state.end()));
     json.at("readings").get_to(record.readings);

@@ -8,16 +8,19 @@
 
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/store.h"
+#include "wearwell/monitor/unit_events.h"
 #include "wearwell/prognosis/change_watch.h"
 #include "wearwell/prognosis/tracker.h"
 #include "wearwell/prognosis/tracker_units.h"
 
 namespace wearwell::monitor {
 
-/// The state of a unit, which follows from its readings in the order of storage: the same after a
-/// restart.
+/// The state of a unit, which follows from its readings in the order of storage and from its events:
+/// the same after a restart.
 struct UnitRecord {
   std::string unit;
+  /// The readings of its present part alone count.
+  std::shared_ptr<const UnitEvents> events = {};
   std::unique_ptr<prognosis::TrackedUnit> state;
   std::int64_t place = 0;  ///< of its last processed reading
   std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
@@ -41,14 +44,20 @@ std::vector<UnitDetail::CurvePoint> survival_curve(const prognosis::WeightedLive
 void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& units,
           Store& store);
 
+/// The readings of a unit up to a place of storage that count for its present part, as they count.
+/// The store must outlive it.
+prognosis::History counted_history(const UnitRecord& record, std::int64_t until, Store& store);
+
 /// Whether the n-th reading is kept in the history: all at first, then ever fewer, so that a
 /// thousand more need little more memory.
 bool is_kept_moment(std::uint64_t n);
 
-UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker);
+UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker,
+                        std::shared_ptr<const UnitEvents> events);
 
 std::string bytes_of(const UnitRecord& record);
-/// Throws InputError if the bytes are damaged.
-UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker);
+/// Throws InputError if the bytes are damaged, or from before the last event.
+UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker,
+                           std::shared_ptr<const UnitEvents> events);
 
 }  // namespace wearwell::monitor

@@ -1,0 +1,80 @@
+#include "wearwell/monitor/event_row.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::monitor {
+namespace {
+
+std::string text_in(const Fields& fields, const char* name, std::size_t most) {
+  const Field* field = find_field(fields, name);
+  if (!field || field->kind == Field::Kind::null) return {};
+  const std::string text = !field->text.empty() ? field->text
+                           : field->whole       ? fmt::format("{}", field->integer)
+                                                : std::string();
+  if (text.size() > most || printable(text) != text)
+    throw InputError(fmt::format("{} must be a text of at most {} bytes without control characters",
+                                 name, most));
+  return text;
+}
+
+EventKind kind_of(const Fields& fields, const ReadingMapping& mapping) {
+  const Field& field = *find_field(fields, mapping.event);
+  if (const auto kind = event_named(field.text)) return *kind;
+  throw InputError(fmt::format("{} is '{}', but must be one of {}", printable(mapping.event),
+                               printable(shortened(field.text)), event_names()));
+}
+
+}  // namespace
+
+bool is_event(const Fields& fields, const ReadingMapping& mapping) {
+  if (mapping.event.empty()) return false;
+  const Field* field = find_field(fields, mapping.event);
+  return field && field->kind != Field::Kind::null &&
+         !(field->kind == Field::Kind::text && field->text.empty());
+}
+
+UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingMapping& mapping,
+                   std::int64_t received_ms) {
+  constexpr std::size_t longest_note = 1000;
+  UnitEvent event;
+  event.kind = kind_of(fields, mapping);
+  const bool corrected = event.kind == EventKind::corrected;
+  const bool cancelled = event.kind == EventKind::cancelled;
+  // An event needs no time beside a sequence number, and a cancellation neither.
+  ReadingMapping identity = mapping;
+  if (cancelled || !identity.sequence.empty()) identity.time = "";
+  if (cancelled) identity.sequence = "";
+  const StoredReading at = corrected ? reading_of(fields, unit, identity, received_ms)
+                                     : identity_of(fields, unit, identity, received_ms);
+  event.unit = at.unit;
+  event.key = at.key;
+  event.received_ms = received_ms;
+  event.author = text_in(fields, "by", longest_name);
+  event.note = text_in(fields, "note", longest_note);
+  if (corrected) {
+    event.numbers = at.numbers;
+    event.labels = at.labels;
+  } else if (cancelled) {
+    const Field* number = find_field(fields, "number");
+    if (!number || !number->whole)
+      throw InputError("number must be a whole number: of the event that is cancelled");
+    event.cancels = number->integer;
+  } else if (event.kind == EventKind::sensor) {
+    // A difference of levels, whatever the zero of the unit is.
+    if (mapping.watched.level) {
+      const ColumnField& level = mapping.columns[*mapping.watched.level];
+      event.offset = value_of(fields, level) - to_si(level.unit, 0);
+    }
+  } else if (event.kind != EventKind::withdrawn) {
+    event.use = value_of(fields, mapping.columns[mapping.watched.axis]);
+  }
+  if (mapping.event_problem) {
+    if (const std::string why = mapping.event_problem(event); !why.empty()) throw InputError(why);
+  }
+  return event;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,67 @@
+#include "wearwell/monitor/export_lives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/monitor/export_readings.h"
+#include "wearwell/monitor/unit_events.h"
+#include "wearwell/prognosis/tracker_units.h"
+
+namespace wearwell::monitor {
+namespace {
+
+struct PartLife {
+  double use = 0;  ///< SI, since the installation
+  bool failed = false;
+};
+
+/// What an event says of the end of a part counts more than its last reading.
+PartLife ended(PartLife life, const UnitPart& part, const UnitPart* next) {
+  life.failed = part.service == Service::failed;
+  if (!std::isnan(part.to_use)) {
+    life.use = part.to_use - part.from_use;
+  } else if (next && next->from_use >= part.from_use + life.use) {
+    life.use = next->from_use - part.from_use;  // the counter goes on
+  }
+  return life;
+}
+
+}  // namespace
+
+std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::uint64_t& count) {
+  const EventsOfUnits events = events_of_units(store, tracker);
+  const std::size_t axis = prognosis::watched_columns(tracker).axis;
+  std::map<std::string, std::vector<PartLife>> units;
+  for (const auto& [unit, list] : events) units[unit].resize(list->parts().size());
+  for_each_counted(store, tracker, [&](const std::string& unit, CountedReading& seen) {
+    if (seen.state != CountedReading::State::counts) return;
+    auto& parts = units[unit];
+    parts.resize(std::max<std::size_t>(parts.size(), 1));
+    double& use = parts[static_cast<std::size_t>(seen.part - 1)].use;
+    use = std::max(use, seen.reading.numbers[axis]);
+  });
+  std::string text = fmt::format(
+      "{},{},status\n", printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun()),
+      printable_csv_cell(column_heading(tracker.axis())));
+  count = 0;
+  const prognosis::TrackerUnits reported(tracker);
+  for (const auto& [unit, lives] : units) {
+    const auto of_unit = events_of(events, unit);
+    const std::vector<UnitPart>& parts = of_unit->parts();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const PartLife life =
+          ended(lives[i], parts[i], i + 1 < parts.size() ? &parts[i + 1] : nullptr);
+      if (!(life.use > 0)) continue;
+      ++count;
+      text += fmt::format("{},{},{}\n", printable_csv_cell(part_name(unit, parts[i].number)),
+                          reported.along(life.use), life.failed ? "failed" : "suspended");
+    }
+  }
+  return text;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,104 @@
+'use strict';
+// Events of a unit: what was reported, and a form that reports another.
+(() => {
+  const {element, quantity, clock} = wearwell;
+  const meanings = {
+    replaced: 'a new part is installed', removed: 'taken out of service', failed: 'failed', sensor: 'sensor exchanged',
+    corrected: 'reading corrected', withdrawn: 'reading withdrawn', cancelled: 'event cancelled',
+  };
+  const byTime = (fleet) => fleet.keys === 'time';
+  const keyText = (fleet, key) => (byTime(fleet) ? clock(key) : `no. ${wearwell.count(key)}`);
+
+  function description(fleet, each) {
+    if (each.event === 'cancelled') return `event ${each.cancels} cancelled`;
+    const more = each.use !== undefined ? `, ${fleet.axis} ${quantity(each.use, fleet.axis_unit)}`
+        : each.offset !== undefined ? `, shows ${quantity(each.offset, fleet.level_unit)} too much` : '';
+    return `${meanings[each.event]}, ${keyText(fleet, each.key)}${more}`;
+  }
+
+  function listed(fleet, view) {
+    if (view.events.length === 0) return element('p', {class: 'note'}, 'Nothing was reported but readings.');
+    return element('ol', {class: 'events-list'}, ...[...view.events].reverse().map((each) => element('li', {class: each.cancelled ? 'cancelled' : ''},
+        element('span', {class: 'number'}, `${each.number}.`),
+        element('span', {}, element('span', {class: 'what'}, wearwell.capital(description(fleet, each))), each.cancelled ? ' (cancelled)' : '',
+                each.note ? `. ${each.note}` : '', element('span', {class: 'note'}, ` ${each.by}, ${clock(each.received_ms)}`)))));
+  }
+
+  let serial = 0;
+  function field(label, input, unit) {
+    input.id = `event-field-${++serial}`;
+    return element('div', {class: 'field'}, element('label', {for: input.id}, unit ? `${label} (${wearwell.unit(unit) || '1'})` : label), input);
+  }
+  const numeric = (name) => element('input', {name, type: 'number', step: 'any', required: true, autocomplete: 'off'});
+
+  // A time of this browser's zone, to the minute, for its own kind of field.
+  function localTime(ms) {
+    const at = new Date(ms - new Date(ms).getTimezoneOffset() * 60000);
+    return at.toISOString().slice(0, 16);
+  }
+
+  function keyField(fleet, view, kind) {
+    const last = view.moments.at(-1)?.key ?? 0;
+    const ofReading = kind === 'corrected' || kind === 'withdrawn';
+    if (!byTime(fleet) || ofReading) {
+      const input = element('input', {name: 'key', type: 'number', step: 1, required: true, value: ofReading || kind === 'failed' || kind === 'removed' ? last : last + 1});
+      return field(byTime(fleet) ? 'Reading of (Unix time, ms)' : ofReading ? 'Reading number' : kind === 'failed' || kind === 'removed' ? 'Last reading, number' : 'From reading number', input);
+    }
+    return field('Time', element('input', {name: 'time', type: 'datetime-local', required: true, value: localTime(wearwell.now())}));
+  }
+
+  // The fields that a kind of event needs.
+  function fieldsOf(fleet, view, kind) {
+    if (kind === 'cancelled') return [field('Number of the event', element('input', {name: 'number', type: 'number', step: 1, min: 1, required: true}))];
+    const fields = [keyField(fleet, view, kind)];
+    if (kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
+    if (kind === 'sensor') fields.push(field(`${wearwell.capital(fleet.limited)} that it shows too much`, numeric(fleet.limited), fleet.level_unit));
+    if (kind === 'corrected') {
+      for (const {name, unit} of fleet.columns) fields.push(field(wearwell.capital(name), unit === null ? element('input', {name, required: true}) : numeric(name), unit ?? ''));
+    }
+    return fields;
+  }
+
+  function bodyOf(form) {
+    const body = {};
+    for (const input of form.querySelectorAll('input, select')) {
+      if (input.value === '') continue;
+      if (input.type === 'datetime-local') body.key = new Date(input.value).getTime();
+      else body[input.name] = input.type === 'number' ? Number(input.value) : input.value;
+    }
+    return body;
+  }
+
+  // One form a unit: it stays as it is while the values around it change.
+  wearwell.eventForm = (fleet, view, done) => {
+    const kinds = Object.keys(meanings).filter((kind) => kind !== 'sensor' || fleet.level_measured);
+    const kind = element('select', {name: 'event', id: 'event-kind'}, ...kinds.map((each) => element('option', {value: each}, meanings[each])));
+    const own = element('div', {class: 'fields'});
+    const message = element('p', {class: 'note', role: 'status'});
+    const choose = () => own.replaceChildren(...fieldsOf(fleet, view, kind.value));
+    kind.addEventListener('change', choose);
+    choose();
+    const form = element('form', {class: 'event-form'},
+        element('div', {class: 'fields'}, element('div', {class: 'field'}, element('label', {for: 'event-kind'}, 'Event'), kind)), own,
+        element('div', {class: 'fields'}, field('Reported by', element('input', {name: 'by', required: true, maxlength: 200, autocomplete: 'name'})),
+                field('Note', element('input', {name: 'note', maxlength: 1000, autocomplete: 'off'}))),
+        element('button', {}, 'Report'), message);
+    form.addEventListener('submit', async (event) => {
+      event.preventDefault();
+      message.className = 'note';
+      message.textContent = 'Sending';
+      try {
+        const answer = await wearwell.send(`/api/units/${encodeURIComponent(view.unit)}/events`, bodyOf(form));
+        message.textContent = answer.events ? 'Stored. The forecast follows in a moment.' : 'This event is stored already.';
+        document.activeElement?.blur();  // the list above may change again
+        done();
+      } catch (error) {
+        message.className = 'wrong';
+        message.textContent = error.message;
+      }
+    });
+    return element('details', {class: 'report'}, element('summary', {}, 'Report an event'), form);
+  };
+
+  wearwell.eventSection = (fleet, view, form) => element('section', {class: 'events'}, element('h3', {}, 'Events'), listed(fleet, view), form);
+})();

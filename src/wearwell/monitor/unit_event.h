@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wearwell::monitor {
+
+/// What can happen to a unit, or to one of its stored readings.
+enum class EventKind {
+  replaced,   ///< a new part is installed
+  removed,    ///< the part is taken out of service
+  failed,     ///< the part has failed
+  sensor,     ///< the sensor is exchanged: from here on it shows the level plus an offset
+  corrected,  ///< a reading has other values
+  withdrawn,  ///< a reading is not valid
+  cancelled   ///< another event is not valid
+};
+const char* name(EventKind kind);
+std::optional<EventKind> event_named(std::string_view name);
+/// The kind in a store. Throws StoreError for another text.
+EventKind stored_event(std::string_view name);
+/// "replaced, removed, ...", for messages.
+std::string event_names();
+
+/// A stored event of a unit. Events are never changed: a wrong one is cancelled by another.
+struct UnitEvent {
+  std::int64_t number = 0;  ///< in the order of storage, from 1
+  std::string unit = {};
+  EventKind kind = EventKind::replaced;
+  /// Its place among the unit's readings: a key as theirs. Of `corrected` and `withdrawn`: the
+  /// reading's; of `cancelled`: 0.
+  std::int64_t key = 0;
+  std::int64_t received_ms = 0;  ///< Unix time of its arrival
+  std::string author = {};       ///< who says so
+  std::string note = {};
+  /// SI, along the axis: what the counter of use shows then; NaN if not given. A counter that is
+  /// set back when a part is replaced shows 0.
+  double use = std::numeric_limits<double>::quiet_NaN();
+  double offset = 0;                     ///< SI, of `sensor`: what it shows minus the level
+  std::vector<double> numbers = {};      ///< of `corrected`: as StoredReading
+  std::vector<std::string> labels = {};  ///< of `corrected`
+  std::int64_t cancels = 0;              ///< of `cancelled`: the number of the other event
+};
+
+/// What an event says beside unit, kind, key, author and note, as JSON for a store.
+std::string content_of(const UnitEvent& event);
+/// Sets these fields. Throws StoreError if the text is damaged.
+void read_content(const std::string& json, UnitEvent& event);
+
+}  // namespace wearwell::monitor

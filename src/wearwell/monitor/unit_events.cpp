@@ -1,0 +1,132 @@
+#include "wearwell/monitor/unit_events.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wearwell::monitor {
+
+const char* name(Service service) {
+  return service == Service::removed  ? "removed"
+         : service == Service::failed ? "failed"
+                                      : "in service";
+}
+
+UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns)
+    : columns_(columns), events_(std::move(events)) {
+  std::vector<const UnitEvent*> valid;
+  for (const UnitEvent& each : events_) {
+    if (each.kind == EventKind::cancelled || is_cancelled(each.number)) continue;
+    valid.push_back(&each);
+    if (each.kind == EventKind::sensor) offsets_[each.key] = each.offset;
+    if (each.kind == EventKind::corrected || each.kind == EventKind::withdrawn)
+      edits_[each.key] = &each;  // the last one holds
+  }
+  find_parts(valid);
+}
+
+// Cancelling the cancellation of an event is not possible: the event is reported again.
+bool UnitEvents::is_cancelled(std::int64_t number) const {
+  return std::any_of(events_.begin(), events_.end(), [&](const UnitEvent& each) {
+    return each.kind == EventKind::cancelled && each.cancels == number;
+  });
+}
+
+void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
+  std::map<std::int64_t, double> installed;
+  for (const UnitEvent* each : valid) {
+    if (each->kind == EventKind::replaced) installed[each->key] = each->use;
+  }
+  for (const auto& [key, use] : installed) {
+    UnitPart part;
+    part.number = parts_.back().number + 1;
+    part.from_key = key;
+    part.from_use = use;
+    parts_.push_back(part);
+  }
+  for (const UnitEvent* each : valid) {
+    if (each->kind != EventKind::removed && each->kind != EventKind::failed) continue;
+    // A part that fails and is replaced under one key is the earlier one.
+    auto at = std::find_if(parts_.rbegin(), parts_.rend(),
+                           [&](const UnitPart& part) { return part.from_key < each->key; });
+    if (at == parts_.rend()) at = std::prev(parts_.rend());
+    if (each->key >= at->to_key) continue;
+    at->to_key = each->key;
+    at->to_use = each->use;
+    at->service = each->kind == EventKind::failed ? Service::failed : Service::removed;
+  }
+}
+
+const UnitPart& UnitEvents::part_at(std::int64_t key) const {
+  auto at = std::find_if(parts_.rbegin(), parts_.rend(),
+                         [&](const UnitPart& part) { return part.from_key <= key; });
+  return at == parts_.rend() ? parts_.front() : *at;
+}
+
+CountedReading UnitEvents::counted(const StoredReading& reading) const {
+  CountedReading counted{CountedReading::State::counts, 1, reading};
+  if (events_.empty()) return counted;
+  const UnitPart& part = part_at(reading.key);
+  counted.part = part.number;
+  if (const auto edit = edits_.find(reading.key); edit != edits_.end()) {
+    if (edit->second->kind == EventKind::withdrawn) {
+      counted.state = CountedReading::State::withdrawn;
+      return counted;
+    }
+    counted.reading.numbers = edit->second->numbers;
+    counted.reading.labels = edit->second->labels;
+  }
+  if (reading.key > part.to_key) counted.state = CountedReading::State::out_of_service;
+  counted.reading.numbers[columns_.axis] -= part.from_use;
+  if (columns_.level) {
+    const auto offset = offsets_.upper_bound(reading.key);
+    if (offset != offsets_.begin())
+      counted.reading.numbers[*columns_.level] -= std::prev(offset)->second;
+  }
+  return counted;
+}
+
+EventsOfUnits events_of_units(Store& store, const prognosis::Tracker& tracker) {
+  const prognosis::WatchedColumns columns = prognosis::watched_columns(tracker);
+  std::map<std::string, std::vector<UnitEvent>> lists;
+  for (UnitEvent& each : store.events_after(0)) lists[each.unit].push_back(std::move(each));
+  EventsOfUnits all;
+  for (auto& [unit, list] : lists)
+    all[unit] = std::make_shared<const UnitEvents>(std::move(list), columns);
+  return all;
+}
+
+std::shared_ptr<const UnitEvents> events_of(const EventsOfUnits& all, const std::string& unit) {
+  static const auto none = std::make_shared<const UnitEvents>();
+  const auto found = all.find(unit);
+  return found == all.end() ? none : found->second;
+}
+
+std::string part_name(const std::string& unit, std::int64_t part) {
+  return part == 1 ? unit : fmt::format("{} (part {})", unit, part);
+}
+
+std::string event_problem(const UnitEvent& event, const prognosis::Tracker& tracker) {
+  const std::string what = name(event.kind);
+  if (event.author.empty()) return "by is missing: who reports the event";
+  const bool needs_use = event.kind == EventKind::replaced || event.kind == EventKind::failed;
+  if (needs_use && std::isnan(event.use))
+    return fmt::format("{}: {} is missing: what the counter shows{}", what, tracker.axis().name,
+                       event.kind == EventKind::replaced
+                           ? " as the new part is installed (0 if it is set back)"
+                           : "");
+  if (event.use < 0) return fmt::format("{}: {} is negative", what, tracker.axis().name);
+  const std::string refusal =
+      event.kind == EventKind::replaced ? tracker.refusal(part_name(event.unit, 2)) : "";
+  if (!refusal.empty()) return fmt::format("{}: {}", what, refusal);
+  if (event.kind != EventKind::sensor) return {};
+  if (!prognosis::watched_columns(tracker).level)
+    return fmt::format("{}: no column of a reading measures {}", what, tracker.limited());
+  if (!std::isfinite(event.offset))
+    return fmt::format("{}: {} is missing: what the sensor shows too much", what,
+                       tracker.limited());
+  return {};
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,230 @@
+// Events of a unit: its state is that of a unit whose readings were right, and of the present part, from the start.
+#include <gmock/gmock.h>
+
+#include "monitor/fleet_rig.h"
+#include "wearwell/monitor/export_lives.h"
+#include "wearwell/monitor/export_readings.h"
+#include "wearwell/monitor/stored_units.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Events : public FleetRig {
+ protected:
+  Events() { source_.mapping = plain(); }
+  static ReadingMapping plain() {
+    static const GrowthTracker tracker;
+    ReadingMapping mapping = plain_mapping(tracker);
+    mapping.unit = "machine";
+    mapping.sequence = "n";
+    return mapping;
+  }
+  Delivery report(const std::string& unit, const std::string& event, const std::string& more) {
+    return deliver(fmt::format(R"({{"machine": "{}", "event": "{}", "by": "A. Smith", {}}})", unit,
+                               event, more));
+  }
+  UnitView view(const std::string& unit) {
+    catch_up();
+    return fleet_->unit(unit).value().view;
+  }
+  /// Two units with the same state, whatever their readings were.
+  void expect_same(const std::string& unit, const std::string& as) {
+    const UnitView a = view(unit), b = view(as);
+    EXPECT_EQ(a.at, b.at);
+    EXPECT_EQ(a.risk, b.risk);
+    EXPECT_EQ(a.level.q95, b.level.q95);
+    EXPECT_EQ(a.remaining.q05, b.remaining.q05);
+    EXPECT_EQ(a.b10, b.b10);
+    EXPECT_EQ(a.doubt, b.doubt);
+    EXPECT_EQ(a.alarm, b.alarm);
+    EXPECT_EQ(a.quality.readings, b.quality.readings);
+  }
+  /// Wear at 1.2 m/h on a counter that shows 500 h when the part is new.
+  void send_two_parts() {
+    for (int n = 1; n <= 10; ++n) deliver(message("a", n, 99.0 * n, 50 * n));
+    for (int n = 11; n <= 20; ++n) deliver(message("a", n, 60.0 * (n - 10), 50 * n));
+    for (int n = 11; n <= 20; ++n) deliver(message("new", n, 60.0 * (n - 10), 50 * (n - 10)));
+  }
+};
+
+TEST_F(Events, ANewPartBeginsAnew) {
+  open();
+  send_two_parts();
+  EXPECT_NE(view("a").at, view("new").at);
+  EXPECT_EQ(report("a", "replaced", R"("n": 11, "time": 500)").events, 1U);
+  expect_same("a", "new");
+  EXPECT_EQ(view("a").part, 2);
+  EXPECT_EQ(view("new").part, 1);
+  const UnitDetail detail = *fleet_->unit("a");
+  ASSERT_EQ(detail.events.size(), 1U);
+  EXPECT_EQ(detail.events[0].event.author, "A. Smith");
+  EXPECT_EQ(detail.events[0].use, 500);
+  EXPECT_EQ(detail.moments.front().key, 11);
+}
+
+// When an event comes makes no difference: before the readings, among them, or after a restart that lost the latest states.
+TEST_F(Events, CountTheSameWhenTheyCome) {
+  open();
+  send_two_parts();
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  catch_up();
+  const std::string late = bits();
+  close();
+  std::filesystem::remove(folder() / "fleet.sqlite");
+  open();
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  catch_up();
+  send_two_parts();
+  catch_up();
+  EXPECT_TRUE(bits() == late);
+  close();
+  std::filesystem::remove(folder() / "fleet.sqlite");
+  open();
+  send_two_parts();
+  catch_up();
+  fleet_->save();
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  close();  // killed: the saved state is from before the event
+  open();
+  fleet_->refresh(true);
+  EXPECT_TRUE(bits() == late);
+}
+
+// A reading of the earlier part that arrives late stays with that part.
+TEST_F(Events, ALateReadingBelongsToItsPart) {
+  open();
+  for (int n = 1; n <= 5; ++n) deliver(message("a", n, 50.0 * n, 50 * n));
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  for (int n = 11; n <= 15; ++n) {
+    deliver(message("a", n, 60.0 * (n - 10), 50 * n));
+    deliver(message("new", n, 60.0 * (n - 10), 50 * (n - 10)));
+  }
+  deliver(message("a", 6, 300, 300));
+  expect_same("a", "new");
+}
+
+TEST_F(Events, ReadingsAreCorrectedAndWithdrawn) {
+  open();
+  deliver(message("a", 1, 7000, 10));  // millimetres
+  deliver(message("a", 2, 20, 20));
+  deliver(message("a", 3, 999, 20.5));
+  deliver(message("a", 4, 30, 30));
+  deliver(message("right", 1, 10, 10));
+  deliver(message("right", 2, 20, 20));
+  deliver(message("right", 4, 30, 30));
+  EXPECT_EQ(report("a", "corrected", R"("n": 1, "wear": 70, "time": 10)").events, 1U);
+  EXPECT_EQ(report("a", "corrected", R"("n": 1, "wear": 10, "time": 10)").events, 1U);
+  EXPECT_EQ(report("a", "withdrawn", R"("n": 3)").events, 1U);
+  EXPECT_EQ(report("a", "withdrawn", R"("n": 3)").repeated, 1U);
+  expect_same("a", "right");
+  // What was stored stays.
+  EXPECT_EQ(store_->reading("a", 1)->numbers[0], 7000);
+  std::uint64_t count = 0;
+  EXPECT_THAT(readings_as_csv(*store_, tracker_, count),
+              testing::AllOf(testing::Not(HasSubstr("7000")), testing::Not(HasSubstr("999"))));
+  EXPECT_EQ(count, 6U);
+}
+
+TEST_F(Events, AWrongEventIsCancelled) {
+  open();
+  send_two_parts();
+  catch_up();
+  const UnitView before = view("a");
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  report("a", "withdrawn", R"("n": 12)");
+  EXPECT_NE(view("a").at, before.at);
+  EXPECT_EQ(report("a", "cancelled", R"("number": 1)").events, 1U);
+  EXPECT_EQ(report("a", "cancelled", R"("number": 2)").events, 1U);
+  const UnitView after = view("a");
+  EXPECT_EQ(after.risk, before.risk);
+  EXPECT_EQ(after.doubt, before.doubt);
+  EXPECT_EQ(after.part, 1);
+  EXPECT_TRUE(fleet_->unit("a")->events[0].cancelled);
+}
+
+TEST_F(Events, ASensorHasAnOffset) {
+  open();
+  for (int n = 1; n <= 8; ++n) {
+    deliver(message("a", n, 50.0 * n + (n >= 5 ? 30 : 0), 50 * n));
+    deliver(message("right", n, 50.0 * n, 50 * n));
+  }
+  report("a", "sensor", R"("n": 5, "wear": 30)");
+  expect_same("a", "right");
+}
+
+TEST_F(Events, APartIsOutOfServiceUntilItIsReplaced) {
+  open();
+  for (int n = 1; n <= 10; ++n) deliver(message("a", n, 99.0 * n, 50 * n));
+  EXPECT_EQ(view("a").alarm, Alarm::act);
+  report("a", "failed", R"("n": 10, "time": 510)");
+  EXPECT_EQ(view("a").alarm, Alarm::unknown);
+  EXPECT_EQ(view("a").service, "failed");
+  deliver(message("a", 11, 10, 520));
+  EXPECT_EQ(view("a").quality.refused, 1U);
+  EXPECT_THAT(view("a").quality.last_problem, HasSubstr("out of service (failed)"));
+  EXPECT_THAT(changes_.back(), HasSubstr("act -> unknown"));
+  report("a", "replaced", R"("n": 11, "time": 510)");
+  EXPECT_EQ(view("a").service, "in service");
+  EXPECT_EQ(view("a").alarm, Alarm::ok);
+  EXPECT_EQ(view("a").quality.readings, 1U);
+  deliver(message("b", 1, 50, 50));
+  report("b", "removed", R"("n": 1)");
+  std::uint64_t count = 0;
+  EXPECT_EQ(lives_as_csv(*store_, tracker_, count),
+            "machine,time [h],status\n"
+            "a,510,failed\n"
+            "a (part 2),10,suspended\n"
+            "b,50,suspended\n");
+  EXPECT_EQ(count, 3U);
+}
+
+TEST_F(Events, AreRefusedWithAReason) {
+  open();
+  deliver(message("a", 1, 10, 10));
+  const auto why = [&](const std::string& event, const std::string& more) {
+    const Delivery delivery = report("a", event, more);
+    EXPECT_EQ(delivery.events, 0U);
+    return delivery.problem;
+  };
+  EXPECT_THAT(why("repalced", R"("n": 2)"), HasSubstr("must be one of replaced, removed, failed"));
+  EXPECT_THAT(why("replaced", R"("n": 2)"), HasSubstr("time is missing"));
+  EXPECT_THAT(why("failed", R"("n": 2)"), HasSubstr("time is missing"));
+  EXPECT_THAT(why("replaced", R"("n": 2, "time": -1)"), HasSubstr("time is negative"));
+  EXPECT_THAT(why("replaced", R"("time": 1)"), HasSubstr("n must be a whole number"));
+  EXPECT_THAT(why("withdrawn", R"("n": 2)"), HasSubstr("has no stored reading with key 2"));
+  EXPECT_THAT(why("corrected", R"("n": 2, "wear": 1, "time": 1)"),
+              HasSubstr("has no stored reading with key 2"));
+  EXPECT_THAT(why("corrected", R"("n": 1, "time": 1)"), HasSubstr("wear is missing"));
+  EXPECT_THAT(why("sensor", R"("n": 1)"), HasSubstr("wear is missing"));
+  EXPECT_THAT(why("cancelled", R"("number": 1)"), HasSubstr("has no event with number 1"));
+  EXPECT_THAT(deliver(R"({"machine": "a", "event": "withdrawn", "n": 1})").problem,
+              HasSubstr("by is missing"));
+  EXPECT_EQ(store_->events_after(0).size(), 0U);
+  // A reading and its withdrawal may come in one message.
+  const Delivery both = deliver(message("a", 2, 10, 20) + "\n" +
+                                R"({"machine": "a", "event": "withdrawn", "n": 2, "by": "x"})");
+  EXPECT_EQ(both.readings + both.events, 2U);
+}
+
+// Decisions and running monitors see the same units.
+TEST_F(Events, AreInWhatAStoreTells) {
+  open();
+  send_two_parts();
+  catch_up();
+  fleet_->save();
+  report("a", "replaced", R"("n": 11, "time": 500)");
+  report("new", "removed", R"("n": 20)");
+  const auto units = stored_units(*store_, {tracker_, "population", true});
+  EXPECT_EQ(units.at("a").events->part().number, 2);
+  EXPECT_EQ(units.at("new").events->part().service, Service::removed);
+  catch_up();
+  fleet_->save();
+  for (const Checkpoint& each : store_->states("population"))
+    EXPECT_TRUE(bytes_of(units.at(each.unit)) == each.bytes) << each.unit;
+}
+
+}  // namespace
+}  // namespace wearwell::monitor
