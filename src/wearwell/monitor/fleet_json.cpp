@@ -57,8 +57,8 @@ Json json_of_event(const EventView& view) {
 Json json_of(const FleetView& fleet) {
   Json columns = Json::array();
   for (const ColumnView& each : fleet.columns)
-    columns.push_back({{"name", each.name},
-                       {"unit", each.unit.empty() ? Json(nullptr) : Json(each.unit)}});
+    columns.push_back(
+        {{"name", each.name}, {"unit", each.unit.empty() ? Json(nullptr) : Json(each.unit)}});
   return {{"title", fleet.title},
           {"noun", fleet.noun},
           {"axis", fleet.axis},

@@ -13,6 +13,7 @@
 #include "wearwell/monitor/alarm.h"
 #include "wearwell/monitor/postgres_session.h"
 
+// Longer than others: the tables of one store and all its statements.
 namespace wearwell::monitor {
 namespace {
 

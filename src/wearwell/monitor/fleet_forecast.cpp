@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wearwell/monitor/fleet_unit.h"
+
+// The forecasts of a fleet's units, as readers see them.
+namespace wearwell::monitor {
+
+void Fleet::forecast(Unit& unit) {
+  const prognosis::Forecast forecast = unit.record.state->forecast();
+  const bool known = !std::isnan(forecast.passed);
+  const double risk = known ? risk_within(forecast, settings_.alarm.horizon) : 0;
+  unit.by_risk = known ? alarm_at(risk, unit.by_risk, settings_.alarm) : Alarm::unknown;
+  const prognosis::ChangeWatch& watch = unit.record.watch;
+  const UnitPart& part = unit.record.events->part();
+  unit.alarm = part.service == Service::in_service
+                   ? alarm_of_readings(unit.by_risk, watch.is_beyond(), watch.in_doubt())
+                   : Alarm::unknown;
+  auto seen = std::make_shared<Seen>();
+  UnitView& view = seen->view;
+  const UnitRecord& record = unit.record;
+  view.unit = record.unit;
+  view.known = known;
+  view.at = reported_.at(forecast.now);
+  // A reading cannot be newer than its message, even if the sender's clock says so.
+  view.last_reading_ms = record.last_time_ms
+                             ? std::min(record.last_time_ms, record.last_received_ms)
+                             : record.last_received_ms;
+  if (known) view.level = reported_.level(forecast);
+  view.remaining = reported_.remaining(forecast);
+  view.b10 = reported_.b10(forecast);
+  view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
+  view.risk = risk;
+  if (known) view.passed = std::clamp(forecast.passed, 0.0, 1.0);
+  view.doubt = watch.reason();
+  view.beyond = watch.is_beyond();
+  view.part = part.number;
+  view.service = name(part.service);
+  view.quality.readings = record.readings;
+  view.quality.late = record.late;
+  view.quality.contradicting = record.contradicting;
+  view.quality.refused = record.not_counted;
+  view.quality.last_problem = record.last_problem;
+  seen->survival = std::make_shared<const std::vector<UnitDetail::CurvePoint>>(
+      survival_curve(forecast.remaining, reported_));
+  seen->held = record.held;
+  seen->judged = record.judged;
+  seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
+                      ? unit.seen->moments
+                      : std::make_shared<const std::vector<UnitMoment>>(record.moments);
+  seen->place = record.place;
+  seen->events = record.events;
+  seen->ahead = std::make_shared<Seen::Ahead>(unit);
+  unit.seen = std::move(seen);
+  unit.stale = false;
+  unit.forecast_at = Clock::now();
+}
+
+// For readers: the state is locked meanwhile, and computed once for each displayed forecast.
+std::vector<UnitDetail::PathPoint> Fleet::path_ahead(const Seen& seen) const {
+  const std::lock_guard lock(seen.ahead->lock);
+  if (seen.ahead->known) return seen.ahead->path;
+  const Unit& unit = seen.ahead->unit;
+  const std::lock_guard still(unit.moving);
+  if (unit.lost || !unit.record.state) return {};
+  const std::vector<double> places = prognosis::places_ahead(unit.record.state->forecast());
+  for (const prognosis::ForecastBand& each : unit.record.state->ahead(places)) {
+    seen.ahead->path.push_back({reported_.at(each.at),
+                                {reported_.level(each.level05), reported_.level(each.level50),
+                                 reported_.level(each.level95)}});
+  }
+  seen.ahead->known = true;
+  return seen.ahead->path;
+}
+
+}  // namespace wearwell::monitor
