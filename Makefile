@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run python r docs test install build calibrate sanitize fuzz tidy bench format clean
+.PHONY: run python r docs test install package build calibrate sanitize fuzz tidy bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -37,6 +37,13 @@ install: setup
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target wearwell
 	@cmake --install build/release --prefix $(PREFIX)
+
+# A Debian package of the program, with a service for monitors (docs/reference/monitor.md).
+package: setup
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target wearwell
+	@cpack --config build/release/CPackConfig.cmake -B build/package >/dev/null
+	@echo "apt install ./$$(ls -t build/package/*.deb | head -1)"
 
 # Simulation-based calibration: slow, so apart from `make test`.
 calibrate: build

@@ -15,7 +15,7 @@ get_property(libraries GLOBAL PROPERTY wearwell_libraries)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/wearwell)
 set(third_party ${CMAKE_INSTALL_LIBDIR}/wearwell)  # DuckDB, which Debian does not package
 set_target_properties(wearwell PROPERTIES INSTALL_RPATH "$ORIGIN/../${third_party}")
-install(TARGETS wearwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS wearwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # The program knows its commands best: it writes what stands beside it.
 set(share ${PROJECT_BINARY_DIR}/share)
 install(CODE "
@@ -25,16 +25,20 @@ install(CODE "
     string(REGEX REPLACE \"^[a-z]+:\" \"\" name \${each})
     execute_process(COMMAND $<TARGET_FILE:wearwell> generate \${what}
       OUTPUT_FILE ${share}/\${name} COMMAND_ERROR_IS_FATAL ANY)
-  endforeach()")
-install(FILES ${share}/wearwell.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${share}/wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${share}/_wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  endforeach()" COMPONENT program)
+install(FILES ${share}/wearwell.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${share}/wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${share}/_wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
 install(TARGETS ${libraries} wearwell_engine wearwell_wearwell EXPORT wearwell
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT wearwell NAMESPACE wearwell:: DESTINATION ${package} FILE wearwellTargets.cmake)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wearwell DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h")
-install(FILES ${DuckDB_LIBRARY} ${DuckDB_INCLUDE_DIR}/duckdb.h DESTINATION ${third_party})
+install(FILES ${DuckDB_LIBRARY} DESTINATION ${third_party} COMPONENT program)
+install(FILES ${DuckDB_INCLUDE_DIR}/duckdb.h DESTINATION ${third_party})
+install(FILES ${PROJECT_SOURCE_DIR}/setup/package/wearwell-monitor@.service DESTINATION lib/systemd/system COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wearwell COMPONENT program RENAME copyright)
+install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wearwell COMPONENT program)
 
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake COMPATIBILITY SameMinorVersion)
