@@ -9,6 +9,7 @@ has() { dpkg-deb --contents "$deb" | grep -q " ./$1\$" || fail "$1 is not in the
 has usr/bin/wearwell
 has usr/lib/wearwell/libduckdb.so
 has usr/lib/systemd/system/wearwell-monitor@.service || has lib/systemd/system/wearwell-monitor@.service
+has usr/share/wearwell/grafana.json
 has usr/share/man/man1/wearwell.1
 has usr/share/bash-completion/completions/wearwell
 has usr/share/zsh/site-functions/_wearwell

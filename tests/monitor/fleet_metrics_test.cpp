@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -63,6 +65,32 @@ TEST(FleetMetrics, AreAsPrometheusWantsThem) {
   EXPECT_THAT(text, HasSubstr("\nwearwell_http_responses_total{code=\"200\"} 41\n"));
   EXPECT_THAT(text, HasSubstr("{unit=\"never heard of\",percentile=\"95\"} +Inf\n"));
   EXPECT_THAT(text, HasSubstr("{unit=\"Pumpe Süd \\\"3\\\" \\\\ µ\"}"));
+}
+
+// The dashboard of Grafana asks for what there is: each metric and label of its queries.
+TEST(FleetMetrics, AreThoseOfTheDashboard) {
+  const GeneratedFleet fleet(40);
+  const std::string text = metrics_text(fleet.fleet(), fleet.units("", 0, 1000, nullptr), {});
+  std::ifstream file(PROJECT_SOURCE_DIR "/setup/package/grafana.json");
+  const auto dashboard = nlohmann::json::parse(file);
+  std::vector<std::string> queries;
+  for (const auto& panel : dashboard["panels"]) {
+    for (const auto& target : panel["targets"]) queries.push_back(target["expr"]);
+  }
+  for (const auto& each : dashboard["templating"]["list"]) {
+    if (each["type"] == "query") queries.push_back(each["definition"]);
+  }
+  EXPECT_GT(queries.size(), 10U);
+  const std::regex metric("wearwell_[a-z_0-9]+"), label("([a-z]+)=~?\"([^\"]*)\"");
+  for (const std::string& query : queries) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(query, found, metric)) << query;
+    const std::string name = found[0];
+    EXPECT_THAT(text, HasSubstr("# TYPE " + name + " ")) << query;
+    for (std::sregex_iterator at(query.begin(), query.end(), label), end; at != end; ++at)
+      EXPECT_TRUE(std::regex_search(text, std::regex(name + "\\{[^\n]*" + (*at)[1].str() + "=\"")))
+          << query;
+  }
 }
 
 TEST(FleetMetrics, KeepLinesWhole) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "wearwell/monitor/unit_events.h"
+
 namespace wearwell::monitor {
 namespace {
 
@@ -139,6 +141,8 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
   gauge("wearwell_unit_beyond",
         "Whether the last reading measures a level beyond the failure threshold, 1 or 0.",
         [](const UnitView& unit) { return unit.beyond ? 1.0 : 0.0; });
+  gauge("wearwell_unit_in_service", "1; 0 if the part has failed or is taken out.",
+        [](const UnitView& unit) { return unit.service == name(Service::in_service) ? 1.0 : 0.0; });
   known("wearwell_unit_risk_ratio",
         "Probability that the failure threshold is reached within the horizon.",
         [](const UnitView& unit) { return unit.risk; });
