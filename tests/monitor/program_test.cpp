@@ -74,6 +74,28 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
 }
 
 // `decide` takes the units as the store has them, beside the monitor and without it: the same lives as the monitor tells.
+TEST_F(Programs, BeginWithACommentedConfiguration) {
+  const std::string folder_name = (folder() / "new").string();
+  const std::string make = "new monitor '" + folder_name + "' --from '" + result() + "'";
+  const CommandResult made = run_wearwell(make);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string config = folder_name + "/monitor.toml";
+  EXPECT_EQ(run_wearwell("monitor '" + config + "' --check").exit_code, 0);
+  append(
+      folder() / "lines",
+      {R"({"machine": "M1", "time": "2026-05-05T12:00:00Z", "depth": 4, "force": 20, "distance": 5})"});
+  const CommandResult run =
+      run_wearwell("monitor '" + config + "' --once < '" + (folder() / "lines").string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("1 readings stored"));
+  EXPECT_EQ(run_wearwell(make).exit_code, 2);
+  EXPECT_THAT(run_wearwell(make).err, HasSubstr("is not empty"));
+  EXPECT_THAT(run_wearwell("new monitor x").err, HasSubstr("--from RESULT is missing"));
+  EXPECT_THAT(run_wearwell(make + " --limit '3 um'").err, HasSubstr("not for a monitor"));
+  EXPECT_THAT(run_wearwell("new monitor x --from '" + folder_name + "'").err,
+              HasSubstr("state.bin"));
+}
+
 TEST_F(Programs, AreDecidedUpon) {
   const auto config = configure("a", folder_source);
   const auto lines = readings(4, 20);

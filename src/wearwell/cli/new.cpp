@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/cli/new_from.h"
+#include "wearwell/cli/new_monitor.h"
 #include "wearwell/cli/option_rules.h"
 #include "wearwell/study/example.h"
 
@@ -15,10 +16,11 @@ namespace wearwell {
 
 void add_new_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<NewOptions>();
-  CLI::App* command =
-      app.add_subcommand("new", "Write a commented study: an example, or one for your own table");
+  CLI::App* command = app.add_subcommand(
+      "new", "Write a commented study: an example, or one for your own table; or a monitor");
   std::vector<std::string> presets;
   for (const Model& model : models) presets.emplace_back(model.preset);
+  presets.emplace_back(monitor_preset);
   command
       ->add_option("PRESET", options->preset,
                    fmt::format("Application to start from: {}", fmt::join(presets, ", ")))
@@ -26,7 +28,8 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
   command->add_option("DIR", options->folder,
                       "Folder for the study: new or empty (default with --from: FILE-study)");
   command->add_option("--from", options->from,
-                      "Guess columns and units of the table FILE, and copy it to the folder");
+                      "Guess columns and units of the table FILE, and copy it to the folder; of a "
+                      "monitor: the result whose units it follows");
   command
       ->add_option("--column", options->columns,
                    "Role of a column, ROLE=HEADING: depth='wear [um]'; ROLE= for none")
@@ -49,10 +52,16 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell new joint my-joint && wearwell fit my-joint/study.toml\n"
       "  wearwell new --from lives.csv\n"
       "  wearwell new fatigue my-lives --from lives.csv\n"
+      "  wearwell new monitor my-fleet --from study-results\n"
       "  wearwell new --from rig.xlsx --sheet Run3 --column unit=Lager --limit '80 um'\n\n"
       "Exit codes: 0 done; 1 the guessed study needs corrections before it runs; 2 the request is "
       "wrong, nothing written.");
   command->callback([options, models, &exit_code] {
+    if (options->preset == monitor_preset) {
+      run_new_monitor(*options, models);
+      exit_code = 0;
+      return;
+    }
     if (!options->from.empty()) {
       exit_code = run_from(*options, models);
       return;

@@ -18,8 +18,8 @@ void require_new(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) &&
       !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
-    throw InputError(fmt::format("{} is not empty; choose an empty or new folder for the study",
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{} is not empty; choose an empty or new folder", folder.string()));
 }
 
 }  // namespace
@@ -45,6 +45,14 @@ fs::path write_scaffold(const Scaffold& study, const fs::path& data, const fs::p
   staged.write("study.toml", study.text);
   staged.commit({});
   return folder / "study.toml";
+}
+
+fs::path write_new(const std::string& name, const std::string& text, const fs::path& folder) {
+  require_new(folder);
+  StagedFolder staged(folder);
+  staged.write(name, text);
+  staged.commit({});
+  return folder / name;
 }
 
 }  // namespace wearwell

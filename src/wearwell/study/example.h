@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "wearwell/study/model.h"
 
@@ -14,5 +15,9 @@ std::filesystem::path write_example(const Model& model, const std::filesystem::p
 /// The same for a new study of the user's data; copies the data under the name `data`.
 std::filesystem::path write_scaffold(const Scaffold& study, const std::filesystem::path& data,
                                      const std::filesystem::path& folder);
+
+/// One text file in a new folder, in the same way.
+std::filesystem::path write_new(const std::string& name, const std::string& text,
+                                const std::filesystem::path& folder);
 
 }  // namespace wearwell
