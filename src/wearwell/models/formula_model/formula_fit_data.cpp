@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "wearwell/base/rng.h"
 #include "wearwell/math/constants.h"
@@ -75,6 +76,24 @@ NormalScore score_of(const ResponseForm& form, const LifeMixture& life, const Re
   return {at(y.at), at(y.until)};
 }
 
+NormalScore score_of(const LifeMixture& life, const ReportingDelay& delay, const Response& y,
+                     const double* family_parameters) {
+  constexpr double log_half = -0.693147180559945309;
+  const auto at = [&](double age) {
+    const double below = log_reported(life, delay, age, family_parameters);
+    if (below < log_half) return normal_score(below, 0);
+    return normal_score(below, log_unreported(life, delay, age, family_parameters));
+  };
+  switch (y.seen) {
+    case Censoring::right:
+      return {at(y.at), infinity};
+    case Censoring::left:
+      return {-infinity, at(y.at)};
+    default:
+      return {at(y.at), at(y.until)};
+  }
+}
+
 Rng lots_at(const double* x, std::size_t count) {
   std::uint64_t stream = 14695981039346656037ULL;
   for (std::size_t i = 0; i < count; ++i) {
@@ -115,9 +134,19 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     scores.insert(scores.end(), steps.begin(), steps.end());
     return;
   }
+  std::map<std::vector<double>, NormalScore> known;  // of reports of one age, which are many
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-    scores.push_back(score_of(*column.form, column.life, column.observed.responses[i],
-                              &family_parameters[i * column.life.parameters()]));
+    const Response& y = column.observed.responses[i];
+    const double* const own = &family_parameters[i * column.life.parameters()];
+    if (!column.reporting) {
+      scores.push_back(score_of(*column.form, column.life, y, own));
+      continue;
+    }
+    std::vector<double> key(own, own + column.life.parameters());
+    key.insert(key.end(), {static_cast<double>(y.seen), y.at, y.until});
+    const auto [at, is_new] = known.try_emplace(std::move(key));
+    if (is_new) at->second = score_of(column.life, *column.reporting, y, own);
+    scores.push_back(at->second);
   }
 }
 
