@@ -158,7 +158,7 @@ TEST(MeanCumulativeFunction, VarianceIsTheSumOverUnits) {
     if (std::isnan(step.se)) continue;
     EXPECT_NEAR(step.se, std::sqrt(sum), 1e-12);
   }
-  EXPECT_GT(steps.size(), 50U);
+  EXPECT_GT(steps.size(), 40U);
 }
 
 TEST(MeanCumulativeFunction, AgesWithoutAnyUnit) {

@@ -85,7 +85,8 @@ void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows
           "{}: {} of the units sold in {} came back in {}, but {}", returns.triangle.table.source,
           count, period, returns.triangle.names.text(sale.at + after),
           returns.delay > 0 || returns.reporting
-              ? fmt::format("with delays of {} {}s or more no failure can be reported so early",
+              ? fmt::format("with delays of {}{} {}s no failure can be reported so early",
+                            returns.reporting ? "at least " : "",
                             plain_given(returns.least_delay()), returns.period.text)
               : "with this key `ages` none can come back in the period of its sale; use ages = "
                 "\"middle\""));

@@ -76,24 +76,6 @@ NormalScore score_of(const ResponseForm& form, const LifeMixture& life, const Re
   return {at(y.at), at(y.until)};
 }
 
-NormalScore score_of(const LifeMixture& life, const ReportingDelay& delay, const Response& y,
-                     const double* family_parameters) {
-  constexpr double log_half = -0.693147180559945309;
-  const auto at = [&](double age) {
-    const double below = log_reported(life, delay, age, family_parameters);
-    if (below < log_half) return normal_score(below, 0);
-    return normal_score(below, log_unreported(life, delay, age, family_parameters));
-  };
-  switch (y.seen) {
-    case Censoring::right:
-      return {at(y.at), infinity};
-    case Censoring::left:
-      return {-infinity, at(y.at)};
-    default:
-      return {at(y.at), at(y.until)};
-  }
-}
-
 Rng lots_at(const double* x, std::size_t count) {
   std::uint64_t stream = 14695981039346656037ULL;
   for (std::size_t i = 0; i < count; ++i) {
@@ -125,6 +107,29 @@ std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
   return z;
 }
 
+// Of ages at a report. All rows of a triangle have the same parameters, and few ages are different.
+void add_report_scores(const Measured& column, const double* family_parameters,
+                       std::vector<NormalScore>& scores) {
+  std::map<double, double> known;
+  const auto at = [&](double age) {
+    constexpr double log_half = -0.693147180559945309;
+    const auto [found, is_new] = known.try_emplace(age, 0.0);
+    if (!is_new) return found->second;
+    const double below = log_reported(column.life, *column.reporting, age, family_parameters);
+    found->second = normal_score(
+        below, below < log_half
+                   ? 0
+                   : log_unreported(column.life, *column.reporting, age, family_parameters));
+    return found->second;
+  };
+  for (const Response& y : column.observed.responses) {
+    const double first = y.seen == Censoring::left ? -infinity : at(y.at);
+    scores.push_back({first, y.seen == Censoring::right  ? infinity
+                             : y.seen == Censoring::left ? at(y.at)
+                                                         : at(y.until)});
+  }
+}
+
 // Of the observations of column c.
 void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
                 const std::vector<double>& family_parameters, std::vector<NormalScore>& scores) {
@@ -134,19 +139,11 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     scores.insert(scores.end(), steps.begin(), steps.end());
     return;
   }
-  std::map<std::vector<double>, NormalScore> known;  // of reports of one age, which are many
+  const std::size_t count = column.life.parameters();
+  if (column.reporting) return add_report_scores(column, family_parameters.data(), scores);
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-    const Response& y = column.observed.responses[i];
-    const double* const own = &family_parameters[i * column.life.parameters()];
-    if (!column.reporting) {
-      scores.push_back(score_of(*column.form, column.life, y, own));
-      continue;
-    }
-    std::vector<double> key(own, own + column.life.parameters());
-    key.insert(key.end(), {static_cast<double>(y.seen), y.at, y.until});
-    const auto [at, is_new] = known.try_emplace(std::move(key));
-    if (is_new) at->second = score_of(column.life, *column.reporting, y, own);
-    scores.push_back(at->second);
+    scores.push_back(score_of(*column.form, column.life, column.observed.responses[i],
+                              &family_parameters[i * count]));
   }
 }
 

@@ -19,9 +19,6 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows);
 /// The normal score of an observation, for a count those of its ends (bayes/normal_score.h).
 /// `family_parameters` are those of the form's family, SI.
 NormalScore score_of(const ResponseForm& form, const Response& y, const double* family_parameters);
-/// The same of an age at a report.
-NormalScore score_of(const LifeMixture& life, const ReportingDelay& delay, const Response& y,
-                     const double* family_parameters);
 /// The same of a life that may be a mixture, whose parameters these are.
 NormalScore score_of(const ResponseForm& form, const LifeMixture& life, const Response& y,
                      const double* family_parameters);

@@ -133,10 +133,10 @@ ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
                   "('{}') until {}",
                   plain_given(counts.rows), read.sold, read.returned, names.text(until.number)));
   if (counts.late_sales > 0)
-    triangle.notes.push_back(fmt::format("{} units sold after {} are left out",
+    triangle.notes.push_back(fmt::format("left out: {} sold after {}",
                                          plain_given(counts.late_sales), names.text(until.number)));
   if (counts.late_returns > 0)
-    triangle.notes.push_back(fmt::format("{} units returned after {} count as in use",
+    triangle.notes.push_back(fmt::format("counted as in use: {} returned after {}",
                                          plain_given(counts.late_returns),
                                          names.text(until.number)));
   return triangle;
