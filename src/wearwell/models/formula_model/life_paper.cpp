@@ -67,9 +67,8 @@ class Drawing {
         if (each.seen == Censoring::interval) cover(each.until);
       }
       // The failures' own ages are not known where delays vary.
-      positions_.push_back(measured_.reporting
-                               ? std::vector<PlottingPosition>()
-                               : plotting_positions(group.responses, group.counts));
+      positions_.push_back(measured_.reporting ? std::vector<PlottingPosition>()
+                                               : plotting_positions(group.responses, group.counts));
       for (const PlottingPosition& each : positions_.back()) {
         least_ = std::min(least_, 0.5 * each.p);
         most_ = std::max(most_, 1 - 0.5 * (1 - each.p));
