@@ -87,8 +87,8 @@ std::string simulated_table(int months, int units, double warranty) {
 
 // At known parameters, so that the quadratures have the same points.
 TEST_F(ReturnsDelayTest, OneTimeIsAFixedDelay) {
-  const std::string table = simulated_table(8, 2000, INFINITY), next = "next = \"3 month\"\n",
-                    warranty = "warranty = \"5 month\"\n";
+  const std::string table = simulated_table(5, 2000, INFINITY), next = "next = \"3 month\"\n",
+                    warranty = "warranty = \"3 month\"\n";
   write("one.csv", "delay [month],share\n0.4,1\n");
   const Result fixed = run(table, "delay_of_report = \"0.4 month\"\n" + warranty, next, 1e-7),
                varying = run(table,
