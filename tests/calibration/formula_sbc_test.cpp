@@ -145,7 +145,6 @@ TEST(FormulaCalibration, LognormalLivesBetweenInspections) {
 [data.columns]
 lower = { column = "lower", unit = "h" }
 upper = { column = "upper", unit = "h" }
-life = { column = "upper", unit = "h" }
 temperature = { column = "temperature", unit = "degC" }
 [constants]
 boltzmann = "8.617333262e-5 eV/K"

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "calibration/shares.h"
@@ -46,6 +49,37 @@ TEST(ReturnsCalibration, HeldOutReturns) {
   calibrate_returns("20 units a month", 20, 0);
   calibrate_returns("60 units a month, sales go on", 60, 3);
   calibrate_returns("600 units a month", 600, 0);
+}
+
+// Simulation-based calibration (Talts et al. 2018): the places of the true parameters in their posteriors are even.
+TEST(ReturnsCalibration, LivesBehindDelays) {
+  constexpr int bins = 20;
+  const int count = replications(400);
+  std::vector<std::array<double, 2>> places(static_cast<std::size_t>(count));
+  std::vector<double> difference(places.size());
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+    const SimulatedReturns one(100, 2, 100000 + i, true);
+    places[i] = {one.place[0], one.place[1]};
+    difference[i] = one.returned - one.expected;
+  });
+  for (std::size_t p = 0; p < 2; ++p) {
+    double bin[bins] = {}, chi_squared = 0;
+    for (const auto& each : places) bin[std::min(bins - 1, static_cast<int>(bins * each[p]))] += 1;
+    const double expected = static_cast<double>(count) / bins;
+    for (const double n : bin) chi_squared += (n - expected) * (n - expected) / expected;
+    const double p_value = cdf(complement(boost::math::chi_squared(bins - 1), chi_squared));
+    fmt::print("returns with delays, {}: {} triangles, chi-squared {:.1f}, p {:.3f}\n",
+               p == 0 ? "scale" : "shape", count, chi_squared, p_value);
+    EXPECT_GT(p_value, 1e-3) << p;
+  }
+  double sum = 0, square = 0;
+  for (const double each : difference) {
+    sum += each;
+    square += each * each;
+  }
+  fmt::print("mean error of the forecast {:.2f} +- {:.2f}\n", sum / count,
+             std::sqrt(square) / count);
+  EXPECT_LT(std::abs(sum), 4.5 * std::sqrt(square));
 }
 
 }  // namespace

@@ -460,6 +460,54 @@ planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units"
 )toml"},
       {"formula", R"toml(model = "formula"
 [data]
+file = "returns.csv"
+[data.returns]
+sold = "sold"
+quantity = "shipped"
+period = "month"
+ages = "middle"
+delay_to_use = { distribution = "lognormal", median = "0.1 month", log_sd = 0.5, lower = "0 month", upper = "3 month", unit = "month" }
+delay_of_report = { distribution = "lognormal", mean = "0.1 month", sd = "0.1 month" }
+warranty = "36 month"
+hold_out = "2 month"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { distribution = "lognormal", median = "100 month", log_sd = 1 }
+beta = { distribution = "lognormal", median = 1, log_sd = 0.5 }
+[predict]
+next = "12 month"
+cost_per_return = "180 EUR"
+planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units" }
+)toml"},
+      {"formula", R"toml(model = "formula"
+[data]
+file = "returns.csv"
+[data.returns]
+sold = "sold"
+quantity = "shipped"
+period = "month"
+ages = "middle"
+delay_to_use = { distribution = "gamma", scale = "0.1 month", shape = 2 }
+delay_of_report = { file = "delays.csv", delay = { column = "months", unit = "month" }, share = { column = "share", unit = "1" } }
+warranty = "36 month"
+hold_out = "2 month"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { distribution = "lognormal", median = "100 month", log_sd = 1 }
+beta = { distribution = "lognormal", median = 1, log_sd = 0.5 }
+[predict]
+next = "12 month"
+cost_per_return = "180 EUR"
+planned_sales = { file = "planned_sales.csv", sold = "month", quantity = "units" }
+)toml"},
+      {"formula", R"toml(model = "formula"
+[data]
 file = "shock_absorbers.csv"
 unused = ["failure mode"]
 [data.columns]

@@ -105,7 +105,8 @@ Source carried_source(const Source& source, const PosteriorStudy& study) {
     const TableSection about = described(section, path);
     const std::string name = about.file + (about.sql ? " (through sql)" : "");
     kept.tables[about.as_read] = kept_table(wearwell::read_table(section, source), name);
-    if (about.sql)
+    // No rows can be added to a triangle, so the rows before its sql are not needed; they may be many.
+    if (about.sql && !section.has("returns"))
       kept.tables[about.before_sql] = kept_table(before_sql(section, about, source), about.file);
   }
   const auto file = source.folder() / study.data_file;

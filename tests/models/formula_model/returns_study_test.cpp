@@ -237,6 +237,17 @@ TEST_F(ReturnsStudyTest, Refusals) {
   EXPECT_THAT(refusal(table, other), HasSubstr("random_effects: is not possible"));
 }
 
+// Returns in the month of sale may all be dead on arrival: then the lives have no failure.
+TEST_F(ReturnsStudyTest, PartsDeadOnArrivalAreNoFailures) {
+  std::string text = study("period = \"month\"\n", "",
+                           "{ distribution = \"flat\", unit = \"month\" }", wide_shape);
+  text.insert(text.find("[prior]"), "share_dead_on_arrival = 0.02\n");
+  EXPECT_THAT(refusal("sold,units,1,2\n1,100,3,0\n2,100,,2\n", text),
+              HasSubstr("a failure of a part that was certainly not dead on arrival: then every "
+                        "parameter needs a proper prior"));
+  read("sold,units,1,2\n1,100,3,1\n2,100,,2\n", text);
+}
+
 // The long study is in tests/calibration.
 TEST(ReturnsCoverage, HeldOutReturns) {
   constexpr std::size_t count = 40;

@@ -195,5 +195,62 @@ TEST_F(ReturnsTriangleTest, PlannedSales) {
               HasSubstr("row 2, column 'month': '2024-02': a second row"));
 }
 
+// Numbers of weeks beside numbers of months.
+TEST_F(ReturnsTriangleTest, PeriodsOfTwoKinds) {
+  const std::string keys = "period = \"month\"\n";
+  EXPECT_THAT(refusal("sold,units,M4,M5,M6\nM4,100,1,2,3\nW5,200,,4,1\n", keys),
+              HasSubstr("row 2, column 'sold': 'W5' is a period of another kind than those that "
+                        "begin with 'M'"));
+  EXPECT_THAT(refusal("sold,units,4,5,6\nM4,100,1,2,3\nW5,200,,4,1\n", keys),
+              HasSubstr("another kind"));
+  EXPECT_EQ(read("sold,units,4,5,6\nM4,100,1,2,3\nm5,200,,4,1\n", keys)->triangle.sales.size(), 2U);
+  EXPECT_EQ(read("sold,units,M4,M5,M6\n4,100,1,2,3\n5,200,,4,1\n", keys)->triangle.sales.size(),
+            2U);
+}
+
+// A row a unit, or a row of several, gives the triangle of their counts.
+TEST_F(ReturnsTriangleTest, CountsUnits) {
+  const std::string keys = "sold = \"sale\"\nreturned = \"failure\"\nuntil = \"2024-03\"\n";
+  const auto one = read(
+      "serial,sale,failure\nA,2024-01-05,2024-02-01\nB,2024-01-31,\nC,2024-02-11,2024-02-12\n"
+      "D,2024-01-07,2024-02-28\nE,2024-02-02,2024-04-01\nF,2024-04-02,\n",
+      keys);
+  ASSERT_EQ(one->triangle.sales.size(), 2U);
+  EXPECT_EQ(one->triangle.sales[0].sold, 3);
+  EXPECT_THAT(one->triangle.sales[0].returns, ElementsAre(0, 2, 0));
+  EXPECT_EQ(one->triangle.sales[1].sold, 2);  // one of them came back after the end
+  EXPECT_THAT(one->triangle.sales[1].returns, ElementsAre(1, 0));
+  const std::vector<std::string> notes = notes_of_returns(*one);
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("6 units counted")));
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("left out: 1 sold after 2024-03")));
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("counted as in use: 1 returned after 2024-03")));
+  const auto several =
+      read("sale,failure,n\n2024-01,,1\n2024-01,2024-02,2\n2024-02,2024-02,1\n2024-02,,1\n",
+           keys + "quantity = \"n\"\n");
+  EXPECT_THAT(several->triangle.sales[0].returns, ElementsAre(0, 2, 0));
+  EXPECT_EQ(several->triangle.sales[1].sold, 2);
+  const auto weeks = read("w,back\n3,5\n3,\n4,\n",
+                          "sold = \"w\"\nreturned = \"back\"\nuntil = 6\nperiod = \"week\"\n");
+  EXPECT_THAT(weeks->triangle.sales[0].returns, ElementsAre(0, 0, 1, 0));
+}
+
+TEST_F(ReturnsTriangleTest, RefusesUnitsByTheirCell) {
+  const std::string keys = "sold = \"sale\"\nreturned = \"failure\"\n",
+                    until = "until = \"2024-03\"\n";
+  const std::string good = "sale,failure\n2024-01,2024-02\n";
+  EXPECT_THAT(refusal(good, keys), HasSubstr("until"));
+  EXPECT_THAT(refusal(good, keys + "until = \"soon\"\n"), HasSubstr("2024-01"));
+  EXPECT_THAT(refusal(good + "2024-02,2024-01\n", keys + until),
+              testing::AllOf(HasSubstr("row 2, column 'failure'"), HasSubstr("before the sale")));
+  EXPECT_THAT(refusal(good + ",2024-01\n", keys + until),
+              HasSubstr("row 2, column 'sale': '' is not a month"));
+  EXPECT_THAT(refusal(good + "2024-01,03/04/2024\n", keys + until),
+              HasSubstr("row 2, column 'failure': '03/04/2024' is not a month"));
+  EXPECT_THAT(refusal("sale,failure\n2025-01,\n", keys + until),
+              HasSubstr("no unit was sold until"));
+  EXPECT_THAT(refusal(good, "sold = \"sale\"\nreturned = \"sale\"\n" + until),
+              HasSubstr("is the column of `sold`"));
+}
+
 }  // namespace
 }  // namespace wearwell::formula_model

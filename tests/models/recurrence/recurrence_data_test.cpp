@@ -98,6 +98,25 @@ TEST_F(RecurrenceDataTest, TwoFailuresAtOneAge) {
   EXPECT_THAT(refusal(rows, "rounding = \"0 h\""), HasSubstr("must be positive"));
 }
 
+// As rows of an update may be in any order.
+TEST_F(RecurrenceDataTest, FailureAndEndAtOneAge) {
+  for (const char* rows :
+       {"a,10,failure\na,40,failure\na,40,end\n", "a,10,failure\na,40,end\na,40,failure\n"}) {
+    const RecurrenceData data = read(rows);
+    EXPECT_EQ(data.units[0].failures, (std::vector<double>{36000, 144000}));
+    EXPECT_EQ(data.units[0].end, 144000);
+    ASSERT_EQ(data.gaps.size(), 3U);
+    double from = 0, length = 0;
+    for (const Gap& gap : data.gaps) {
+      from += gap.from;
+      length += gap.to - gap.from;
+    }
+    EXPECT_EQ(from, 36000 + 144000);
+    EXPECT_EQ(length, 144000);
+  }
+  EXPECT_THAT(refusal("a,40,end\na,40,failure\na,40,failure\n"), HasSubstr("fails again at 40"));
+}
+
 TEST_F(RecurrenceDataTest, EndsAtTheLastFailure) {
   const RecurrenceData data =
       read("a,10,failure\na,15,failure\nb,30,end\n", "end = \"last failure\"");

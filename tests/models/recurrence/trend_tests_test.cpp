@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include "histories.h"
 #include "support/scratch.h"
+#include "wearwell/base/rng.h"
 #include "wearwell/models/recurrence/mean_cumulative.h"
 
 namespace wearwell::recurrence {
@@ -127,6 +129,44 @@ TEST(MeanCumulativeFunction, CountsUnitsUnderObservation) {
   EXPECT_NEAR(steps[0].se, std::sqrt(2.0) / 4, 1e-12);
   // One unit at risk shows no variance.
   EXPECT_TRUE(std::isnan(steps[2].se) && std::isnan(steps[2].low));
+}
+
+// The sum over units of squared deviations, each unit by itself.
+TEST(MeanCumulativeFunction, VarianceIsTheSumOverUnits) {
+  Rng rng(20261126, 3);
+  std::vector<UnitHistory> units;
+  for (int i = 0; i < 40; ++i) {
+    UnitHistory unit{std::to_string(i), i % 3 == 0 ? rng.uniform(0, 4) : 0, 0};
+    unit.end = unit.start + rng.uniform(3, 12);
+    for (double age = unit.start; (age += -3 * std::log(rng.uniform())) < unit.end;)
+      unit.failures.push_back(std::ceil(4 * age) / 4 < unit.end ? std::ceil(4 * age) / 4 : age);
+    units.push_back(unit);
+  }
+  const std::vector<MeanCumulativeStep> steps = mean_cumulative(units, 0.9);
+  std::vector<double> deviation(units.size());
+  for (const MeanCumulativeStep& step : steps) {
+    const auto at_risk = static_cast<double>(step.at_risk);
+    double sum = 0;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const UnitHistory& unit = units[i];
+      const auto own = std::count(unit.failures.begin(), unit.failures.end(), step.age);
+      if (unit.start < step.age && step.age <= unit.end)
+        deviation[i] +=
+            (static_cast<double>(own) - static_cast<double>(step.failures) / at_risk) / at_risk;
+      sum += deviation[i] * deviation[i];
+    }
+    if (std::isnan(step.se)) continue;
+    EXPECT_NEAR(step.se, std::sqrt(sum), 1e-12);
+  }
+  EXPECT_GT(steps.size(), 40U);
+}
+
+TEST(MeanCumulativeFunction, AgesWithoutAnyUnit) {
+  const std::vector<UnitHistory> units = {
+      {"1", 1, 4, {2}, false}, {"2", 3, 6, {}, false}, {"3", 9, 12, {11}, false}};
+  using Ages = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(unobserved_ages(units), (Ages{{6, 9}}));
+  EXPECT_EQ(unobserved_ages({{"1", 0, 4, {2}, false}, {"2", 4, 6, {}, false}}), Ages());
 }
 
 }  // namespace

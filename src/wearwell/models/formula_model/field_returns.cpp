@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/models/formula_model/returns_count.h"
+#include "wearwell/models/formula_model/returns_delay.h"
 #include "wearwell/present/plain.h"
 
 namespace wearwell::formula_model {
@@ -40,6 +42,25 @@ double in_periods(const TomlReader& keys, const char* key, const Unit& period, d
   return quantity->si() / period.scale;
 }
 
+void read_delays(const TomlReader& keys, const Source& source, FieldReturns& returns) {
+  const ReturnsDelay to_use = read_returns_delay(keys, "delay_to_use", source, returns.period),
+                     of_report =
+                         read_returns_delay(keys, "delay_of_report", source, returns.period);
+  if (!to_use.varies() && !of_report.varies()) {
+    returns.delay = to_use.points.front().at + of_report.points.front().at;
+    return;
+  }
+  if (returns.whole)
+    keys.fail("ages",
+              "must be \"middle\", \"start\" or \"end\" if delays vary: \"whole\" states one exact "
+              "life for each return");
+  returns.reporting = sum_of_delays(to_use, of_report, returns.period);
+  returns.reporting->warranty = to_si(returns.period, returns.warranty);
+  if (to_use.varies()) returns.delay_words.push_back("delay from the sale to use: " + to_use.words);
+  if (of_report.varies())
+    returns.delay_words.push_back("delay from a failure to its report: " + of_report.words);
+}
+
 struct LifeRows {
   std::vector<double> lower, upper, count;
   std::vector<std::string> sold;
@@ -59,16 +80,17 @@ void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows
     const int count = sale.returns[static_cast<std::size_t>(after)];
     if (count == 0) continue;
     const double lower = returns.age(after - 1), upper = returns.age(after);
-    if (!(upper > 0))
+    if (!(returns.age_in_use(after) > 0))
       throw InputError(fmt::format(
           "{}: {} of the units sold in {} came back in {}, but {}", returns.triangle.table.source,
           count, period, returns.triangle.names.text(sale.at + after),
-          returns.delay > 0
-              ? fmt::format("with delays of {} {}s no failure can be reported so early",
-                            plain_given(returns.delay), returns.period.text)
+          returns.delay > 0 || returns.reporting
+              ? fmt::format("with delays of {}{} {}s no failure can be reported so early",
+                            returns.reporting ? "at least " : "",
+                            plain_given(returns.least_delay()), returns.period.text)
               : "with this key `ages` none can come back in the period of its sale; use ages = "
                 "\"middle\""));
-    if (lower == upper) continue;  // beyond the warranty: they survived it
+    if (!returns.claimed(after)) continue;  // beyond the warranty: they survived it
     surviving -= count;
     if (returns.whole) {
       rows.add(upper, upper, count, period);
@@ -76,8 +98,9 @@ void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows
       rows.add(lower > 0 ? lower : NAN, upper, count, period);
     }
   }
-  const double now = returns.age(returns.last() - sale.at);
-  if (surviving > 0 && now > 0) rows.add(now, NAN, surviving, period);
+  const int after = returns.last() - sale.at;
+  const double now = returns.age(after);
+  if (surviving > 0 && returns.age_in_use(after) > 0) rows.add(now, NAN, surviving, period);
 }
 
 NumberColumn column_of_lives(const char* name, const Unit& period, std::vector<double> values) {
@@ -96,7 +119,21 @@ Column table_column(const std::string& name, const Unit& unit, const std::vector
 
 double FieldReturns::age(int after) const {
   const double end = whole ? after : after + 1 - start;
-  return std::clamp(end - delay, 0.0, warranty);
+  return reporting ? std::max(end, 0.0) : std::clamp(end - delay, 0.0, warranty);
+}
+
+double FieldReturns::least_delay() const {
+  return reporting ? reporting->least() / period.scale : delay;
+}
+
+double FieldReturns::age_in_use(int after) const {
+  return reporting ? std::clamp(age(after) - least_delay(), 0.0, warranty) : age(after);
+}
+
+bool FieldReturns::claimed(int after) const {
+  if (!reporting) return age(after) > age(after - 1);
+  return age_in_use(after) > 0 &&
+         to_si(period, age(after - 1)) < reporting->most() + reporting->warranty;
 }
 
 std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
@@ -105,16 +142,16 @@ std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
   if (data.has("columns"))
     data.fail("columns", "does not go with [data.returns], which names the columns of a triangle");
   FieldReturns returns;
-  returns.triangle = read_triangle(keys, read_table(data, source));
+  returns.triangle = keys.has("returned") ? counted_triangle(keys, read_table(data, source))
+                                          : read_triangle(keys, read_table(data, source));
   returns.period = read_period(keys, returns.triangle.names);
   const std::string ages =
       keys.choice("ages", {"middle", "start", "end", "whole"}).value_or("middle");
   returns.start = ages == "start" ? 0 : ages == "middle" ? 0.5 : 1;
   returns.whole = ages == "whole";
-  returns.delay = in_periods(keys, "delay_to_use", returns.period, 0) +
-                  in_periods(keys, "delay_of_report", returns.period, 0);
   returns.warranty = in_periods(keys, "warranty", returns.period, returns.warranty);
   if (!(returns.warranty > 0)) keys.fail("warranty", "must be positive");
+  read_delays(keys, source, returns);
   const double held = in_periods(keys, "hold_out", returns.period, 0);
   constexpr double close = 1e-9;
   if (std::abs(held - std::round(held)) > close)
@@ -137,6 +174,7 @@ FormulaData lives_of_returns(const FieldReturns& returns) {
   data.table.source = returns.triangle.table.source;
   data.table.layout = returns.triangle.table.layout;
   data.table.rows = rows.count.size();
+  data.reporting = returns.reporting;
   data.table.columns = {table_column("lower", returns.period, rows.lower),
                         table_column("upper", returns.period, rows.upper),
                         table_column("count", plain, rows.count)};
@@ -156,8 +194,7 @@ std::vector<std::string> notes_of_returns(const FieldReturns& returns) {
     sold += each.sold;
     returned += each.returned(returns.last());
     for (int after = 0; each.at + after <= returns.last(); ++after)
-      if (returns.age(after) == returns.age(after - 1))
-        late += each.returns[static_cast<std::size_t>(after)];
+      if (!returns.claimed(after)) late += each.returns[static_cast<std::size_t>(after)];
   }
   std::vector<std::string> notes = {
       fmt::format("returns triangle: {} units sold from {} to {}, {} returned until {}", sold,
@@ -175,6 +212,12 @@ std::vector<std::string> notes_of_returns(const FieldReturns& returns) {
                                          : "middle",
                     returns.period.text, returns.period.text));
   }
+  notes.insert(notes.begin(), triangle.notes.begin(), triangle.notes.end());
+  notes.insert(notes.end(), returns.delay_words.begin(), returns.delay_words.end());
+  if (returns.reporting)
+    notes.push_back(
+        "delays vary: the fit takes each report as a life and a delay, over all delays that are "
+        "possible");
   if (late > 0)
     notes.push_back(fmt::format(
         "{} return{} after the end of the warranty: counted as survivors of the warranty", late,

@@ -2,12 +2,14 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wearwell/base/unit.h"
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/returns_triangle.h"
+#include "wearwell/prob/reporting_delay.h"
 
 namespace wearwell::formula_model {
 
@@ -18,15 +20,23 @@ struct FieldReturns {
   Unit period;         ///< "month"
   double start = 0.5;  ///< when in its period of sale a unit starts, 0 to 1
   bool whole = false;  ///< a return k periods after the sale is exactly of age k
-  double delay = 0;    ///< from sale to start of use, and from failure to report
+  double delay = 0;    ///< from sale to start of use, and from failure to report, if both are fixed
+  /// The delays if one of them varies, SI: then the ages below are ages at the report.
+  std::optional<ReportingDelay> reporting = {};
+  std::vector<std::string> delay_words = {};  ///< of those that vary
   double warranty =
       std::numeric_limits<double>::infinity();  ///< in use; later failures are not claimed
   int held_out = 0;                             ///< last periods that are not fitted
 
   int last() const { return triangle.last - held_out; }  ///< period that ends the fitted data
   /// Age of a unit at the end of period `after` its sale, of failures that are reported by then; from
-  /// 0 to the end of the warranty.
+  /// 0 to the end of the warranty. If delays vary, its age at the report, from the sale on.
   double age(int after) const;
+  /// The greatest age in use of failures that are reported by then.
+  double age_in_use(int after) const;
+  double least_delay() const;
+  /// Whether failures within the warranty can be reported in period `after` the sale.
+  bool claimed(int after) const;
 };
 
 /// Reads data.returns and its table. Throws InputError.

@@ -9,6 +9,7 @@
 #include "wearwell/input/source.h"
 #include "wearwell/input/table.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/prob/reporting_delay.h"
 #include "wearwell/prob/response.h"
 
 namespace wearwell::formula_model {
@@ -35,6 +36,8 @@ struct FormulaData {
   std::vector<NumberColumn> numbers;
   std::vector<LabelColumn> labels;
   std::optional<LifeStatus> status;
+  /// Of a returns triangle whose delays vary: its lives are ages at the report.
+  std::optional<ReportingDelay> reporting = {};
 
   const NumberColumn* number(const std::string& name) const;
   const LabelColumn* label(const std::string& name) const;

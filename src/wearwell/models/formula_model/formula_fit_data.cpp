@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "wearwell/base/rng.h"
 #include "wearwell/math/constants.h"
@@ -106,6 +107,29 @@ std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
   return z;
 }
 
+// Of ages at a report. All rows of a triangle have the same parameters, and few ages are different.
+void add_report_scores(const Measured& column, const double* family_parameters,
+                       std::vector<NormalScore>& scores) {
+  std::map<double, double> known;
+  const auto at = [&](double age) {
+    constexpr double log_half = -0.693147180559945309;
+    const auto [found, is_new] = known.try_emplace(age, 0.0);
+    if (!is_new) return found->second;
+    const double below = log_reported(column.life, *column.reporting, age, family_parameters);
+    found->second = normal_score(
+        below, below < log_half
+                   ? 0
+                   : log_unreported(column.life, *column.reporting, age, family_parameters));
+    return found->second;
+  };
+  for (const Response& y : column.observed.responses) {
+    const double first = y.seen == Censoring::left ? -infinity : at(y.at);
+    scores.push_back({first, y.seen == Censoring::right  ? infinity
+                             : y.seen == Censoring::left ? at(y.at)
+                                                         : at(y.until)});
+  }
+}
+
 // Of the observations of column c.
 void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
                 const std::vector<double>& family_parameters, std::vector<NormalScore>& scores) {
@@ -115,9 +139,11 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
     scores.insert(scores.end(), steps.begin(), steps.end());
     return;
   }
+  const std::size_t count = column.life.parameters();
+  if (column.reporting) return add_report_scores(column, family_parameters.data(), scores);
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
     scores.push_back(score_of(*column.form, column.life, column.observed.responses[i],
-                              &family_parameters[i * column.life.parameters()]));
+                              &family_parameters[i * count]));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "wearwell/models/formula_model/formula_row_columns.h"
 #include "wearwell/prob/gathered_responses.h"
@@ -48,33 +49,66 @@ std::optional<std::vector<Alike>> alike_rows(const FormulaModel& model, const Bo
   return groups;
 }
 
+// `which`: rows of the table with the conditions of each response.
+BoundColumn few_rows(const FormulaModel& model, const BoundColumn& bound,
+                     const std::vector<std::size_t>& which, std::vector<Response> responses,
+                     std::vector<double> counts) {
+  const formula::Program& program = bound.measured->program;
+  BoundColumn few;
+  few.measured = bound.measured;
+  few.most_rows = bound.most_rows;
+  few.unit.assign(which.size(), 0);
+  few.term.assign(which.size(), 0);
+  few.begin = {0, which.size()};
+  few.count = std::move(counts);
+  few.data = program.bind(RowColumns(model, which, program).rows);
+  few.responses = ResponseColumn(std::move(responses));
+  return few;
+}
+
+// Equal observations as one: those of a returns triangle depend on the time since the sale alone.
+std::optional<BoundColumn> without_repetitions(const FormulaModel& model,
+                                               const BoundColumn& bound) {
+  const Measured& measured = *bound.measured;
+  std::map<std::tuple<Censoring, double, double>, std::size_t> known;
+  std::vector<std::size_t> which;
+  std::vector<Response> responses;
+  std::vector<double> counts;
+  for (std::size_t i = 0; i < bound.unit.size(); ++i) {
+    const Response& y = bound.responses.rows[i];
+    const auto [at, is_new] =
+        known.try_emplace(std::tuple(y.seen, y.at, y.until), responses.size());
+    if (is_new) {
+      which.push_back(measured.observed.rows[bound.term[i]]);
+      responses.push_back(y);
+      counts.push_back(0);
+    }
+    counts[at->second] += bound.count[i];
+  }
+  return few_rows(model, bound, which, std::move(responses), std::move(counts));
+}
+
 std::optional<BoundColumn> gathered(const FormulaModel& model, const BoundColumn& bound) {
   const Measured& measured = *bound.measured;
+  if (measured.reporting) return without_repetitions(model, bound);
   if (bound.unit.size() < gathered_from || !can_be_gathered(*measured.form) ||
       measured.life.families.size() > 1)
     return {};
   const auto groups = alike_rows(model, bound);
   if (!groups) return {};
-  BoundColumn few;
-  few.measured = bound.measured;
-  few.most_rows = bound.most_rows;
   std::vector<std::size_t> which;
   std::vector<Response> responses;
+  std::vector<double> counts;
   for (const Alike& group : *groups) {
     for (const WeightedResponse& each :
          gathered_responses(group.responses, group.counts, measured.form->positive)) {
       which.push_back(group.table_row);
       responses.push_back(each.response);
-      few.count.push_back(each.weight);
+      counts.push_back(each.weight);
     }
     if (which.size() > bound.unit.size() / least_saving) return {};
   }
-  few.unit.assign(which.size(), 0);
-  few.term.assign(which.size(), 0);
-  few.begin = {0, which.size()};
-  few.data = measured.program.bind(RowColumns(model, which, measured.program).rows);
-  few.responses = ResponseColumn(std::move(responses));
-  return few;
+  return few_rows(model, bound, which, std::move(responses), std::move(counts));
 }
 
 }  // namespace

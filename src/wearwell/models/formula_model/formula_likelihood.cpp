@@ -169,8 +169,14 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
   const std::size_t n = chunk.end - chunk.begin;
   if (column.measured->process) return forward_process(chunk, sloped);
   const LifeMixture& life = column.measured->life;
-  log_responses(life, column.responses, chunk.begin, family_parameters_, {value_.data(), n},
-                sloped ? std::span(slope_.data(), life.parameters() * n) : std::span<double>());
+  const std::span<double> value(value_.data(), n),
+      slope = sloped ? std::span(slope_.data(), life.parameters() * n) : std::span<double>();
+  if (column.measured->reporting) {
+    log_responses(life, *column.measured->reporting, column.responses, chunk.begin,
+                  family_parameters_, value, slope);
+  } else {
+    log_responses(life, column.responses, chunk.begin, family_parameters_, value, slope);
+  }
 }
 
 // Unit by unit, for rows with a reading: `visit(rows of the chunk, ProcessRows)`.

@@ -56,6 +56,8 @@ struct Measured {
   formula::Program program;  ///< outputs as `wanted`
   Observed observed;
   LifeMixture life;  ///< its distribution: the form's family, or a mixture
+  /// Set if the observations are ages at a report: a life and a delay.
+  std::optional<ReportingDelay> reporting = {};
 };
 
 /// A formula study, read and compiled; data in SI.

@@ -83,15 +83,31 @@ void require_rising(const FormulaModel& model) {
   }
 }
 
+namespace {
+
+// Parts dead on arrival say nothing of the lives of others, and a left-censored one may be one of them.
+bool has_failure(const Measured& measured) {
+  if (!measured.life.dead) return measured.observed.failures > 0;
+  return std::any_of(measured.observed.responses.begin(), measured.observed.responses.end(),
+                     [](const Response& y) {
+                       return y.seen == Censoring::interval ||
+                              (y.seen == Censoring::none && y.at > 0);
+                     });
+}
+
+}  // namespace
+
 void require_failures(const FormulaModel& model) {
   for (const Measured& each : model.measured) {
-    if (each.form->counted || each.observed.failures > 0) continue;
+    if (each.form->counted || has_failure(each)) continue;
     for (const Parameter& parameter : model.parameters) {
       if (parameter.prior.proper) continue;
       throw InputError(fmt::format(
-          "{}: no row of '{}' is a failure: then every parameter needs a proper prior, "
+          "{}: no row of '{}' is a failure{}: then every parameter needs a proper prior, "
           "but that of {} is {}",
-          model.data.table.source, each.column, parameter.name, parameter.distribution));
+          model.data.table.source, each.column,
+          each.life.dead ? " of a part that was certainly not dead on arrival" : "", parameter.name,
+          parameter.distribution));
     }
   }
 }

@@ -850,6 +850,7 @@ class Reader {
             "depends on earlier rows (cum, or a state); that is not possible with [failure_modes]");
       if (!measured.life.plain() && measured.program.has_paths())
         table.fail("", "depends on earlier rows (cum, or a state); lives of subpopulations cannot");
+      measured.reporting = model_->data.reporting;
       model_->measured.push_back(std::move(measured));
     }
     if (subpopulations_)

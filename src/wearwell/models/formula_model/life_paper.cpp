@@ -66,7 +66,9 @@ class Drawing {
         cover(each.at);
         if (each.seen == Censoring::interval) cover(each.until);
       }
-      positions_.push_back(plotting_positions(group.responses, group.counts));
+      // The failures' own ages are not known where delays vary.
+      positions_.push_back(measured_.reporting ? std::vector<PlottingPosition>()
+                                               : plotting_positions(group.responses, group.counts));
       for (const PlottingPosition& each : positions_.back()) {
         least_ = std::min(least_, 0.5 * each.p);
         most_ = std::max(most_, 1 - 0.5 * (1 - each.p));
@@ -259,7 +261,10 @@ class Drawing {
         : censored ? "Points are the Kaplan-Meier estimate, halfway up its steps; run-outs have no "
                      "point, but count in the steps of others."
                    : "Points have the plotting positions (i - 1/2)/n.";
-    if (none)
+    if (measured_.reporting)
+      words = words.substr(0, words.find("Points are")) +
+              "There are no points: delays vary, so the ages at failure are not known.";
+    else if (none)
       words +=
           " Conditions without failures, or with delayed entries and intervals, have no points.";
     if (thinned) words += fmt::format(" At most {} points of a condition are drawn.", most_points);

@@ -25,7 +25,11 @@ ReturnsForecast::ReturnsForecast(const FieldReturns& returns, std::span<const Ri
     life.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     for (std::size_t a = 0; a < ages_; ++a) {
       const double age = to_si(returns.period, returns.age(static_cast<int>(a) - 1));
-      log_survival_[i * ages_ + a] = age > 0 ? life.log_survival(age) : 0;
+      const auto log_survival = [&](double used) { return life.log_survival(used); };
+      log_survival_[i * ages_ + a] = !(age > 0) ? 0
+                                     : returns.reporting
+                                         ? log_unreported(*returns.reporting, age, log_survival)
+                                         : log_survival(age);
     }
   }
 }

@@ -12,8 +12,7 @@ namespace {
 // Returns within the warranty.
 int claims(const FieldReturns& returns, const SalesPeriod& sale, int after) {
   if (after < 0 || static_cast<std::size_t>(after) >= sale.returns.size()) return 0;
-  return returns.age(after) > returns.age(after - 1) ? sale.returns[static_cast<std::size_t>(after)]
-                                                     : 0;
+  return returns.claimed(after) ? sale.returns[static_cast<std::size_t>(after)] : 0;
 }
 
 int claims_in(const FieldReturns& returns, int period) {

@@ -83,6 +83,7 @@ void add_returns(const TomlReader& root, const Source& source,
         "classical", "is for a table of lives, not for a triangle of returns in [data.returns]");
   const AskedReturns asked = read_asked_returns(root, source, model);
   const std::shared_ptr<const FieldReturns>& returns = asked.returns;
+  study.observation = "cell";  // of the triangle: returns of one age, or survivors
   const std::vector<std::string> notes = notes_of_returns(*returns);
   study.data_notes.insert(study.data_notes.begin(), notes.begin(), notes.end());
   const int oldest = returns->last() - returns->triangle.sales.front().at;
@@ -90,9 +91,9 @@ void add_returns(const TomlReader& root, const Source& source,
     study.reaches.push_back(
         {fmt::format("the forecast over the next {} {}", asked.ahead, asked.period(asked.ahead)),
          fmt::format("the oldest unit was observed until age {} {}",
-                     plain_given(returns->age(oldest)), returns->period.text),
-         to_si(returns->period, returns->age(oldest + asked.ahead)),
-         to_si(returns->period, returns->age(oldest))});
+                     plain_given(returns->age_in_use(oldest)), returns->period.text),
+         to_si(returns->period, returns->age_in_use(oldest + asked.ahead)),
+         to_si(returns->period, returns->age_in_use(oldest))});
   const auto draws_of = [](const Fit& fit) -> const WeightedDraws& {
     return fit.exact ? fit.exact->nodes : fit.pooled;
   };

@@ -12,35 +12,10 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/returns_period.h"
 
 namespace wearwell::formula_model {
 namespace {
-
-constexpr double most_units = 1e6;  // of one period
-
-// A period as a number with its prefix, "M3"; the prefix of a month of the calendar is empty.
-struct Period {
-  bool calendar = false;
-  int number = 0;
-  std::string prefix = {};
-  bool is_like(const Period& other) const {
-    return calendar == other.calendar && prefix == other.prefix;
-  }
-};
-
-std::optional<Period> period_in(const std::string& text) {
-  constexpr std::size_t most_digits = 4;
-  if (const auto month = month_in(text)) return Period{true, *month};
-  static const std::vector<std::string> words = {
-      "",       "m",  "p",    "w",     "q",       "month",   "monat", "mois",   "mes",
-      "period", "kw", "week", "woche", "semaine", "periode", "t",     "quarter"};
-  const std::size_t end = text.find_last_not_of("0123456789");
-  const std::size_t begin = end == text.npos ? 0 : end + 1;
-  const std::size_t digits = text.size() - begin;
-  if (digits == 0 || digits > most_digits) return {};
-  if (!contains(words, begin == 0 ? "" : folded_word(text.substr(0, begin)))) return {};
-  return Period{false, std::stoi(text.substr(begin)), text.substr(0, begin)};
-}
 
 struct Heading {
   const Column* column;
@@ -63,35 +38,6 @@ std::vector<Heading> in_order(std::vector<Heading> headings) {
   return headings;
 }
 
-std::string quoted_place(const Table& table, const std::string& column, std::size_t row) {
-  return fmt::format("{}: '{}'", place(table, column, row), cell_word(table.column(column), row));
-}
-
-constexpr const char* allowed_months =
-    "a month like 2024-01, 01/2024 or Jan 2024, or a number of a period";
-
-Period required_period(const Table& table, const std::string& column, std::size_t row) {
-  const auto period = period_in(cell_word(table.column(column), row));
-  if (!period)
-    throw InputError(fmt::format("{} is not a period of sale: use {}",
-                                 quoted_place(table, column, row), allowed_months));
-  return *period;
-}
-
-// A whole number of units; an empty cell is `empty`, or an error where that is negative.
-int units_in(const Table& table, const std::string& column, std::size_t row, int empty) {
-  const double value = cell_number(table, table.column(column), row);
-  if (std::isnan(value)) {
-    if (empty >= 0) return empty;
-    throw InputError(fmt::format("{}: no quantity; write the number of units sold, 0 if none",
-                                 place(table, column, row)));
-  }
-  if (!(value >= 0 && value == std::floor(value) && value <= most_units))
-    throw InputError(fmt::format("{} must be a whole number of units from 0 to {:.0f}",
-                                 quoted_place(table, column, row), most_units));
-  return static_cast<int>(value);
-}
-
 // The only column of numbers, or the only one whose heading says units sold.
 const Column* quantity_among(const std::vector<const Column*>& columns) {
   if (columns.size() == 1) return columns.front();
@@ -109,15 +55,6 @@ const Column* quantity_among(const std::vector<const Column*>& columns) {
     found = each;
   }
   return found;
-}
-
-std::string column_named(const TomlReader& keys, const std::string& key, const Table& table,
-                         const std::string& otherwise) {
-  if (const auto heading = keys.text(key)) return study_column(keys, key, *heading, table).name;
-  if (otherwise.empty())
-    keys.fail(key, fmt::format("is missing, and no column of {} is recognized: name the column",
-                               table.source));
-  return otherwise;
 }
 
 // Headings in the order of time, one for each period.
@@ -260,21 +197,27 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
 }
 
 ReturnsTriangle read_triangle(const TomlReader& keys, Table table) {
-  ReturnsTriangle triangle;
   const TriangleColumns found = triangle_columns(table).value_or(TriangleColumns{});
   const TriangleColumns columns = {column_named(keys, "sold", table, found.period),
                                    column_named(keys, "quantity", table, found.quantity)};
   if (columns.period == columns.quantity)
     keys.fail("quantity", fmt::format("is the column of `sold`, '{}'", columns.period));
+  return read_triangle(keys, std::move(table), columns);
+}
+
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const TriangleColumns& columns) {
+  ReturnsTriangle triangle;
   const std::vector<Heading> headings = ordered_headings(keys, table, columns);
   triangle.names = {headings.front().period.calendar, headings.front().period.prefix};
   require_consecutive(table, headings, triangle.names);
   require_last_column(table, headings.back());
   triangle.last = headings.back().period.number;
   std::map<int, std::size_t> rows;
+  std::string prefix = triangle.names.prefix;
   for (std::size_t row = 0; row < table.rows; ++row) {
-    SalesPeriod sale{period_of_sale(table, columns.period, row, headings.front()).number,
-                     units_in(table, columns.quantity, row, -1)};
+    const Period period = period_of_sale(table, columns.period, row, headings.front());
+    require_kind(table, columns.period, row, period, prefix);
+    SalesPeriod sale{period.number, units_in(table, columns.quantity, row, -1)};
     const auto [at, is_new] = rows.try_emplace(sale.at, row);
     if (!is_new)
       throw InputError(fmt::format("{}: the same period of sale as in row {}; add them up",
@@ -312,6 +255,7 @@ std::vector<std::pair<int, int>> read_planned_sales(const TomlReader& keys, cons
                         otherwise < table.columns.size() ? table.columns[otherwise].name : "");
   };
   const std::string period_column = heading("sold", 0), quantity_column = heading("quantity", 1);
+  std::string prefix = names.prefix;
   std::vector<std::pair<int, int>> planned;
   for (std::size_t row = 0; row < table.rows; ++row) {
     const Period period = required_period(table, period_column, row);
@@ -319,6 +263,7 @@ std::vector<std::pair<int, int>> read_planned_sales(const TomlReader& keys, cons
       throw InputError(fmt::format("{} must be {}, as in the returns",
                                    quoted_place(table, period_column, row),
                                    names.calendar ? "a month" : "the number of a period"));
+    require_kind(table, period_column, row, period, prefix);
     if (period.number <= last)
       throw InputError(
           fmt::format("{} is not after {}, the last period of returns: it is no planned sale",

@@ -34,7 +34,8 @@ struct ReturnsTriangle {
   std::string period_column, quantity_column;
   int first = 0, last = 0;  ///< periods of the first and the last column of returns
   std::vector<SalesPeriod> sales;
-  std::vector<std::string> unread;  ///< headings that are no period
+  std::vector<std::string> unread;      ///< headings that are no period
+  std::vector<std::string> notes = {};  ///< of its rows, as sentences
 };
 
 /// The columns of a table that looks like a triangle.
@@ -55,6 +56,8 @@ std::optional<TriangleColumns> triangle_columns(const Table& table);
 /// months beside numbers, a missing or repeated period, no quantity, a return before the sale, more
 /// returns than sold, a last column without any entry.
 ReturnsTriangle read_triangle(const TomlReader& keys, Table table);
+/// The same with known columns.
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const TriangleColumns& columns);
 
 /// Quantities that will be sold, by period, from a table of its own with the same headings. Throws
 /// InputError: likewise, and for periods up to `last`.

@@ -8,24 +8,60 @@
 namespace wearwell::recurrence {
 namespace {
 
-// Sums over the steps at which a unit is at risk, as differences of running sums.
-class RunningSum {
+// A unit's failures less those expected of it, each over the number at risk, from step to step: their squares add up to the
+// variance. Those of all units at risk move together, so that a step costs only its own events.
+class Deviations {
  public:
-  explicit RunningSum(const std::vector<double>& ages) : ages_(ages) {}
-  void add(double value) { sums_.push_back(sums_.back() + value); }
-  // Over the ages in (start, end] up to step k.
-  double between(double start, double end, std::size_t k) const {
-    const std::size_t begin = position(start), until = std::min(position(end), k + 1);
-    return until > begin ? sums_[until] - sums_[begin] : 0;
+  explicit Deviations(const std::vector<UnitHistory>& units) : units_(units), own_(units.size()) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      by_start_.push_back(i);
+      by_end_.push_back(i);
+      for (const double age : units[i].failures) failures_.emplace_back(age, i);
+    }
+    std::sort(by_start_.begin(), by_start_.end(),
+              [&](std::size_t a, std::size_t b) { return units[a].start < units[b].start; });
+    std::sort(by_end_.begin(), by_end_.end(),
+              [&](std::size_t a, std::size_t b) { return units[a].end < units[b].end; });
+    std::sort(failures_.begin(), failures_.end());
+  }
+
+  // Goes to the next age of failures. Returns the sum of squares over all units.
+  double step(double age, double at_risk) {
+    for (; begun_ < by_start_.size() && units_[by_start_[begun_]].start < age; ++begun_) {
+      own_[by_start_[begun_]] = expected_;
+      ++count_;
+    }
+    for (; ended_ < by_end_.size() && units_[by_end_[ended_]].end < age; ++ended_) {
+      const double last = own_[by_end_[ended_]] - expected_;
+      of_ended_ += last * last;
+      squares_ -= last * last;
+      sum_ -= last;
+      --count_;
+    }
+    std::size_t next = failure_;
+    while (next < failures_.size() && failures_[next].first == age) ++next;
+    const double more = static_cast<double>(next - failure_) / (at_risk * at_risk);
+    expected_ += more;
+    squares_ += more * (count_ * more - 2 * sum_);
+    sum_ -= count_ * more;
+    for (; failure_ < next; ++failure_) {
+      double& own = own_[failures_[failure_].second];
+      squares_ += (2 * (own - expected_) + 1 / at_risk) / at_risk;
+      sum_ += 1 / at_risk;
+      own += 1 / at_risk;
+    }
+    return std::max(0.0, of_ended_ + squares_);
   }
 
  private:
-  std::size_t position(double age) const {
-    return static_cast<std::size_t>(std::upper_bound(ages_.begin(), ages_.end(), age) -
-                                    ages_.begin());
-  }
-  const std::vector<double>& ages_;
-  std::vector<double> sums_ = {0};
+  const std::vector<UnitHistory>& units_;
+  std::vector<double> own_;  // of each unit that has begun: its deviation plus `expected_`
+  std::vector<std::size_t> by_start_, by_end_;
+  std::vector<std::pair<double, std::size_t>> failures_;
+  std::size_t begun_ = 0, ended_ = 0, failure_ = 0;
+  double expected_ = 0;                       // of a unit from age 0 on
+  double count_ = 0, sum_ = 0, squares_ = 0;  // of the deviations of units at risk
+  double of_ended_ = 0;                       // squares of the others'
 };
 
 }  // namespace
@@ -43,8 +79,7 @@ std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& 
   ages.erase(std::unique(ages.begin(), ages.end()), ages.end());
   const double z = upper_quantile(StandardDistribution::normal, 0.5 * (1 - level));
   std::vector<MeanCumulativeStep> steps;
-  RunningSum increments(
-      ages);  // of the share of failures among the units at risk, over those at risk
+  Deviations deviations(units);
   double mean = 0;
   for (const double age : ages) {
     MeanCumulativeStep step;
@@ -57,19 +92,9 @@ std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& 
     const auto at_risk = static_cast<double>(step.at_risk);
     mean += static_cast<double>(step.failures) / at_risk;
     step.mean = mean;
-    increments.add(static_cast<double>(step.failures) / (at_risk * at_risk));
+    // Var = sum over units of the square of sum_k (d_i(t_k) - mean d(t_k))/at risk(t_k).
+    step.se = deviations.step(age, at_risk);
     steps.push_back(step);
-  }
-  // Var = sum over units of the square of sum_k (d_i(t_k) - mean d(t_k))/at risk(t_k).
-  for (const UnitHistory& unit : units) {
-    double own = 0;
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-      for (; next < unit.failures.size() && unit.failures[next] == steps[k].age; ++next)
-        own += 1 / static_cast<double>(steps[k].at_risk);
-      const double deviation = own - increments.between(unit.start, unit.end, k);
-      steps[k].se += deviation * deviation;
-    }
   }
   bool estimable = true;  // one unit alone shows no variance
   for (MeanCumulativeStep& step : steps) {
@@ -80,6 +105,18 @@ std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& 
     step.high = step.mean * factor;
   }
   return steps;
+}
+
+std::vector<std::pair<double, double>> unobserved_ages(const std::vector<UnitHistory>& units) {
+  std::vector<std::pair<double, double>> observed, gaps;
+  for (const UnitHistory& unit : units) observed.emplace_back(unit.start, unit.end);
+  std::sort(observed.begin(), observed.end());
+  double until = observed.front().second;
+  for (const auto& [start, end] : observed) {
+    if (start > until) gaps.emplace_back(until, start);
+    until = std::max(until, end);
+  }
+  return gaps;
 }
 
 }  // namespace wearwell::recurrence

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "wearwell/models/recurrence/recurrence_data.h"
@@ -23,5 +24,9 @@ struct MeanCumulativeStep {
 /// step with one unit at risk on, the standard error and bounds are NaN: one unit shows no variance.
 std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& units,
                                                 double level);
+
+/// The ages between the first and the last observation at which no unit was under observation, SI: the mean cumulative
+/// function lacks the failures there.
+std::vector<std::pair<double, double>> unobserved_ages(const std::vector<UnitHistory>& units);
 
 }  // namespace wearwell::recurrence

@@ -107,6 +107,7 @@ struct Reading {
   double last = 0;
   std::size_t last_row = 0;
   bool begun = false, ended = false;
+  std::size_t end_gap = 0;  // once it has ended
 };
 
 void check_age(const Table& table, const ColumnChoice& age, double value, const Reading& unit,
@@ -144,6 +145,19 @@ void check_failure(const Table& table, const ColumnChoice& age, const Gap& gap, 
                   "two failures fell into one "
                   "rounded age, then state the rounding, for example data.rounding = \"1 {}\"",
                   where, history.name, cell, age.unit.text));
+}
+
+// The order of a failure and the end of observation at one age does not matter: the failure came first.
+void add_failure_at_end(const Table& table, const ColumnChoice& age, const Reading& state,
+                        std::size_t row, RecurrenceData& data) {
+  Gap& end = data.gaps[state.end_gap];
+  const Gap failure{state.unit, end.from, end.to, true, end.first};
+  UnitHistory& unit = data.units[state.unit];
+  check_failure(table, age, failure, data.rounding, unit, row);
+  unit.failures.push_back(end.to);
+  end.from = end.to;
+  end.first = false;
+  data.gaps.push_back(failure);
 }
 
 std::vector<double> read_starts(const TomlReader& columns, const Table& table,
@@ -225,8 +239,12 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
     if (starts[i] != unit.start)
       throw InputError(fmt::format("{}: the start of unit '{}' differs from that in its first row",
                                    place(table, start->column, i), name));
-    check_age(table, age, ages[i], state, unit, i);
     const bool failed = read_event(table, words, i);
+    if (failed && state.ended && ages[i] == state.last) {
+      add_failure_at_end(table, age, state, i, data);
+      continue;
+    }
+    check_age(table, age, ages[i], state, unit, i);
     const Gap gap{state.unit, state.begun ? state.last : unit.start, ages[i], failed, !state.begun};
     if (failed) {
       check_failure(table, age, gap, data.rounding, unit, i);
@@ -238,7 +256,7 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
       unit.end = ages[i];
     }
     data.gaps.push_back(gap);
-    state = {state.unit, ages[i], i, true, !failed};
+    state = {state.unit, ages[i], i, true, !failed, data.gaps.size() - 1};
   }
   close_units(section, table, unit_column->column, read, data);
   data.columns.push_back({"age", data.si, age.unit, ages});

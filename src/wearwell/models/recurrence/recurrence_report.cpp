@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/math/quantile.h"
 #include "wearwell/models/recurrence/mean_cumulative.h"
 #include "wearwell/models/recurrence/trend_tests.h"
 #include "wearwell/present/plain.h"
-#include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
 
@@ -19,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_units = 1000;  // with a forecast of their own
-constexpr Eigen::Index draws_of_figure = 400;
+constexpr Eigen::Index draws_of_units = 400;
 
 const char* process_name(ProcessKind kind) {
   switch (kind) {
@@ -162,7 +160,7 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
   all.table = {"forecast", "Failures to come; the number is a whole number", forecast_columns()};
   all.units = {"unit-forecasts", "Failures to come of each unit", forecast_columns()};
   all.lines = {{"  of", "from", "next", "expected", "90 % of the number", "at least one [%]"}};
-  const WeightedDraws few = thinned(draws, draws_of_figure);
+  const WeightedDraws few = thinned(draws, draws_of_units);
   for (const Quantity& ahead : asked.ahead) {
     for (const ForecastRow& row : asked.rows) {
       const Forecast f = forecast(asked.process, draws, row.units, ahead.si());
@@ -211,70 +209,6 @@ Json tests_json(const std::vector<NamedTest>& tests) {
   return json;
 }
 
-html::Figure mcf_figure(const Asked& asked, const WeightedDraws& all) {
-  namespace colour = plot::colour;
-  constexpr int points = 60;
-  const Unit& unit = asked.data.unit;
-  const WeightedDraws draws = thinned(all, draws_of_figure);
-  // Both count failures from the first age at which a unit is observed.
-  const double first = asked.data.first_start();
-  std::vector<double> ages = {first};
-  for (int i = 1; i <= points; ++i)
-    ages.push_back(std::lerp(first, asked.data.longest(), static_cast<double>(i) / points));
-  std::vector<std::vector<double>> means;  // of each draw
-  for (Eigen::Index i = 0; i < draws.values.rows(); ++i)
-    means.push_back(expected_failures(asked.process, draws.values.row(i).data(), ages));
-  std::vector<double> x, low, middle, high;
-  for (std::size_t k = 0; k < ages.size(); ++k) {
-    std::vector<double> at;
-    for (const auto& each : means) at.push_back(each[k] - each[0]);
-    std::sort(at.begin(), at.end());
-    x.push_back(from_si(unit, ages[k]));
-    low.push_back(quantile(at, 0.05));
-    middle.push_back(quantile(at, 0.5));
-    high.push_back(quantile(at, 0.95));
-  }
-  // Each step twice, so that lines and areas are steps.
-  std::vector<double> at, mean, below, above;
-  double last_mean = 0, last_low = 0, last_high = 0;
-  const auto add = [&](double age, double m, double l, double h) {
-    at.push_back(age);
-    mean.push_back(m);
-    below.push_back(l);
-    above.push_back(h);
-  };
-  add(x.front(), 0, 0, 0);
-  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level)) {
-    const double age = from_si(unit, step.age);
-    add(age, last_mean, last_low, last_high);
-    add(age, last_mean = step.mean, last_low = step.low, last_high = step.high);
-  }
-  add(from_si(unit, asked.data.longest()), last_mean, last_low, last_high);
-  const std::string shown = html::unit(unit.text);
-  return {
-      "mean-cumulative-function",
-      first > 0 ? fmt::format("Failures per unit from age {} {} until each age",
-                              age_number(x.front()), shown)
-                : "Failures per unit until each age",
-      "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
-      "assume no model (none where one unit alone is at risk). The line is "
-      "the fitted process, posterior median with its 90 % band.",
-      plot::plot(
-          "Mean cumulative number of failures per unit against age, from the data and fitted",
-          {"Age [" + shown + "]", false, x.front(), x.back()}, {"Failures per unit", false, 0, {}},
-          {plot::area({{"x", at}, {"y", above}, {"y2", below}},
-                      {colour::measured, "90 %, data", 0.15}),
-           plot::area({{"x", x}, {"y", high}, {"y2", low}},
-                      {colour::posterior, "90 %, fitted", 0.28}),
-           plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
-                      {colour::measured, "data", 1, 2}),
-           plot::line({{"x", x}, {"y", middle}, {"failures per unit", middle}},
-                      {colour::posterior, "fitted", 1, 2})},
-          320, true),
-      {},
-      true};
-}
-
 }  // namespace
 
 std::string given_quantity(const Quantity& quantity) {
@@ -283,6 +217,15 @@ std::string given_quantity(const Quantity& quantity) {
 
 std::string age_number(double in_unit) {
   return plain_given(std::stod(fmt::format("{:.6g}", in_unit)));
+}
+
+std::string unobserved_text(const Asked& asked) {
+  std::string text;
+  const Unit& unit = asked.data.unit;
+  for (const auto& [from, to] : unobserved_ages(asked.data.units))
+    text += fmt::format("{}between {} and {} {}", text.empty() ? "" : ", ",
+                        age_number(from_si(unit, from)), age_number(from_si(unit, to)), unit.text);
+  return text;
 }
 
 PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
@@ -308,10 +251,18 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
                            {"se", step.se},
                            {"low", step.low},
                            {"high", step.high}});
+  json["unobserved"] = Json::array();
+  for (const auto& [from, to] : unobserved_ages(asked.data.units))
+    json["unobserved"].push_back(
+        {{"from", from_si(asked.data.unit, from)}, {"to", from_si(asked.data.unit, to)}});
+  const std::string gaps = unobserved_text(asked);
   if (asked.process.kind == ProcessKind::power_law)
     added.blocks["parameters"].push_back({crow_table(asked, draws)});
   added.blocks["fit"].push_back({test_table(tests)});
   added.blocks["fit"].push_back({mcf_table(asked, steps)});
+  if (!gaps.empty())
+    added.blocks["fit"].push_back({present::Prose{fmt::format(
+        "No unit was observed {}: the mean cumulative function lacks the failures there.", gaps)}});
   if (!asked.ahead.empty()) {
     const Forecasts all = forecasts_of(asked, draws);
     added.blocks["predictions"].push_back({all.table});
@@ -324,13 +275,14 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
     added.text += "Failures to come\n" + text_table(all.lines) + "\n";
   }
   added.text += "Classical tests\n" + tests_text(tests);
+  if (!gaps.empty())
+    added.text += wrapped(
+        fmt::format(
+            "No unit was observed {}: the mean cumulative function lacks the failures there.",
+            gaps),
+        2, 4);
   added.body["repairable"] = std::move(json);
   return added;
-}
-
-std::map<std::string, std::vector<html::Figure>> recurrence_figures(const Asked& asked,
-                                                                    const WeightedDraws& draws) {
-  return {{"verdict", {mcf_figure(asked, draws)}}};
 }
 
 }  // namespace wearwell::recurrence

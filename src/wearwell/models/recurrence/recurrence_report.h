@@ -34,6 +34,9 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
 std::map<std::string, std::vector<html::Figure>> recurrence_figures(const Asked& asked,
                                                                     const WeightedDraws& draws);
 
+/// "between 100 and 200 h", the ages at which no unit was observed; empty if there are none.
+std::string unobserved_text(const Asked& asked);
+
 /// "100 h", as the study states it.
 std::string given_quantity(const Quantity& quantity);
 

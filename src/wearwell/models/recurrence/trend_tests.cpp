@@ -13,7 +13,7 @@ namespace wearwell::recurrence {
 namespace {
 
 constexpr std::uint64_t seed_of_samples = 20261126;
-constexpr std::size_t fewest_samples = 1000, most_samples = 10'000, most_evaluations = 10'000'000;
+constexpr std::size_t fewest_samples = 250, most_samples = 10'000, most_evaluations = 10'000'000;
 
 std::size_t random_failures(const UnitHistory& unit) {
   return unit.failures.size() - (unit.ends_at_failure ? 1 : 0);

@@ -22,7 +22,7 @@ TrendTest laplace_test(const std::vector<UnitHistory>& units);
 
 /// Crow's Cramer-von Mises test of the power law for units observed from age 0 (Crow 1990, Proc. Ann. Reliability and
 /// Maintainability Symp., 275-279; IEC 61710). p is the share of simulated samples of this size with as large a statistic,
-/// from 10 000 samples (fewer beyond 1000 failures); the published critical values are quantiles of the same distribution.
+/// from 10 000 samples (fewer beyond 1000 failures, at least 250); the published critical values are quantiles of the same distribution.
 TrendTest cramer_von_mises_test(const std::vector<UnitHistory>& units);
 
 /// The probability of a statistic as large as this one among this number of failures, if the power law holds.

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "wearwell/models/formula_model/returns_triangle.h"
+
+namespace wearwell::formula_model {
+
+/// Counts a table of single units as a triangle. `keys` names its columns: `sold`, the month or day of sale; `returned`, that
+/// of the return, empty for a unit that did not come back; and `quantity`, if a row stands for several units. `until` is the
+/// last period that the table covers: later returns and sales are left out, with a note. Throws InputError that names the
+/// cell: an unreadable period, a return before the sale.
+ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units);
+
+}  // namespace wearwell::formula_model
