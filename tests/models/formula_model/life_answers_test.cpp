@@ -8,6 +8,7 @@
 
 #include "support/posterior_study.h"
 #include "support/scratch.h"
+#include "wearwell/base/error.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/study/inference_data.h"
@@ -116,6 +117,43 @@ TEST_F(LifeAnswers, MeanLivesAreThoseOfClosedForms) {
   EXPECT_NEAR(*named("mean life").predictive / mean, 1, 1e-4);
   EXPECT_NEAR(*named("mean remaining useful life").predictive / (remaining / left), 1, 1e-3);
   EXPECT_LT(*named("mean life").bound, named("mean life").q50);
+}
+
+// One pair of keys for all bounds: the ends of the 90 % interval are one-sided bounds at 95 %.
+TEST_F(LifeAnswers, LevelAndSidesGovernEveryBound) {
+  write("lives.csv",
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,runout\n");
+  const std::string asked = lives + std::string("mean_life = true\nb_lives = [10]\n");
+  const auto bounds = [&](const std::string& keys) { return run(asked + keys).quantities; };
+  const auto lower = bounds("level = 0.95\n"),
+             both = bounds("level = \"90 %\"\nsides = \"both\"\n"),
+             upper = bounds("level = 0.95\nsides = \"upper\"\n"),
+             before = bounds("credible_level = 0.95\n");
+  int bounded = 0;
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const QuantityQuantiles &one = lower[i].best(), &two = both[i].best(), &other = upper[i].best();
+    EXPECT_EQ(one.bound, before[i].best().bound);
+    if (!one.bound) continue;
+    ++bounded;
+    EXPECT_NEAR(*one.bound / one.q05, 1, 1e-12) << lower[i].name;
+    EXPECT_FALSE(one.upper_bound);
+    EXPECT_NEAR(*two.bound / two.q05, 1, 1e-12);
+    EXPECT_NEAR(*two.upper_bound / two.q95, 1, 1e-12);
+    EXPECT_NEAR(*other.upper_bound / other.q95, 1, 1e-12);
+    EXPECT_FALSE(other.bound);
+  }
+  EXPECT_EQ(bounded, 4);  // B10, the mean life, two of survival
+  const auto refused = [&](const std::string& keys) {
+    try {
+      run(asked + keys);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refused("level = 0.9\ncredible_level = 0.9\n").find("are the same"), std::string::npos);
+  EXPECT_NE(refused("level = 90\n").find("predict.level"), std::string::npos);
+  EXPECT_NE(refused("sides = \"left\"\n").find("\"lower\""), std::string::npos);
 }
 
 // Two groups of one shape: P(A outlives B) = u/(1 + u), u = (eta_A/eta_B)^beta; B-lives have the ratio of the scales.
