@@ -96,7 +96,6 @@ double survival(double share) {
   return std::round((1 - share) * digits) / digits;
 }
 
-// The library writes null for infinite numbers.
 ordered_json json_of(const UnitLife& life, const LifeBounds& bounds, const Moved& moved,
                      bool trusted) {
   ordered_json json = {{"of", life.of},
@@ -314,12 +313,9 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
   life->add_option("--risk", options->risk,
                    "Risk tolerated until the next inspection (default: as in the study, or 1 %)");
   life->add_option("--level", options->level,
-                   "Adds a bound of this life that holds with this probability: 95 %")
-      ->type_name("PERCENT");
-  life->add_option(
-          "--sides", options->sides,
-          "Which bound has that level: lower (the default), upper, or both ends of the interval")
-      ->type_name("lower|upper|both");
+                   "Adds a bound of this life that holds with this probability, like \"95 %\"");
+  life->add_option("--sides", options->sides,
+                   "Which bound: lower, upper, or both ends of an interval (default: lower)");
   life->add_option("--against", options->against,
                    "Compare new units with those of another result: ratios of B-lives, the "
                    "probability to outlive one of them, with --horizon the difference of survival")
