@@ -260,7 +260,7 @@ y_path = "a + b*t"
 // mean path: 10 %/rate exp(scatter^2/2).
 TEST_F(FormulaLivesOfStudies, MeansToAThresholdHaveTheClosedForm) {
   const auto mean_life = [&](const std::string& likelihood, const std::string& prior,
-                             double scatter) {
+                             double scatter, const std::string& limited) {
     std::ifstream rows(folder_of_lasers + "laser.csv");
     write("laser.csv", std::string(std::istreambuf_iterator<char>(rows), {}));
     const PosteriorStudy study = read_posterior_study(write(
@@ -275,7 +275,9 @@ TEST_F(FormulaLivesOfStudies, MeansToAThresholdHaveTheClosedForm) {
             prior +
             "[random_effects.laser]\nrate = { distribution = \"lognormal\", log_sd = \"scatter\" "
             "}\n"
-            "[predict]\nalong = \"time\"\nlimit = { increase = \"10 %\" }\nlives_of = []\n"
+            "[formula]\npath = \"rate * time\"\n[predict]\nalong = \"time\"\nlimit = { " +
+            limited +
+            " = \"10 %\" }\nlives_of = []\n"
             "mean_life = true\n"));
     WeightedDraws one;
     one.values = Points::Zero(1, 3);
@@ -299,14 +301,15 @@ TEST_F(FormulaLivesOfStudies, MeansToAThresholdHaveTheClosedForm) {
   };
   for (const double scatter : {0.2, 0.6}) {
     const double mean = 0.1 / 2e-5 * std::exp(0.5 * scatter * scatter);
-    EXPECT_NEAR(
-        mean_life("family = \"normal\"\nmean = \"rate * time\"\nsd = \"sigma\"\n",
-                  "sigma = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter) /
-            mean,
-        1, 2e-4)
+    EXPECT_NEAR(mean_life("family = \"normal\"\nmean = \"path\"\nsd = \"sigma\"\n",
+                          "sigma = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter,
+                          "path") /
+                    mean,
+                1, 2e-4)
         << scatter;
-    EXPECT_NEAR(mean_life("family = \"wiener-process\"\nmean = \"rate * time\"\nscale = \"u\"\n",
-                          "u = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter) /
+    EXPECT_NEAR(mean_life("family = \"wiener-process\"\nmean = \"path\"\nscale = \"u\"\n",
+                          "u = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter,
+                          "increase") /
                     mean,
                 1, 2e-3)
         << scatter;

@@ -11,6 +11,7 @@
 #include "support/posterior_study.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/prognosis/named_life.h"
 
@@ -52,7 +53,7 @@ class VariedConditions : public ScratchTest {
 };
 
 // Parameters: life_40, energy, shape.
-const std::vector<double> point = {2e4 * hour, 0.7 * 1.602176634e-19, 1.5};
+const std::vector<double> point = {2e4 * hour, to_si(read_unit("eV", "J"), 0.7), 1.5};
 
 const std::string weibull_by_use =
     "[likelihood.life]\nfamily = \"weibull\"\nshape = \"shape\"\n"
