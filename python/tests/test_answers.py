@@ -234,3 +234,18 @@ def test_conditions_with_units_in_their_headings_are_those_in_their_units():
     assert np.allclose(found["predictive"], fit.percentile(10, given={"T": ["50 degC", "100 degC"]})["predictive"], rtol=1e-9)
     one, other = (fit.life(b=10, survived=each, given={"T": "80 degC"}) for each in (300, "300 h"))
     assert one.equals(other)
+
+
+def test_conditions_that_differ_between_units_are_distributions():
+    tests = {"T [degC]": [80.0] * 4 + [120.0] * 4, "hours": [900, 1100, 1300, 1500, 300, 350, 420, 500]}
+    spread = {"T": {"distribution": "normal", "mean": "90 degC", "sd": "5 K"}}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        fit = ww.life(tests, "hours", units={"hours": "h"}, stress={"T": "arrhenius"}, given=spread, seed=1, method="exact", draws=100, report=False)
+        at = ww.life(tests, "hours", units={"hours": "h"}, stress={"T": "arrhenius"}, given={"T": "90 degC"}, seed=1, method="exact", draws=100,
+                     report=False)
+    lives = [each.results["quantities"][0] for each in (fit, at)]
+    assert "T ~ normal (mean 90, sd 5 degC)" in lives[0]["at"]
+    assert lives[0]["b10"] < lives[1]["b10"] and lives[0]["q95"] > lives[1]["q95"]
+    two = at.percentile(10, given={"T": {"values": ["90 degC", "90 degC"]}})
+    assert np.allclose(two["predictive"], at.percentile(10, given={"T": "90 degC"})["predictive"], rtol=1e-3)

@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Mapping
 
 from ._data import headings_of
 from ._errors import InputError
@@ -68,7 +69,7 @@ def in_column(heading, value, names):
     match = None if heading in names or not isinstance(heading, str) else re.match(r"\s*(.*?)\s*[\[(](.*)[\])]\s*\Z", heading)
     if not match or match[1] not in names:
         return heading, value
-    return match[1], value if value is None or isinstance(value, str) or value != value else _written(value, match[2])
+    return match[1], value if value is None or isinstance(value, (str, Mapping)) or value != value else _written(value, match[2])
 
 
 def _frame_of(new):

@@ -129,8 +129,8 @@ class FitTables:
             A row for each quantity. Columns: ``name``, ``of`` (which item or population), ``at`` (under which
             conditions), ``unit``, ``is_life``; posterior quantiles ``q05``, ``q50``, ``q95``; of lives the B-lives
             ``b1``, ``b10``, ``b50`` averaged over the posterior; of B-lives over all items ``predictive`` (B-life of
-            the next item) and ``bound`` (lower bound that is exceeded with probability ``credible_level``); of
-            functions of the parameters ``mean``. Infinity is a life that never ends; NaN is a number that the
+            the next item) and ``bound`` (lower bound that is exceeded with probability ``credible_level``), and with
+            ``predict={"sides": "both"}`` or "upper" ``upper_bound``; of functions of the parameters ``mean``. Infinity is a life that never ends; NaN is a number that the
             quantity does not have.
 
         Examples

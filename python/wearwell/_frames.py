@@ -56,14 +56,15 @@ def _lives_and_quantities(summary):
         rows.append({
             "name": each["name"], "of": each["of"], "at": each["at"], "unit": each["unit"], "is_life": is_life,
             **{q: (_life if is_life else _number)(each[q]) if q in each else _nan for q in _quantiles},
-            "predictive": _number(each.get("predictive")), "bound": _number(each.get("bound")),
+            "predictive": _number(each.get("predictive")), "bound": _number(each.get("bound")), "upper_bound": _number(each.get("upper_bound")),
             "credible_level": _number(each.get("credible_level")), "mean": _number(each.get("mean"))})
     return rows
 
 
 def quantities(summary):
+    upper = ["upper_bound"] if any("upper_bound" in each for each in summary.get("quantities", [])) else []  # with predict.sides
     return _frame(_lives_and_quantities(summary),
-                  ["name", "of", "at", "unit", "is_life", *_quantiles, "predictive", "bound", "credible_level", "mean"])
+                  ["name", "of", "at", "unit", "is_life", *_quantiles, "predictive", "bound", *upper, "credible_level", "mean"])
 
 
 def lives(summary):

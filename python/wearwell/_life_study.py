@@ -1,5 +1,7 @@
 """Lives in one line: a distribution, groups, and stresses that shorten a life."""
 
+from collections.abc import Mapping
+
 from . import _toml
 from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
@@ -70,6 +72,9 @@ def _conditions(columns, by, stress, given):
             unit = columns.unit(heading)
             if value is None:
                 value = quantity_text(columns.numbers(heading).min(), unit)
+            elif isinstance(value, Mapping):  # a distribution over the units
+                conditions[columns.name(heading)] = _toml.distribution(value, f"given.{heading}")
+                continue
             elif not isinstance(value, str) and not hasattr(value, "magnitude"):
                 value = quantity_text(value, unit)
         conditions[columns.name(heading)] = _toml.quantity(value, f"given.{heading}")
@@ -150,7 +155,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         humidity): how a life shortens. Groups share the effect of a stress.
     given : dict, optional
         Conditions of the lives that are predicted; plain numbers in the unit of their column. By default the first group and
-        the mildest stresses of the table.
+        the mildest stresses of the table. A stress that differs from unit to unit is a dict: ``{"distribution": "normal",
+        "mean": "25 degC", "sd": "6 K"}`` or ``{"values": ["20 degC", "35 degC"], "shares": [0.7, 0.3]}``.
     units : dict, optional
         Unit of columns: ``{"hours": "h", "T": "degC"}``. A heading may have it: "T [degC]". A life without one is a number.
     priors : dict of str to dict, or "flat", optional

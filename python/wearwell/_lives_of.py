@@ -3,7 +3,9 @@
 import itertools
 import json
 import re
+from collections.abc import Mapping
 
+from . import _toml
 from ._ask import _written, columns_of, conditions_of, in_column, tables_of
 from ._errors import InputError
 
@@ -77,9 +79,11 @@ def conditions(fit, study, given):
                 if str(value) not in levels[key]:
                     raise InputError(f"given: {key} has no '{value}' ({', '.join(levels[key])})")
                 values[key] = str(value)
+            elif isinstance(value, Mapping):  # a distribution over the units
+                values[key] = _toml.distribution(value, f"given.{key}")
             else:
                 values[key] = _written(value, columns[key])
-        found.append((tuple(row.values()) if given is not None else tuple(row[key] for key in differ), {**usual, **values}))
+        found.append((tuple(str(value) if isinstance(value, Mapping) else value for value in row.values()) if given is not None else tuple(row[key] for key in differ), {**usual, **values}))
     return differ, found
 
 

@@ -20,6 +20,12 @@ def quantity(value, what):
     raise InputError(f"{what} is {type(value).__name__}; it is a number or a text with a unit, like '5 mm^3'")
 
 
+def distribution(value, what):
+    """A distribution with its keys, as a study file writes it: numbers, texts, pint quantities and lists of them."""
+    return {key: [quantity(one, f"{what}.{key}") for one in each] if isinstance(each, (list, tuple)) else quantity(each, f"{what}.{key}")
+            for key, each in value.items()}
+
+
 def unit_text(unit):
     """A unit: a text, or pint's, as wearwell reads it: "mm^3/N/m"."""
     if isinstance(unit, str):

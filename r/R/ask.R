@@ -51,6 +51,7 @@ axis_of <- function(study, units, along) {
 in_unit <- function(value, unit) {
   if (is.factor(value)) value <- as.character(value)
   if (inherits(value, "units")) return(quantity(value, "newdata"))
+  if (is.list(value)) return(value)  # a distribution over the units, as a study file has it
   if (is.character(value) || unit == "") return(value)
   paste(number_text(value), unit)
 }

@@ -118,9 +118,10 @@ quantiles <- c("q05", "q50", "q95", "b1", "b10", "b50")
 quantities_of <- function(summary) {
   rows <- summary$quantities
   is_life <- vapply(rows, function(row) !is.null(row$b10), NA)
+  upper <- if (any(vapply(rows, function(row) !is.null(row$upper_bound), NA))) "upper_bound"  # with predict$sides
   frame <- cbind(data.frame(name = column(rows, "name", ""), of = column(rows, "of", ""), at = column(rows, "at", ""),
                             unit = column(rows, "unit", ""), is_life = is_life),
-                 numbers_of(rows, c(quantiles, "predictive", "bound", "credible_level", "mean")))
+                 numbers_of(rows, c(quantiles, "predictive", "bound", upper, "credible_level", "mean")))
   for (key in quantiles) {
     never <- is_life & vapply(rows, function(row) !is.null(row[[key]]) && is.na(row[[key]]), NA)
     frame[[key]][never] <- Inf
@@ -130,7 +131,7 @@ quantities_of <- function(summary) {
 
 lives_of <- function(summary) {
   frame <- quantities_of(summary)
-  frame <- frame[frame$is_life, setdiff(names(frame), c("is_life", "mean"))]
+  frame <- frame[frame$is_life, setdiff(names(frame), c("is_life", "mean", "upper_bound"))]
   if (!is.null(summary$life)) {
     entry <- summary$life
     if (is.null(entry$q50)) entry$q50 <- entry$b50

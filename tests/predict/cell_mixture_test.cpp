@@ -52,6 +52,22 @@ TEST(CurveOfNodes, HasTheQuantilesOfItsLaw) {
   }
 }
 
+// Also of what lies beyond a point; infinite where a share is never reached.
+TEST(CurveOfNodes, HasTheMeanOfItsLaw) {
+  for (const double scatter : {0.2, -0.2, 1.0}) {
+    const Nodes nodes(0.25, 0.1);
+    CellMixture mixture;
+    mixture.add_curve(0.7, nodes.share, nodes.values(scatter));
+    EXPECT_NEAR(mixture.mean() / std::exp(0.5 * scatter * scatter), 1, scatter == 1 ? 3e-4 : 2e-6);
+    const double s = std::abs(scatter), z = std::log(1.2) / s;
+    const double beyond = std::exp(0.5 * s * s) * normal_cdf_of(s - z) / normal_cdf_of(-z) - 1.2;
+    EXPECT_NEAR(mixture.beyond(1.2).mean() / beyond, 1, scatter == 1 ? 1e-3 : 5e-3) << scatter;
+    mixture.add(1e-9, 1, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(mixture.mean(), std::numeric_limits<double>::infinity());
+  }
+  EXPECT_TRUE(std::isnan(CellMixture().mean()));
+}
+
 // Cells spread evenly between the nodes are wider by a twelfth of the step's square and more: this test can fail.
 TEST(CurveOfNodes, EvenCellsWouldNotHaveThem) {
   const Nodes nodes(0.25);

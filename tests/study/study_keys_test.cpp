@@ -397,6 +397,13 @@ rate = { value = "b", unit = "um/h" }
        formula_model("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
                      "[predict]\ngiven = { time = \"2 h\" }\ncompared_with = { time = \"3 h\" "
                      "}\nmean_life = true\nhazard_at = \"9 um\"\n")},
+      {"formula",
+       formula_model(
+           "weibull", "scale = \"a + b * time\"\nshape = \"q\"",
+           "[predict]\ngiven = { time = { values = [\"2 h\", \"3 h\"], shares = [2, 1] } }\n"
+           "compared_with = { time = { distribution = \"uniform\", lower = \"1 h\", "
+           "upper = \"3 h\" } }\naccelerated = { time = { distribution = \"uniform\", "
+           "lower = \"3 h\", upper = \"4 h\" } }\n")},
       {"formula", R"toml(model = "formula"
 [data]
 file = "wear.csv"
@@ -610,6 +617,9 @@ std::string kinds_of(const StudyKey& key, const Asked& asked) {
   if (table.ends_with("columns")) return "heading, or `{ column, unit }`";
   if (key.path.starts_with("prior.") && !key.path.starts_with("prior.*"))
     return "law with its keys";
+  if (key.path.starts_with("predict.") &&
+      (key.path.ends_with(".*.*") || key.path.ends_with(".*.distribution")))
+    return "as in `[prior]`";
   const bool of_unknown = key.path.starts_with("prior.*") || key.path.ends_with("half_width.*");
   if (of_unknown && !kinds.empty() && (kinds.size() > 1 || kinds.begin()->starts_with("text like")))
     return "as the unknown";

@@ -135,6 +135,8 @@ test_that("errors name arguments and columns", {
   refused(study_of(Surv(hours, event) ~ log(load), pumps), "log(load) is no column; make one of it first")
   refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(beta = ww_lognormal(1, log_sd = 1))), "priors: the model has no parameter 'beta' (parameters: eta, shape)")
   refused(study_of(Surv(hours, event) ~ 1, pumps, units = c(hrs = "h")), "units: data has no column 'hrs'")
+  spread <- study_of(Surv(hours, event) ~ load, pumps, given = list(load = list(distribution = "uniform", lower = 1, upper = 2)))
+  expect_match(spread$text, 'distribution = "uniform"', fixed = TRUE)
   refused(study_of(Surv(hours, event) ~ load, pumps, given = list(lod = 3)), "given: lod is no condition of the formula (conditions: load)")
   refused(study_of(Surv(hours, event, type = "mstate") ~ 1, pumps), "failure modes: Surv(time, event) with mode = ")
   refused(study_of(Surv(hours, end) ~ 1, transform(pumps[-2], end = c("kaputt", rep("runout", 9)))), "'kaputt' is not a status")

@@ -16,6 +16,7 @@
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/life_against.h"
+#include "wearwell/cli/life_bounds.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/present/number.h"
@@ -40,7 +41,7 @@ using prognosis::UnitLife;
 struct LifeOptions {
   std::filesystem::path result, output, readings, path;
   std::filesystem::path against;
-  std::string unit, survived, horizon, risk, confidence;
+  std::string unit, survived, horizon, risk, confidence, level, sides;
   bool json = false;
 };
 
@@ -89,17 +90,14 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
   return done;
 }
 
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json();
-}
-
 // 0.93 instead of 0.9299999999999999.
 double survival(double share) {
   constexpr double digits = 1e12;
   return std::round((1 - share) * digits) / digits;
 }
 
-ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
+ordered_json json_of(const UnitLife& life, const LifeBounds& bounds, const Moved& moved,
+                     bool trusted) {
   ordered_json json = {{"of", life.of},
                        {"name", life.name},
                        {"at", life.at},
@@ -114,15 +112,15 @@ ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
                                {"b1", 0.01},
                                {"b10", 0.1},
                                {"b50", 0.5}})
-    json[key] = number(life.quantile(p));
+    json[key] = life.quantile(p);
   if (life.numerical_error) json["numerical_error"] = *life.numerical_error;
+  if (bounds.asked) json.update(bounds_json(life, bounds));
   json["risk"] = life.risk;
-  json["inspect_within"] = number(life.inspect_within);
+  json["inspect_within"] = life.inspect_within;
   if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
   json["survival"] = ordered_json::array();
   for (std::size_t i = 0; i < life.share.size(); ++i)
-    json["survival"].push_back(
-        {{"life", number(life.life[i])}, {"survival", survival(life.share[i])}});
+    json["survival"].push_back({{"life", life.life[i]}, {"survival", survival(life.share[i])}});
   if (moved.how.empty()) return json;
   json["readings"] = {{"counted", moved.counted},
                       {"repeated", moved.repeated},
@@ -174,7 +172,7 @@ present::Table path_ahead(const LifeOptions& options, Models models,
   return table;
 }
 
-void print(const UnitLife& life, const Moved& moved, bool trusted) {
+void print(const UnitLife& life, const LifeBounds& bounds, const Moved& moved, bool trusted) {
   const std::string unit = printable(unit_description(life.unit, Script::terminal));
   const int digits = digits_within(life.numerical_error.value_or(0));
   const auto shown = [&](double value) {
@@ -204,6 +202,7 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   };
   fmt::print("  median {}, {} to {} (90 %)\n", with_unit(life.quantile(0.5)),
              shown(life.quantile(0.05)), with_unit(life.quantile(0.95)));
+  if (bounds.asked) fmt::print("  {}\n", bound_text(life, bounds.levels, with_unit));
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.numerical_error.value_or(0) > least_numerical_error)
@@ -212,8 +211,12 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   if (life.horizon)
     fmt::print("  probability of reaching the end within {} {}: {}\n", plain_given(*life.horizon),
                unit, probability_text(*life.reached));
-  fmt::print("  inspect again within {}: {} risk of reaching the end before\n",
-             with_unit(life.inspect_within), probability_text(life.risk));
+  if (std::isfinite(life.inspect_within))
+    fmt::print("  inspect again within {}: {} risk of reaching the end before\n",
+               with_unit(life.inspect_within), probability_text(life.risk));
+  else
+    fmt::print("  no inspection is due: the risk of ever reaching the end is below {}\n",
+               probability_text(life.risk));
 }
 
 // The name of a part may also be that of a stress.
@@ -246,11 +249,11 @@ UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::
 }
 
 int run_against(const LifeOptions& options, Models models) {
-  const std::pair<const char*, bool> others[] = {{"--survived", !options.survived.empty()},
-                                                 {"--readings", !options.readings.empty()},
-                                                 {"--risk", !options.risk.empty()},
-                                                 {"--output", !options.output.empty()},
-                                                 {"--path", !options.path.empty()}};
+  const std::pair<const char*, bool> others[] = {
+      {"--survived", !options.survived.empty()}, {"--readings", !options.readings.empty()},
+      {"--risk", !options.risk.empty()},         {"--level", !options.level.empty()},
+      {"--sides", !options.sides.empty()},       {"--output", !options.output.empty()},
+      {"--path", !options.path.empty()}};
   for (const auto& [name, given] : others)
     if (given) throw InputError(fmt::format("{}: is not possible with --against", name));
   return run_life_against({options.result, options.against, printable(options.unit),
@@ -268,6 +271,8 @@ int run_life(const LifeOptions& options, Models models) {
   if (!options.survived.empty()) question.survived = options.survived;
   if (!options.horizon.empty()) question.horizon = options.horizon;
   if (!options.risk.empty()) question.risk = risk_of(options.risk);
+  const LifeBounds bounds = read_life_bounds(options.level, options.sides);
+  if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
   prognosis::CarriedState state = read_carried(options.result);
   Moved moved;
   if (!options.readings.empty()) moved = take_readings(options, models, state);
@@ -277,9 +282,9 @@ int run_life(const LifeOptions& options, Models models) {
   if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
   if (!options.path.empty()) write_file(options.path, path);
   if (options.json) {
-    fmt::print("{}\n", printable_json(json_of(life, moved, state.trusted).dump(2)));
+    fmt::print("{}\n", printable_json(json_of(life, bounds, moved, state.trusted).dump(2)));
   } else {
-    print(life, moved, state.trusted);
+    print(life, bounds, moved, state.trusted);
     if (!options.output.empty())
       fmt::print("The survival curve is in {}\n", options.output.string());
     if (!options.path.empty()) fmt::print("The forecast is in {}\n", options.path.string());
@@ -307,6 +312,10 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
                    "Reports the probability that the end is reached within this use, from now on");
   life->add_option("--risk", options->risk,
                    "Risk tolerated until the next inspection (default: as in the study, or 1 %)");
+  life->add_option("--level", options->level,
+                   "Adds a bound of this life that holds with this probability, like \"95 %\"");
+  life->add_option("--sides", options->sides,
+                   "Which bound: lower, upper, or both ends of an interval (default: lower)");
   life->add_option("--against", options->against,
                    "Compare new units with those of another result: ratios of B-lives, the "
                    "probability to outlive one of them, with --horizon the difference of survival")
@@ -324,6 +333,7 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       "Examples:\n"
       "  wearwell life study-results --unit J7 --survived \"1e4 cycles\" --horizon \"500 cycles\"\n"
       "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n"
+      "  wearwell life study-results --unit J7 --level \"95 %\" --sides both\n"
       "  wearwell life bearing-results --unit B --path path.csv\n"
       "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n"
       "  wearwell life fluid-results --horizon \"100 h\"      (does the next one fail within 100 "

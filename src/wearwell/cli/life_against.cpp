@@ -72,7 +72,8 @@ ordered_json json_of(const prognosis::LivesAgainst& found, const Compared& life,
                        {"trusted", life.state.trusted && other.state.trusted},
                        {"confidence", found.confidence},
                        {"outlives", json_of(found.outlives)},
-                       {"ratios", ordered_json::array()}};
+                       {"ratios", ordered_json::array()},
+                       {"without_ratio", found.without_ratio}};
   for (const auto& each : found.ratios) {
     ordered_json ratio = json_of(each.of);
     ratio["percent"] = each.percent;
@@ -132,6 +133,9 @@ int run_life_against(const LifeAgainstOptions& options, Models models) {
   fmt::print("Life of {}\nagainst {}\n\n{}", life.of, other.of,
              present::text(table_of(found, options.horizon)));
   fmt::print("  better: the probability that the first is better in this respect\n");
+  for (const double percent : found.without_ratio)
+    fmt::print("  B{:.6g} lives have no ratio: for some parameters neither is ever reached.\n",
+               percent);
   fmt::print("Of the next two, that of {} lives longer with probability {}.\n",
              options.result.string(), probability_text(found.outlives.mean));
   return trusted ? 0 : 1;

@@ -45,7 +45,7 @@ class PriorReader {
       } catch (const InputError& error) {
         table_.fail("unit", error.what());
       }
-      refuse_offset(*unit_);
+      if (!spec_.varies_between_units) refuse_offset(*unit_);
     }
   }
 
@@ -57,6 +57,7 @@ class PriorReader {
   Family family(const std::string& distribution) {
     const ResponseForm& form = stated_form(distribution);
     refuse_form(form);
+    of_factors_ = form.positive;
     Family family{form.family};
     for (std::size_t i = 0; i < form.family_parameters.size(); ++i) {
       const std::string key(form.family_parameters[i].name);
@@ -69,9 +70,9 @@ class PriorReader {
   Unit unit() const {
     if (unit_) return *unit_;
     if (may_be_plain(spec_.si)) return Unit{"1", 1, 0};
-    table_.fail("", fmt::format("no quantity of this prior has a unit; add unit = \"{}\" or "
+    table_.fail("", fmt::format("no quantity of this {} has a unit; add unit = \"{}\" or "
                                 "another unit of its dimension",
-                                spec_.si));
+                                spec_.varies_between_units ? "distribution" : "prior", spec_.si));
   }
 
  private:
@@ -118,14 +119,29 @@ class PriorReader {
   double parameter(const char* key, ParameterKind kind) {
     const bool dimensional = kind == ParameterKind::location ||
                              (kind == ParameterKind::scale && !is_logarithm(spec_.si));
-    const double value = dimensional ? keep(key, table_.required_quantity(key, spec_.si))
-                                     : table_.required_quantity(key, "1").si();
+    const bool difference = spec_.varies_between_units && kind == ParameterKind::scale;
+    const double value = !dimensional ? table_.required_quantity(key, "1").si()
+                         : difference ? keep_difference(table_.required_quantity(key, spec_.si))
+                                      : keep(key, table_.required_quantity(key, spec_.si));
     const bool positive = kind == ParameterKind::scale || kind == ParameterKind::number;
     if (positive && !(value > 0)) table_.fail(key, "must be positive");
     return value;
   }
 
+  // A standard deviation of 5 degC is 5 K. The factors of a positive family have no such reading.
+  double keep_difference(const Quantity& quantity) {
+    if (of_factors_) refuse_offset(quantity.unit);
+    if (!unit_) unit_ = quantity.unit;
+    return quantity.value * quantity.unit.scale;
+  }
+
   void refuse_offset(const Unit& unit) const {
+    if (unit.offset != 0 && spec_.varies_between_units) {
+      table_.fail("", fmt::format("{} of a value in {} can be read two ways: of the temperature in "
+                                  "{} or of that in {}; write it in {}",
+                                  table_.required_text("distribution"), unit.text, spec_.si,
+                                  unit.text, spec_.si));
+    }
     if (unit.offset != 0 && !is_logarithm(spec_.si)) {
       table_.fail("", fmt::format("unit '{}' has an offset; write the parameter in '{}'", unit.text,
                                   spec_.si));
@@ -133,7 +149,7 @@ class PriorReader {
   }
 
   double keep(const char* key, const Quantity& quantity) {
-    refuse_offset(quantity.unit);
+    if (!spec_.varies_between_units || of_factors_) refuse_offset(quantity.unit);
     if (unit_ && !is_logarithm(spec_.si)) {
       try {
         refuse_two_readings(quantity, *unit_);
@@ -148,6 +164,8 @@ class PriorReader {
   const TomlReader& table_;
   const ParameterSpec& spec_;
   std::optional<Unit> unit_;
+  bool of_factors_ =
+      false;  // the family is of positive values, so that units with an offset do not fit
 };
 
 // A value strictly inside the support; the guess if possible.
@@ -254,7 +272,9 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   if (!distribution) table->fail("distribution", "is missing");
   if (*distribution == "default") {
     if (!spec.fallback)
-      table->fail("distribution", fmt::format("{} has no default prior", spec.name));
+      table->fail("distribution",
+                  fmt::format("{} has no default {}", spec.name,
+                              spec.varies_between_units ? "distribution" : "prior"));
     return default_parameter(*table, "distribution", spec);
   }
   PriorReader reader(*table, spec);

@@ -26,6 +26,9 @@ struct ParameterSpec {
   double natural_upper = std::numeric_limits<double>::infinity();
   double guess = 1;  ///< a plausible value from the data, SI
   std::optional<DefaultPrior> fallback = {};
+  /// A condition that differs between units, with their distribution in place of a prior: a location may be in degC,
+  /// and the unit of a scale is then that of a difference (5 degC is 5 K).
+  bool varies_between_units = false;
 };
 
 /// The magnitude of positive data for a default prior: 1, 2 or 5 times a power of ten, at least

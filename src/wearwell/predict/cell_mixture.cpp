@@ -152,6 +152,19 @@ bool CellMixture::Cell::cut(double from) {
   return true;
 }
 
+double CellMixture::mean() const {
+  double sum = 0, all = 0;
+  for (const Cell& cell : cells_) {
+    if (std::isnan(cell.low) || std::isnan(cell.high)) return std::nan("");
+    // The integral of the cubic cdf of a cell is 1/2 + (at_low - at_high)/12.
+    const double place = 0.5 - (static_cast<double>(cell.at_low) - cell.at_high) / 12;
+    sum +=
+        cell.weight * (std::isfinite(cell.high) ? std::lerp(cell.low, cell.high, place) : infinity);
+    all += cell.weight;
+  }
+  return sum / all;
+}
+
 CellMixture CellMixture::beyond(double x) const {
   CellMixture rest;
   for (Cell cell : cells_) {

@@ -31,6 +31,8 @@ class CellMixture {
   CellMixture beyond(double x) const;
 
   double mass() const;  ///< the sum of the weights
+  /// Infinite where mass is never reached; NaN without mass.
+  double mean() const;
   /// The fraction of the mass up to x.
   double cdf(double x) const;
   /// The x with cdf(x) = p, 0 < p < 1; infinity if that fraction is never reached.

@@ -93,7 +93,10 @@ LivesAgainst lives_against(const LifeOfResult& life, const LifeOfResult& other, 
     const std::vector<double> above = a.each(quantile), below = b.each(quantile);
     const auto ratio = over_pairs(
         a, b, 1, confidence, [&](std::size_t i, std::size_t j) { return above[i] / below[j]; });
-    if (ratio) found.ratios.push_back({percent, *ratio});
+    if (ratio)
+      found.ratios.push_back({percent, *ratio});
+    else
+      found.without_ratio.push_back(percent);
   }
   if (use) {
     const auto failed = [&](const LifeDistribution& of) { return of.cdf(*use); };

@@ -28,6 +28,8 @@ struct LivesAgainst {
     ComparedValue of;  ///< of this life over that of the other. The same: 1
   };
   std::vector<Ratio> ratios;  ///< of B1, B10 and B50 lives that both reach
+  /// The others: at some points of the posteriors neither life is reached.
+  std::vector<double> without_ratio;
   /// The share of items that live longer than `use`, less that of the other. The same: 0.
   std::optional<ComparedValue> survival;
 };

@@ -57,7 +57,8 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
         fmt::format("the {} has reached its threshold before {:.6g} {} with a probability of more "
                     "than 99.9 %; its remaining useful life is undetermined",
                     life.of, from, life.unit));
-  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
+  for (const double percent :
+       life_percentages(question.risk.value_or(life.risk), question.shares)) {
     const double p = percent / 100;
     life.share.push_back(p);
     life.life.push_back(std::max(0.0, distribution.quantile(before + p * (1 - before)) - from));
@@ -219,7 +220,8 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
     life.passed = 1 - known.survival;
   }
   double before = 0;
-  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
+  for (const double percent :
+       life_percentages(question.risk.value_or(life.risk), question.shares)) {
     const double p = percent / 100;
     const double value =
         from_si(mine.unit, known.distribution.quantile(gone + p * (1 - gone))) - from;
@@ -241,14 +243,18 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
 
 }  // namespace
 
-std::vector<double> life_percentages(double risk) {
+std::vector<double> life_percentages(double risk, const std::vector<double>& shares) {
   std::vector<double> levels = {0.01, 0.03, 0.1, 0.3, 0.5, 1,  2,    3,    5,
                                 7,    93,   95,  97,  98,  99, 99.5, 99.9, 99.99};
   for (int percent = 10; percent <= 90; percent += 5) levels.push_back(percent);
-  const double at = 100 * risk;
-  if (std::none_of(levels.begin(), levels.end(),
-                   [&](double each) { return std::abs(each - at) < 1e-9 * at; }))
-    levels.push_back(at);
+  std::vector<double> asked = shares;
+  asked.push_back(risk);
+  for (const double share : asked) {
+    const double at = 100 * share;
+    if (std::none_of(levels.begin(), levels.end(),
+                     [&](double each) { return std::abs(each - at) < 1e-9 * at; }))
+      levels.push_back(at);
+  }
   std::sort(levels.begin(), levels.end());
   return levels;
 }

@@ -17,6 +17,7 @@ struct LifeQuestion {
   std::optional<std::string> survived = {};  ///< "1e4 cycles": the use it has survived
   std::optional<std::string> horizon = {};   ///< "500 h": from then on
   std::optional<double> risk = {};           ///< risk tolerated until the next inspection
+  std::vector<double> shares = {};  ///< further shares that have ended, of bounds of the life
 };
 
 /// The life of one unit, averaged over all uncertainty. Lives count from `from`.
@@ -35,8 +36,8 @@ struct UnitLife {
   double quantile(double p) const;  ///< between the shares a straight line in probits of log life
 };
 
-/// Percentages at which lives are reported, ascending, including the risk of the question.
-std::vector<double> life_percentages(double risk);
+/// Percentages at which lives are reported, ascending, including the risk and the shares of the question.
+std::vector<double> life_percentages(double risk, const std::vector<double>& shares);
 /// "1e4 cycles" in the unit of reported lives. Throws InputError that names the option.
 double along_life(const char* option, const std::string& text, const std::string& unit);
 /// The rest: the next inspection from the shares, and the probability within the horizon from

@@ -70,6 +70,12 @@ class Clauses {
         "the {}{} reaches {} after {} (median); {}, one in ten before {}", result.quantity,
         of_whom(summary), limit, lifetime(life.b50, summary.unit),
         interval(life.q05, life.q95, summary.unit, true), lifetime(life.b10, summary.unit)));
+    if (std::isinf(life.inspect_within)) {
+      all.push_back(
+          fmt::format("no inspection is due: the risk of ever reaching the limit is below {}",
+                      given(100 * summary.risk, "%")));
+      return;
+    }
     all.push_back(fmt::format(
         "inspect {} within {}{}: {} risk of reaching the limit before",
         summary.now > 0 ? "again" : "a new one", lifetime(life.inspect_within, summary.unit),
@@ -104,12 +110,16 @@ class Clauses {
   void headline(const QuantitySummary& each) {
     const QuantityQuantiles& q = each.best();
     const std::string of =
-        each.of == "specimen" ? "" : " of " + item_text(each.of, q.bound.has_value());
+        each.of == "specimen" ? "" : " of " + item_text(each.of, each.is_bounded());
     const std::string name = numbers(each.name), at = numbers(behind(each.at));
     const std::string what = fmt::format("the {}{}{}", name, of, at);
-    if (q.bound) {
-      all.push_back(fmt::format("{}{} is at least {} ({} confidence)", what,
-                                at.find(", ") != at.npos ? "," : "", value(each, *q.bound),
+    if (each.is_bounded()) {
+      const std::string bounds = q.bound && q.upper_bound
+                                     ? value(each, *q.bound) + " to " + value(each, *q.upper_bound)
+                                 : q.bound ? "at least " + value(each, *q.bound)
+                                           : "at most " + value(each, *q.upper_bound);
+      all.push_back(fmt::format("{}{} is {} ({} confidence)", what,
+                                at.find(", ") != at.npos ? "," : "", bounds,
                                 given(100 * *each.credible_level, "%")));
     } else if (each.is_life && std::isinf(q.q50)) {
       all.push_back(fmt::format(

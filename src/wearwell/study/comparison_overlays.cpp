@@ -141,7 +141,7 @@ std::vector<Row> rows_of(const Comparison& comparison) {
   std::vector<Row> rows;
   for (std::size_t s = 0; s < comparison.studies.size(); ++s) {
     for (const QuantitySummary& each : comparison.studies[s].result.quantities) {
-      if (!each.is_life && !each.best().bound) continue;
+      if (!each.is_life && !each.is_bounded()) continue;
       const std::string name =
           fmt::format("{} of {}{}{}", each.name, each.of, each.at.empty() ? "" : " ", each.at);
       auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
@@ -172,6 +172,12 @@ present::Table life_table(const Comparison& comparison) {
       "lives",
       "Lives and design values of each study",
       {{"Quantity"}, {"Unit"}, {"Study"}, {"B10, or next one"}, {"At least"}, {"50 %"}}};
+  const bool upper =
+      std::any_of(comparison.studies.begin(), comparison.studies.end(), [](const auto& study) {
+        return std::any_of(study.result.quantities.begin(), study.result.quantities.end(),
+                           [](const auto& each) { return each.best().upper_bound.has_value(); });
+      });
+  if (upper) table.columns.push_back({"At most"});
   for (const Row& row : rows_of(comparison)) {
     for (const auto& [study, quantity] : row.of) {
       const QuantityQuantiles& q = quantity->best();
@@ -179,6 +185,7 @@ present::Table life_table(const Comparison& comparison) {
       if (q.bound) bound = *q.bound;
       table.rows.push_back({row.quantity, row.unit, comparison.studies[study].name,
                             quantity->is_life ? q.b10 : q.predictive.value_or(NAN), bound, q.q50});
+      if (upper) table.rows.back().push_back(q.upper_bound ? Cell(*q.upper_bound) : Cell());
     }
   }
   return table;

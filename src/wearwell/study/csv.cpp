@@ -24,8 +24,11 @@ void add_predictions(std::string& out, std::size_t rows,
 
 // For studies that predict lives and derived quantities: the requested quantities, then each test.
 std::string lives_csv(const PosteriorSummary& result) {
-  std::string out =
-      "rows,quantity,of,at,unit,q05,q50,q95,bound,predictive,b1,b10,measured,outcome\n";
+  // The last column is there with upper bounds only, so that files without them stay as they were.
+  const bool upper = std::any_of(result.quantities.begin(), result.quantities.end(),
+                                 [](const auto& q) { return q.best().upper_bound.has_value(); });
+  std::string out = "rows,quantity,of,at,unit,q05,q50,q95,bound,predictive,b1,b10,measured,outcome";
+  out += upper ? ",upper_bound\n" : "\n";
   auto end = std::back_inserter(out);
   const auto cell = [](const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; };
   for (const QuantitySummary& q : result.quantities) {
@@ -35,17 +38,17 @@ std::string lives_csv(const PosteriorSummary& result) {
       b1 = b.b1;
       b10 = b.b10;
     }
-    fmt::format_to(end, "{},{},{},{},{},{},{},{},{},{},{},{},,\n", result.data_rows,
+    fmt::format_to(end, "{},{},{},{},{},{},{},{},{},{},{},{},,{}\n", result.data_rows,
                    printable_csv_cell(q.name), printable_csv_cell(q.of), printable_csv_cell(q.at),
                    printable_csv_cell(q.unit), b.q05, b.q50, b.q95, cell(b.bound),
-                   cell(b.predictive), cell(b1), cell(b10));
+                   cell(b.predictive), cell(b1), cell(b10), upper ? "," + cell(b.upper_bound) : "");
   }
   if (!result.coverage) return out;
   for (const CoverageRow& row : result.coverage->rows) {
     const std::string of = row.label.empty() ? "test" : "test of type " + row.label;
-    fmt::format_to(end, "{},life,{},row {},{},{},,{},,,,{},{},{}\n", result.data_rows,
+    fmt::format_to(end, "{},life,{},row {},{},{},,{},,,,{},{},{}{}\n", result.data_rows,
                    printable_csv_cell(of), row.row, printable_csv_cell(result.coverage->unit),
-                   row.q05, row.q95, row.b10, row.life, row.outcome);
+                   row.q05, row.q95, row.b10, row.life, row.outcome, upper ? "," : "");
   }
   return out;
 }

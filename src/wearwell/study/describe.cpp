@@ -115,7 +115,10 @@ std::string study_description(const PosteriorStudy& study) {
         item_text(q.of, q.credible_level.has_value()),
         q.at.empty() ? "" : " " + numbers_text(q.at, Script::terminal),
         q.credible_level && !q.name.ends_with("remaining useful life")
-            ? fmt::format("; lower bound with {:.4g} % credibility, and the value of the next item",
+            ? fmt::format("; {} with {:.4g} % credibility, and the value of the next item",
+                          q.sides == BoundSides::lower   ? "lower bound"
+                          : q.sides == BoundSides::upper ? "upper bound"
+                                                         : "interval",
                           100 * *q.credible_level)
             : "");
   }

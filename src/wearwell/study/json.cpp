@@ -61,6 +61,7 @@ Json to_json(const QuantityQuantiles& q, bool is_life) {
   if (is_life) json.update({{"b1", q.b1}, {"b10", q.b10}, {"b50", q.b50}});
   if (q.predictive) json["predictive"] = *q.predictive;
   if (q.bound) json["bound"] = *q.bound;
+  if (q.upper_bound) json["upper_bound"] = *q.upper_bound;
   if (q.mean) json["mean"] = *q.mean;
   if (q.numerical_error) json["numerical_error"] = *q.numerical_error;
   return json;
@@ -71,6 +72,8 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
   for (const QuantitySummary& q : quantities) {
     Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
     if (q.credible_level) each["credible_level"] = *q.credible_level;
+    if (q.credible_level && q.sides != BoundSides::lower)
+      each["sides"] = q.sides == BoundSides::both ? "both" : "upper";
     if (q.safe_end) each["safe_end"] = *q.safe_end;
     add_best(
         q.drawn, q.exact,

@@ -9,6 +9,38 @@
 
 namespace wearwell {
 
+// "one" and "two" are words of predict.classical.
+std::optional<BoundSides> sides_named(const std::string& text) {
+  if (text == "lower" || text == "one") return BoundSides::lower;
+  if (text == "upper") return BoundSides::upper;
+  if (text == "both" || text == "two") return BoundSides::both;
+  return {};
+}
+
+namespace {
+
+std::optional<BoundSides> read_sides(const TomlReader& predict) {
+  const auto text = predict.text("sides");
+  if (!text) return {};
+  const auto sides = sides_named(*text);
+  if (!sides) predict.fail("sides", sides_refusal);
+  return sides;
+}
+
+std::optional<double> read_level(const TomlReader& predict, const char* key) {
+  const auto level = predict.quantity(key, "1");
+  if (!level) return {};
+  if (!(level->si() > 0 && level->si() < 1))
+    predict.fail(key, "must lie between 0 and 1 (or 0 % and 100 %)");
+  return level->si();
+}
+
+}  // namespace
+
+double LifeLevels::below() const {
+  return sides == BoundSides::both ? 0.5 * (1 - credible_level) : 1 - credible_level;
+}
+
 LifeLevels read_life_levels(const TomlReader& predict) {
   LifeLevels levels;
   for (const Quantity& each : predict.quantities("b_lives", "1")) {
@@ -19,14 +51,28 @@ LifeLevels read_life_levels(const TomlReader& predict) {
     }
     levels.percents.push_back(value);
   }
-  if (const auto level = predict.quantity("credible_level", "1")) {
-    if (!(level->si() > 0 && level->si() < 1)) {
-      predict.fail("credible_level", "must lie between 0 and 1 (or 0 % and 100 %)");
-    }
-    levels.credible_level = level->si();
-    if (levels.percents.empty()) levels.percents = {1, 10};
-  }
+  const auto level = read_level(predict, "level"), credible = read_level(predict, "credible_level");
+  if (level && credible)
+    predict.fail("level", "and credible_level are the same; write one of the two");
+  levels.credible_level = level.value_or(credible.value_or(levels.credible_level));
+  const auto sides = read_sides(predict);
+  if (sides) levels.sides = *sides;
+  if ((level || credible || sides) && levels.percents.empty()) levels.percents = {1, 10};
   return levels;
+}
+
+StudyKeys level_keys(const std::string& of) {
+  return {
+      {"predict.level", "0.9", "confidence (credible level) of the bounds of " + of},
+      {"predict.credible_level", "0.9", "the same"},
+      {"predict.sides", "\"both\"",
+       "which bounds at this level: \"lower\" (the default), \"upper\", or \"both\" ends of the "
+       "interval"}};
+}
+
+void ask_bounds(const LifeLevels& levels, QuantityRequest& request) {
+  request.credible_level = levels.credible_level;
+  request.sides = levels.sides;
 }
 
 std::string b_life_name(double percent, const std::string& life) {
@@ -44,7 +90,7 @@ QuantityRequest b_life_request(double percent, const LifeLevels& levels,
                           {},
                           {},
                           {}};
-  request.credible_level = levels.credible_level;
+  ask_bounds(levels, request);
   request.safe_end = 0.05;
   return request;
 }

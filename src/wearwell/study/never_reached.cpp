@@ -20,7 +20,8 @@ std::string never_reached(const std::vector<QuantitySummary>& quantities) {
   const auto never = [](const QuantitySummary& each) {
     const QuantityQuantiles& q = each.best();
     const bool any = std::isinf(q.q05) || std::isinf(q.q50) || std::isinf(q.q95) ||
-                     std::isinf(q.predictive.value_or(0)) || std::isinf(q.bound.value_or(0));
+                     std::isinf(q.predictive.value_or(0)) || std::isinf(q.bound.value_or(0)) ||
+                     std::isinf(q.upper_bound.value_or(0));
     return is_b_life(each) && any;
   };
   if (std::none_of(quantities.begin(), quantities.end(), never)) return "";

@@ -25,6 +25,8 @@ void estimate_numerical_errors(std::vector<QuantityQuantiles>& answers,
       error = std::max({differ(q.q05, c.q05), differ(q.q50, c.q50), differ(q.q95, c.q95),
                         differ(q.b1, c.b1), differ(q.b10, c.b10), differ(q.b50, c.b50)});
       if (q.bound && c.bound) error = std::max(error, differ(*q.bound, *c.bound));
+      if (q.upper_bound && c.upper_bound)
+        error = std::max(error, differ(*q.upper_bound, *c.upper_bound));
     }
     if (q.predictive && c.predictive) error = std::max(error, differ(*q.predictive, *c.predictive));
     q.numerical_error = error;

@@ -36,7 +36,12 @@ std::string given_with_unit(double x, const std::string& unit_text) {
 }
 
 std::string life_text(double x, const std::string& unit_text, int digits = 3) {
-  return description(x, life_format(unit_text, digits));
+  return std::isinf(x) ? "never" : description(x, life_format(unit_text, digits));
+}
+
+html::Tile life_tile(const std::string& name, double life, const std::string& unit_text,
+                     const std::string& note) {
+  return {name, life_text(life, unit_text), std::isinf(life) ? "" : unit(unit_text), note};
 }
 
 // The answers, one line each.
@@ -58,32 +63,42 @@ void add_figures(Section& section, const Plots& plots) {
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
   const Life& life = summary.best();
-  tiles.push_back({"Life B10", life_text(life.b10, summary.unit), unit(summary.unit),
-                   fmt::format("one in ten reaches {} earlier",
-                               given_with_unit(summary.limit, summary.limit_unit))});
+  const std::string limit = given_with_unit(summary.limit, summary.limit_unit);
+  tiles.push_back(life_tile("Life B10", life.b10, summary.unit,
+                            std::isinf(life.b10)
+                                ? "fewer than one in ten ever reach " + limit
+                                : fmt::format("one in ten reaches {} earlier", limit)));
   if (summary.passed_beyond_risk()) {
     tiles.push_back({"Limit already passed", fmt::format("{:.2g}", 100 * life.passed), "%",
                      fmt::format("probability after {}; tolerated risk: {} %", given(summary.now),
                                  given(100 * summary.risk))});
   }
-  tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
-                   life_text(life.inspect_within, summary.unit), unit(summary.unit),
-                   fmt::format("{}; {} % risk of reaching the limit before",
-                               summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
-                                                             given(summary.now))
-                                               : "of a new one",
-                               given(100 * summary.risk))});
+  tiles.push_back(life_tile(
+      summary.now > 0 ? "Inspect again within" : "Inspect within", life.inspect_within,
+      summary.unit,
+      fmt::format("{}; {} % risk of reaching the limit before",
+                  summary.now > 0
+                      ? fmt::format("after {}, unless the limit is passed", given(summary.now))
+                      : "of a new one",
+                  given(100 * summary.risk))));
 }
 
 html::Tile headline_tile(const QuantitySummary& each) {
   const QuantityQuantiles& q = each.best();
   const std::string where =
       numbers_text(each.of + (each.at.empty() ? "" : " ") + each.at, Script::page);
-  if (q.bound) {
-    return {html::capital(each.name) + ", at least", number(*q.bound, 3), unit(each.unit),
-            fmt::format("{}, with {} % confidence", where, given(100 * *each.credible_level))};
+  if (each.is_bounded()) {
+    const std::string confidence =
+        fmt::format("{}, with {} % confidence", where, given(100 * *each.credible_level));
+    const bool both = q.bound && q.upper_bound;
+    return {
+        html::capital(each.name) + (both      ? ""
+                                    : q.bound ? ", at least"
+                                              : ", at most"),
+        both ? range(*q.bound, *q.upper_bound, 3) : number(q.bound ? *q.bound : *q.upper_bound, 3),
+        unit(each.unit), confidence};
   }
-  if (each.is_life) return {"Life B10", life_text(q.b10, each.unit), unit(each.unit), where};
+  if (each.is_life) return life_tile("Life B10", q.b10, each.unit, where);
   return {html::capital(each.name) + ", to design with",
           number(each.safe_end.value_or(0.05) < 0.5 ? q.q05 : q.q95, 3), unit(each.unit), where};
 }

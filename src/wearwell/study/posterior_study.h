@@ -76,6 +76,8 @@ struct QuantityRequest {
   std::optional<double> safe_end = {};
   bool headline = false;   ///< one of the main answers of the study
   bool with_mean = false;  ///< the posterior mean is reported, too
+  BoundSides sides =
+      BoundSides::lower;  ///< which bounds; of both, credible_level is that of the interval
 };
 
 /// The predictive distribution of a life, SI, from where it counts on, given that the unit has survived until there.

@@ -69,6 +69,15 @@ struct PredictionSummary {
   }
 };
 
+/// The bounds of a quantity that are reported at a level: one bound, or both ends of the central interval.
+enum class BoundSides { lower, upper, both };
+inline bool has_lower(BoundSides sides) {
+  return sides != BoundSides::upper;
+}
+inline bool has_upper(BoundSides sides) {
+  return sides != BoundSides::lower;
+}
+
 /// A quantity derived from the parameters: a pressure, a length, a life.
 struct QuantityQuantiles {
   double q05 = 0, q50 = 0, q95 = 0;
@@ -76,6 +85,8 @@ struct QuantityQuantiles {
   /// For a property of the population, such as the life by which 10 % have failed: the predictive
   /// value for the next item, and the bound exceeded with a chosen probability.
   std::optional<double> predictive = {}, bound = {};
+  /// The bound that lies above the value with a chosen probability.
+  std::optional<double> upper_bound = {};
   /// Estimated largest relative change of these numbers if they were summed over the whole
   /// posterior (study/numerical_error.h). Empty if they are.
   std::optional<double> numerical_error = {};
@@ -90,10 +101,12 @@ struct QuantitySummary {
   bool is_life = false;
   QuantityQuantiles drawn;
   std::optional<QuantityQuantiles> exact;
-  std::optional<double> credible_level = {};  ///< of the bound
+  std::optional<double> credible_level = {};  ///< of the bounds
   std::optional<double> safe_end = {};        ///< 0.05 or 0.95: the quantile to design with
   bool headline = false;                      ///< one of the main answers of the study
+  BoundSides sides = BoundSides::lower;       ///< of both, credible_level is that of the interval
 
+  bool is_bounded() const { return best().bound || best().upper_bound; }
   const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
 };
 

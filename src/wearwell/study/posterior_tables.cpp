@@ -1,5 +1,6 @@
 #include "wearwell/study/posterior_tables.h"
 
+#include "wearwell/study/bound_words.h"
 #include "wearwell/study/never_reached.h"
 
 #include <fmt/format.h>
@@ -157,7 +158,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
                {"B10"}}};
   // If there are lower bounds, they are the design values.
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
-                                  [](const auto& each) { return each.best().bound.has_value(); });
+                                  [](const auto& each) { return each.is_bounded(); });
   const bool means = std::any_of(quantities.begin(), quantities.end(),
                                  [](const auto& each) { return each.best().mean.has_value(); });
   if (means) table.columns.push_back({"Mean"});
@@ -183,22 +184,19 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     if (table.columns.empty()) {
-      table.columns = {
-          {"Quantity"},
-          {"Unit"},
-          {"Of"},
-          {"Where"},
-          {fmt::format("At least, {} % confidence", html::given(100 * *each.credible_level))},
-          {"5 %"},
-          {"50 %"},
-          {"95 %"},
-          {"Next one"}};
+      table.columns = {{"Quantity"}, {"Unit"}, {"Of"}, {"Where"}};
+      for (const std::string& name : bound_columns(*each.credible_level, each.sides))
+        table.columns.push_back({name});
+      for (const char* name : {"5 %", "50 %", "95 %", "Next one"}) table.columns.push_back({name});
     }
     const auto value = [&](double x) -> Cell {
       return std::isinf(x) && x > 0 && is_b_life(each) ? Cell("never") : Cell(x);
     };
-    table.rows.push_back({each.name, each.unit, each.of, each.at, value(*q.bound), value(q.q05),
-                          value(q.q50), value(q.q95), value(*q.predictive)});
+    table.rows.push_back({each.name, each.unit, each.of, each.at});
+    std::vector<Cell>& row = table.rows.back();
+    for (const std::optional<double>& bound : {q.bound, q.upper_bound})
+      if (bound) row.push_back(value(*bound));
+    for (const double x : {q.q05, q.q50, q.q95, *q.predictive}) row.push_back(value(x));
   }
   add_numerical_errors(table, quantities, true);
   return table;

@@ -135,6 +135,7 @@ QuantityQuantiles read_quantiles(const JsonReader& json) {
   if (json.find("b10")) q.b10 = number(json, "b10", never);
   if (json.find("predictive")) q.predictive = number(json, "predictive", never);
   if (json.find("bound")) q.bound = number(json, "bound", never);
+  if (json.find("upper_bound")) q.upper_bound = number(json, "upper_bound", never);
   if (json.find("numerical_error")) q.numerical_error = number(json, "numerical_error");
   return q;
 }
@@ -150,6 +151,8 @@ std::vector<QuantitySummary> read_quantities(const JsonReader& json) {
                       read_quantiles(by_quadrature(each) ? each.at("draws") : each),
                       {}};
     if (by_quadrature(each)) q.exact = read_quantiles(each);
+    if (const auto sides = each.find("sides"))
+      q.sides = sides->text() == "both" ? BoundSides::both : BoundSides::upper;
     quantities.push_back(std::move(q));
   }
   return quantities;

@@ -113,7 +113,8 @@ Check sense_check(const PosteriorSummary& result) {
     sense.interval(fmt::format("{} of {}{}{}", each.name, item_text(each.of),
                                each.at.empty() ? "" : " ", each.at),
                    each.unit, q.q05, q.q95,
-                   {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},
+                   {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0),
+                    q.upper_bound.value_or(0)},
                    false);
   }
   if (result.life) {

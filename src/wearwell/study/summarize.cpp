@@ -62,7 +62,7 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
   for (double* each : {&q.q05, &q.q50, &q.q95, &q.b1, &q.b10, &q.b50}) {
     *each = from_si(unit, *each);
   }
-  for (std::optional<double>* each : {&q.predictive, &q.bound, &q.mean}) {
+  for (std::optional<double>* each : {&q.predictive, &q.bound, &q.upper_bound, &q.mean}) {
     if (*each) *each = from_si(unit, **each);
   }
   return q;
@@ -96,9 +96,17 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
 }
 
 QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
-  return {request.name,     request.of,      request.at, request.unit.text,
-          request.is_life,  drawn,           {},         request.credible_level,
-          request.safe_end, request.headline};
+  return {request.name,
+          request.of,
+          request.at,
+          request.unit.text,
+          request.is_life,
+          drawn,
+          {},
+          request.credible_level,
+          request.safe_end,
+          request.headline,
+          request.sides};
 }
 
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {

@@ -14,6 +14,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/answers.h"
+#include "wearwell/study/bound_words.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/never_reached.h"
@@ -151,7 +152,7 @@ std::string error_line(const std::vector<QuantitySummary>& quantities, bool boun
 // lower bounds, they are the design values.
 std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
-                                  [](const auto& each) { return each.best().bound.has_value(); });
+                                  [](const auto& each) { return each.is_bounded(); });
   std::vector<std::vector<std::string>> rows = {{"", "5 %", "50 %", "95 %"}};
   if (!bounds) rows[0].push_back("design with");
   rows[0].insert(rows[0].end(), {"B1", "B10"});
@@ -189,18 +190,22 @@ std::string share_life(const QuantitySummary& each, double x, int digits) {
   return std::isinf(x) && x > 0 && is_b_life(each) ? "never" : plain_number(x, digits);
 }
 
-// Properties of the population: the value for the next item and the lower bound.
+// Properties of the population: the value for the next item and the bounds.
 std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
   std::string above, level;
+  BoundSides sides = BoundSides::lower;
   bool seen = false;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     level = fmt::format("{:.4g} %", 100 * *each.credible_level);
+    sides = each.sides;
     seen |= each.name.ends_with("remaining useful life");
     if (rows.empty()) {
-      rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
+      rows.push_back({""});
+      for (const std::string& name : bound_headings(level, sides)) rows.back().push_back(name);
+      for (const char* name : {"5 %", "50 %", "95 %", "next one"}) rows.back().push_back(name);
     }
     const bool alone = each.at.starts_with("for ");  // a question of its own
     const std::string heading =
@@ -210,19 +215,16 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
     above = heading;
     const int digits = digits_of(q);
     rows.push_back({"  " + (alone ? printable(shown(each.at))
-                                  : printable_heading(shown(each.name), each.unit)),
-                    share_life(each, *q.bound, digits), share_life(each, q.q05, digits),
-                    share_life(each, q.q50, digits), share_life(each, q.q95, digits),
-                    share_life(each, *q.predictive, digits)});
+                                  : printable_heading(shown(each.name), each.unit))});
+    for (const std::optional<double>& bound : {q.bound, q.upper_bound})
+      if (bound) rows.back().push_back(share_life(each, *bound, digits));
+    for (const double x : {q.q05, q.q50, q.q95, *q.predictive})
+      rows.back().push_back(share_life(each, x, digits));
   }
   if (rows.empty()) return "";
   const std::string never = never_reached(quantities);
   return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
-         (never.empty() ? "" : wrapped(never, 2, 4)) +
-         wrapped(fmt::format("at least: the lower bound to design with. With {} confidence "
-                             "(Bayesian: credible) the true value of the population lies above it.",
-                             level),
-                 2, 4) +
+         (never.empty() ? "" : wrapped(never, 2, 4)) + wrapped(bound_sentence(level, sides), 2, 4) +
          wrapped(
              "next one: the value for the next item, averaged over the posterior (predictive). It "
              "has no margin for few tests: do not design with it.",

@@ -245,7 +245,7 @@ TEST_F(ClassicalEstimatesTest, SidesAndLevelsAgree) {
   EXPECT_NEAR(one.at("likelihood_ratio").at("lower").get<double>(),
               two.at("likelihood_ratio").at("lower").get<double>(), 1e-9);
   const std::string columns = "life = { column = \"life\", unit = \"h\" }\n";
-  EXPECT_THAT(refusal(study(columns, weibull, vague, "sides = \"both\"\n")),
+  EXPECT_THAT(refusal(study(columns, weibull, vague, "sides = \"each\"\n")),
               HasSubstr("predict.sides"));
   EXPECT_THAT(refusal(study(columns, weibull, vague, "credible_level = 0.4\n")),
               HasSubstr("must exceed 50 %"));

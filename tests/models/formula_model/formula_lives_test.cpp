@@ -256,6 +256,66 @@ y_path = "a + b*t"
 }
 
 // B-lives over batches that differ are read off few points of the posterior, which weigh each its own: against all draws.
+// Mean lives of lasers whose rates are lognormal, of straight paths and of a Wiener process, whose mean first passage is that of its
+// mean path: 10 %/rate exp(scatter^2/2).
+TEST_F(FormulaLivesOfStudies, MeansToAThresholdHaveTheClosedForm) {
+  const auto mean_life = [&](const std::string& likelihood, const std::string& prior,
+                             double scatter, const std::string& limited) {
+    std::ifstream rows(folder_of_lasers + "laser.csv");
+    write("laser.csv", std::string(std::istreambuf_iterator<char>(rows), {}));
+    const PosteriorStudy study = read_posterior_study(write(
+        "s.toml",
+        "model = \"formula\"\n[data]\nfile = \"laser.csv\"\n[data.columns]\nincrease = { column = "
+        "\"increase_percent\", unit = \"%\" }\ntime = { column = \"hours\", unit = \"h\" }\nlaser "
+        "= "
+        "\"laser\"\n[likelihood.increase]\n" +
+            likelihood +
+            "[prior]\nrate = { distribution = \"lognormal\", median = \"0.002 %/h\", log_sd = 1 }\n"
+            "scatter = { distribution = \"half-normal\", scale = 0.5 }\n" +
+            prior +
+            "[random_effects.laser]\nrate = { distribution = \"lognormal\", log_sd = \"scatter\" "
+            "}\n"
+            "[formula]\npath = \"rate * time\"\n[predict]\nalong = \"time\"\nlimit = { " +
+            limited +
+            " = \"10 %\" }\nlives_of = []\n"
+            "mean_life = true\n"));
+    WeightedDraws one;
+    one.values = Points::Zero(1, 3);
+    one.weights = Eigen::VectorXd::Ones(1);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string& name = study.parameters[i].name;
+      one.values(0, static_cast<Eigen::Index>(i)) = name == "rate"      ? 2e-5 / 3600
+                                                    : name == "scatter" ? scatter
+                                                                        : 1e-3;
+    }
+    const QuantityGroup& group = study.quantity_groups.front();
+    const auto found = group.from_draws(one);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (group.requests[i].name != "mean life") continue;
+      EXPECT_NEAR(*found[i].predictive / found[i].q50, 1, 1e-9);
+      EXPECT_LE(*found[i].bound, found[i].q50 * (1 + 1e-9));
+      return found[i].q50 / 3600;
+    }
+    ADD_FAILURE() << "no mean life";
+    return 0.0;
+  };
+  for (const double scatter : {0.2, 0.6}) {
+    const double mean = 0.1 / 2e-5 * std::exp(0.5 * scatter * scatter);
+    EXPECT_NEAR(mean_life("family = \"normal\"\nmean = \"path\"\nsd = \"sigma\"\n",
+                          "sigma = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter,
+                          "path") /
+                    mean,
+                1, 2e-4)
+        << scatter;
+    EXPECT_NEAR(mean_life("family = \"wiener-process\"\nmean = \"path\"\nscale = \"u\"\n",
+                          "u = { distribution = \"half-normal\", scale = \"1 %\" }\n", scatter,
+                          "increase") /
+                    mean,
+                1, 2e-3)
+        << scatter;
+  }
+}
+
 TEST_F(FormulaLivesOfStudies, BLivesCountPointsByTheirWeight) {
   write("d.csv", "life,batch\n900,A\n1100,A\n1000,B\n1300,B\n");
   const PosteriorStudy study = wearwell::read_posterior_study(write("study.toml", R"(

@@ -8,6 +8,7 @@
 
 #include "support/posterior_study.h"
 #include "support/scratch.h"
+#include "wearwell/base/error.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/study/inference_data.h"
@@ -116,6 +117,50 @@ TEST_F(LifeAnswers, MeanLivesAreThoseOfClosedForms) {
   EXPECT_NEAR(*named("mean life").predictive / mean, 1, 1e-4);
   EXPECT_NEAR(*named("mean remaining useful life").predictive / (remaining / left), 1, 1e-3);
   EXPECT_LT(*named("mean life").bound, named("mean life").q50);
+}
+
+// One pair of keys for all bounds: the ends of the 90 % interval are one-sided bounds at 95 %.
+TEST_F(LifeAnswers, LevelAndSidesGovernEveryBound) {
+  write("lives.csv",
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,runout\n");
+  const std::string asked = lives + std::string("mean_life = true\nb_lives = [10]\n");
+  WeightedDraws draws;
+  draws.values = Points(61, 2);
+  draws.weights = Eigen::VectorXd::Constant(61, 1.0 / 61);
+  for (Eigen::Index i = 0; i < 61; ++i)
+    draws.values.row(i) << 3600 * (700 + 5.0 * static_cast<double>(i)),
+        1.5 + 0.02 * static_cast<double>(i * 7 % 61);
+  const auto bounds = [&](const std::string& keys) {
+    const PosteriorStudy study = wearwell::read_posterior_study(write("study.toml", asked + keys));
+    return study.quantity_groups.front().from_draws(draws);
+  };
+  const auto lower = bounds("credible_level = 0.95\n"),
+             both = bounds("level = \"90 %\"\nsides = \"both\"\n"),
+             upper = bounds("level = 0.95\nsides = \"upper\"\n");
+  int bounded = 0;
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const QuantityQuantiles &one = lower[i], &two = both[i], &other = upper[i];
+    if (!one.bound) continue;
+    ++bounded;
+    EXPECT_NEAR(*one.bound / one.q05, 1, 1e-12) << i;
+    EXPECT_FALSE(one.upper_bound);
+    EXPECT_NEAR(*two.bound / two.q05, 1, 1e-12);
+    EXPECT_NEAR(*two.upper_bound / two.q95, 1, 1e-12);
+    EXPECT_NEAR(*other.upper_bound / other.q95, 1, 1e-12);
+    EXPECT_FALSE(other.bound);
+  }
+  EXPECT_EQ(bounded, 4);  // B10, the mean life, two of survival
+  const auto refused = [&](const std::string& keys) {
+    try {
+      bounds(keys);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refused("level = 0.9\ncredible_level = 0.9\n").find("are the same"), std::string::npos);
+  EXPECT_NE(refused("level = 90\n").find("predict.level"), std::string::npos);
+  EXPECT_NE(refused("sides = \"left\"\n").find("\"lower\""), std::string::npos);
 }
 
 // Two groups of one shape: P(A outlives B) = u/(1 + u), u = (eta_A/eta_B)^beta; B-lives have the ratio of the scales.

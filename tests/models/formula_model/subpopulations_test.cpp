@@ -214,6 +214,25 @@ TEST_F(SubpopulationsTest, TheModeUnderFlatPriorsIsTheMaximumLikelihoodEstimate)
   EXPECT_NEAR(found.value, fitted("mixture", "log_likelihood"), 2e-6);
 }
 
+// Two uniform shares leave a rest with probability 1/2, three with 1/6; orders multiply by 3! and 4!.
+TEST_F(SubpopulationsTest, SharesOfThreeAndMoreAreNormalized) {
+  const auto density_of = [&](const std::string& names, const std::string& shares,
+                              const std::vector<std::string>& parameters) {
+    std::string text = controllers;
+    text.replace(text.find("[\"early\", \"late\"]"), 17, names);
+    text.replace(text.find("early = \"w\""), 11, shares);
+    text += flat_priors("eta beta");
+    for (const std::string& each : parameters)
+      text += each + " = { distribution = \"uniform\", lower = 0, upper = 1 }\n";
+    return log_orders(*model(file_text("examples/life/controllers.csv"), text));
+  };
+  EXPECT_NEAR(density_of("[\"x\", \"y\", \"z\"]", "x = \"w\", z = \"v\"", {"w", "v"}),
+              std::log(6.0) + std::log(2.0), 1e-4);
+  EXPECT_NEAR(density_of("[\"x\", \"y\", \"z\", \"u\"]", "x = \"w\", z = \"v\", u = \"q\"",
+                         {"w", "v", "q"}),
+              std::log(24.0) + std::log(6.0), 1e-4);
+}
+
 // With exchanged names the rows have the same likelihood; the order of the medians tells them apart, and both orders add up to 1.
 TEST_F(SubpopulationsTest, TheOrderIsAPartitionOfTheExchangeablePosterior) {
   const auto own =

@@ -1,5 +1,6 @@
 #include "wearwell/models/bearing/bearing_keys.h"
 
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_keys.h"
 
 namespace wearwell::bearing {
@@ -69,7 +70,6 @@ StudyKeys study_keys() {
         "risk of reaching the threshold; adds the inspection time of a new bearing"},
        {"predict.b_lives", "[1, 10]",
         "percentages failed; adds the lives at which 1 and 10 % have reached the threshold"},
-       {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives"},
        {"predict.required_revolutions", "\"1 Mrev\"",
         "adds the pressure at which the threshold is reached after this use"},
        {"predict.required_time", "\"200 h\"", "the same, at a speed"},
@@ -82,6 +82,7 @@ StudyKeys study_keys() {
        {"predict.clearance", "\"30 um\"", "radial clearance"},
        {"predict.pressure", "\"1.5 MPa\"", "pressure on the projected area"},
        {"predict.speed", "\"60 rpm\"", "speed, for lives in hours"}});
+  add_keys(keys, level_keys("B-lives"));
   return keys;
 }
 

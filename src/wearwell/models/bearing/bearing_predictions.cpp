@@ -67,7 +67,7 @@ class Predictions {
         predict_.fail("life_of", "needs predict.limit: the failure threshold of the depth");
       life_of_seen(*name, *limit);
     }
-    for (const char* key : {"b_lives", "credible_level"}) {
+    for (const char* key : {"b_lives", "level", "credible_level", "sides"}) {
       if (!predict_.has(key) || study_.life) continue;
       predict_.fail(
           key,

@@ -113,7 +113,7 @@ class Drawing {
                  at(0.05),
                  at(0.5),
                  at(0.95),
-                 shown(cycles(law_, tenth.quantile(1 - predictions_.credible_level)))};
+                 shown(cycles(law_, tenth.quantile(predictions_.levels.below())))};
     });
     Numbers y, pi05, pi95, ci05, ci50, ci95, bound;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -125,7 +125,7 @@ class Drawing {
       ci95.push_back(rows[i].ci95);
       bound.push_back(rows[i].bound);
     }
-    const std::string confidence = fmt::format("{:.4g} %", 100 * predictions_.credible_level);
+    const std::string confidence = fmt::format("{:.4g} %", 100 * (1 - predictions_.levels.below()));
     std::vector<plot::Json> marks = {
         plot::area({{"x", pi95}, {"x2", pi05}, {"y", y}}, {colour::wide, "90 % of lives", 0.28}),
         plot::area({{"x", ci95}, {"x2", ci05}, {"y", y}},

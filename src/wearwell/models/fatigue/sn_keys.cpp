@@ -1,5 +1,6 @@
 #include "wearwell/models/fatigue/sn_keys.h"
 
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_keys.h"
 
 namespace wearwell::fatigue {
@@ -166,7 +167,6 @@ StudyKeys study_keys() {
   add_keys(keys,
            {{"predict.b_lives", "[1, 10]",
              "percentages failed; adds the lives at which 1 and 10 % have failed"},
-            {"predict.credible_level", "0.9", "confidence of lower bounds"},
             {"predict.survival_to", "\"5e5 cycles\"", "adds the share that outlasts this life"},
             needed_key("predict.required_life", "\"1e6 cycles\"",
                        "adds the allowable alternating stress for this life,", {},
@@ -176,6 +176,7 @@ StudyKeys study_keys() {
             {"predict.stress_ratio", "0.1", "stress ratio of that stress"},
             {"predict.mean_stress", "\"300 MPa\"",
              "mean stress of that stress, instead of stress_ratio"}});
+  add_keys(keys, level_keys("B-lives, survival and allowable stresses"));
   return keys;
 }
 

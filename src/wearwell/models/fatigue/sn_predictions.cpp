@@ -160,14 +160,16 @@ std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& d
       {of_next(0.05), of_next(0.5), of_next(0.95), of_next(0.01), of_next(0.1), of_next(0.5)}};
   for (const double percent_failed : predictions.percents) {
     const QuantityDistribution at = lives.quantile(percent_failed / 100);
-    const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
-    all.push_back({quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0,
-                   of_next(percent_failed / 100), quantile(1 - predictions.credible_level)});
+    struct Cycles {
+      const SnLaw& law;
+      const QuantityDistribution& of;
+      double quantile(double p) const { return cycles(law, of.quantile(p)); }
+    };
+    all.push_back(b_life(Cycles{law, at}, of_next(percent_failed / 100), predictions.levels));
   }
   for (const Quantity& to : predictions.survival_to) {
     const QuantityDistribution share = lives.survival(to.si());
-    all.push_back({share.quantile(0.05), share.quantile(0.5), share.quantile(0.95), 0, 0, 0,
-                   1 - next.cdf(to.si()), share.quantile(1 - predictions.credible_level)});
+    all.push_back(b_life(share, 1 - next.cdf(to.si()), predictions.levels));
   }
   return all;
 }
@@ -183,12 +185,11 @@ QuantityDistribution allowed_distribution(const SnLaw& law, const WeightedDraws&
 }
 
 QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws,
-                                    const AllowedStress& allowed, double credible_level) {
+                                    const AllowedStress& allowed, const LifeLevels& levels) {
   const QuantityDistribution stress = allowed_distribution(law, draws, allowed);
-  QuantityQuantiles q{stress.quantile(0.05), stress.quantile(0.5), stress.quantile(0.95), 0, 0, 0};
-  q.predictive = next_allowed(law, draws, allowed.line, allowed.life.si(), allowed.reliability);
-  q.bound = stress.quantile(1 - credible_level);
-  return q;
+  return b_life(stress,
+                next_allowed(law, draws, allowed.line, allowed.life.si(), allowed.reliability),
+                levels);
 }
 
 std::string description(const SnLaw& law, const SnData& data, const StressLine& line) {
@@ -415,9 +416,8 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
       result.points.push_back({name, stress});
     }
   }
-  const LifeLevels levels = read_life_levels(predict);
-  result.credible_level = levels.credible_level;
-  result.percents = predict.has("b_lives") ? levels.percents : std::vector<double>();
+  result.levels = read_life_levels(predict);
+  result.percents = predict.has("b_lives") ? result.levels.percents : std::vector<double>();
   const auto share = [&](const char* key, const Quantity& quantity) {
     if (!(quantity.si() > 0 && quantity.si() < 1)) {
       predict.fail(key, "must lie between 0 and 1 (or 0 % and 100 %)");
@@ -474,7 +474,6 @@ ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, doub
 
 void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                        PosteriorStudy& study) {
-  const double level = predictions.credible_level;
   // Of several percentages the one nearest to 10 %, of several reliabilities the highest.
   const auto nearest = std::min_element(
       predictions.percents.begin(), predictions.percents.end(),
@@ -485,7 +484,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
   const auto request = [&](const std::string& name, const std::string& of, const std::string& at,
                            const Unit& unit) {
     QuantityRequest result{name, of, at, unit, true, false, {}, {}, {}};
-    result.credible_level = level;
+    ask_bounds(predictions.levels, result);
     result.safe_end = 0.05;  // the shorter life, the smaller share and stress
     return result;
   };
@@ -530,7 +529,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     stress.headline = allowed.reliability == most_reliable;
     study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {
                                        return std::vector<QuantityQuantiles>{
-                                           allowed_quantiles(law, draws, allowed, level)};
+                                           allowed_quantiles(law, draws, allowed, predictions.levels)};
                                      }});
   }
 }

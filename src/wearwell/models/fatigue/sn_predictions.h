@@ -7,6 +7,7 @@
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_law.h"
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
@@ -28,7 +29,7 @@ struct AllowedStress {
 struct SnPredictions {
   std::vector<StressPoint> points;
   std::vector<double> percents;  ///< of the B-lives
-  double credible_level = 0.9;   ///< of lower bounds
+  LifeLevels levels;             ///< of the bounds
   std::vector<Quantity> survival_to;
   std::vector<AllowedStress> allowed;
 };

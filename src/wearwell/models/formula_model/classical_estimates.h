@@ -32,6 +32,7 @@ struct ClassicalLevel {
 struct ClassicalLife {
   std::string of, at;
   std::shared_ptr<const LifeDistribution> life;
+  const Measured* measured = nullptr;  ///< whose family has the paper of survival
 };
 
 /// What predict.classical asks for.

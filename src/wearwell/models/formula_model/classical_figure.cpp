@@ -56,6 +56,17 @@ Stairs stairs_of(const ClassicalGroup& group, const Unit& unit, double deviate) 
   return stairs;
 }
 
+// "Kaplan-Meier estimate"; of both, where groups differ in their censoring.
+std::string estimators_of(const ClassicalEstimates& found) {
+  const auto any = [&](SurvivalMethod method) {
+    return std::any_of(found.groups.begin(), found.groups.end(),
+                       [&](const auto& group) { return group.survival.method == method; });
+  };
+  if (!any(SurvivalMethod::turnbull)) return "Kaplan-Meier estimate";
+  return any(SurvivalMethod::kaplan_meier) ? "Kaplan-Meier and Turnbull estimates"
+                                           : "Turnbull estimate";
+}
+
 }  // namespace
 
 html::Figure survival_figure(const AskedOfClassics& asked, const ClassicalEstimates& found,
@@ -96,7 +107,7 @@ html::Figure survival_figure(const AskedOfClassics& asked, const ClassicalEstima
       "Steps: the nonparametric estimate with its pointwise bounds. Dashed: maximum likelihood.";
   if (found.groups.size() > count)
     caption += fmt::format(" The first {} of {} conditions are drawn.", count, found.groups.size());
-  return {"nonparametric-survival", "Survival without a distribution", caption,
+  return {"nonparametric-survival", fmt::format("Survival: {}", estimators_of(found)), caption,
           plot::plot(
               fmt::format("Survival against {}", measured.column),
               {html::capital(measured.column) + (shown.empty() ? "" : fmt::format(" [{}]", shown)),

@@ -63,8 +63,8 @@ MaximumLikelihood::Comparison quantile_comparison(std::shared_ptr<const LifeDist
 
 // The share that survives, on the axis of the family's probability paper: there the bounds of
 // survival and those of life are the same lines for a location-scale family.
-ScaledQuantity survival_quantity(const ClassicalLife& own, const Quantity& life,
-                                 const Measured& measured) {
+ScaledQuantity survival_quantity(const ClassicalLife& own, const Quantity& life) {
+  const Measured& measured = *own.measured;
   const bool several = own.life->is_earliest_of_several();
   const StandardDistribution paper =
       several ? StandardDistribution::smallest_extreme_value : measured.form->paper.distribution;
@@ -144,8 +144,7 @@ std::vector<ScaledQuantity> scaled_quantities(const AskedOfClassics& asked) {
             return life.mean_beyond(draws, from);
           },
           0));
-    for (const Quantity& each : asked.survival)
-      all.push_back(survival_quantity(own, each, measured));
+    for (const Quantity& each : asked.survival) all.push_back(survival_quantity(own, each));
   }
   return all;
 }

@@ -19,13 +19,15 @@ bool is_earliest_of_modes(const FormulaModel& model) {
 
 std::vector<ClassicalLife> classical_lives(const AskedOfModes& asked) {
   const FormulaModel& model = *asked.model;
-  std::vector<ClassicalLife> lives = {{asked.noun, asked.words, asked.part.life}};
+  std::vector<ClassicalLife> lives = {
+      {asked.noun, asked.words, asked.part.life, &model.measured.front()}};
   if (!is_earliest_of_modes(model)) return lives;
   for (std::size_t k = 0; k < model.modes->modes.size(); ++k) {
     lives.push_back({fmt::format("{} with {} alone", asked.noun, model.modes->modes[k]),
                      asked.words,
                      life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
-                                       asked.model, asked.conditions, std::uint32_t{1} << k)});
+                                       asked.model, asked.conditions, std::uint32_t{1} << k),
+                     &model.measured[k]});
   }
   return lives;
 }
@@ -62,15 +64,6 @@ std::vector<LifeGroup> classical_groups(const AskedOfModes& asked,
   return groups;
 }
 
-bool reads_two_sides(const TomlReader& predict) {
-  const std::string sides = predict.text("sides").value_or("one");
-  if (sides != "one" && sides != "two")
-    predict.fail("sides",
-                 "is \"one\" (credible_level is that of each bound) or \"two\" (that of the "
-                 "interval between both)");
-  return sides == "two";
-}
-
 }  // namespace
 
 void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
@@ -87,9 +80,10 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
   if (model.steps)
     asked.predict.fail("classical",
                        "is for lives under constant conditions, not for a step-stress test");
-  const ClassicalLevel level{asked.part.levels.credible_level, reads_two_sides(asked.predict)};
+  const ClassicalLevel level{asked.part.levels.credible_level,
+                             asked.part.levels.sides == BoundSides::both};
   if (!(level.within() > 0))
-    asked.predict.fail("credible_level",
+    asked.predict.fail(asked.predict.has("level") ? "level" : "credible_level",
                        "must exceed 50 % for the one-sided bounds of predict.classical");
   AskedOfClassics classics{asked.model,
                            study.likelihood(model.data.table.rows),

@@ -22,8 +22,7 @@ void fill_normal(double step, double reach, std::vector<double>& z, std::vector<
 
 }  // namespace
 
-NormalNodes::NormalNodes(std::size_t effects, double reach) : weight{1} {
-  const double step = effects > 1 ? 0.75 : 0.5;
+NormalNodes::NormalNodes(std::size_t effects, double reach, double step) : weight{1} {
   const int most = static_cast<int>(reach / step);
   for (std::size_t k = 0; k < effects; ++k) {
     std::vector<double> places, weights;

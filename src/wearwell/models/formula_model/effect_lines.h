@@ -30,7 +30,10 @@ struct EffectLines {
 /// Values of a unit's effects, with weights that sum to 1: a trapezoidal rule over the standard
 /// normal distribution, cut at `reach`, with an error of e^-80 for smooth functions.
 struct NormalNodes {
-  NormalNodes(std::size_t effects, double reach);
+  /// With steps of 0.5 for one effect, 0.75 for two.
+  NormalNodes(std::size_t effects, double reach)
+      : NormalNodes(effects, reach, effects > 1 ? 0.75 : 0.5) {}
+  NormalNodes(std::size_t effects, double reach, double step);
   std::vector<double> z;  ///< nodes x effects
   std::vector<double> weight;
 };

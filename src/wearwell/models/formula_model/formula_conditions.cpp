@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/study/scaffold.h"
@@ -19,11 +20,40 @@ bool is_condition(const FormulaModel& model, const std::string& name) {
   return column != model.symbols.columns.end() && !column->measured && model.along != name;
 }
 
+// Whether this condition is written as a table, which is a distribution.
+bool is_table(const TomlReader& table, const std::string& name) {
+  for (const TomlReader::Present& each : table.present())
+    if (each.is_table && each.path.ends_with("." + name)) return true;
+  return false;
+}
+
+std::shared_ptr<const VariedConditions> varied_or_refused(const TomlReader& table,
+                                                          std::vector<VariedCondition> varied) {
+  if (varied.size() > VariedConditions::most)
+    table.fail(varied[VariedConditions::most].column,
+               fmt::format("is the third condition with a distribution; at most {} differ between "
+                           "units",
+                           VariedConditions::most));
+  const std::string last = varied.back().column;
+  try {
+    return varied_conditions(std::move(varied));
+  } catch (const InputError& error) {
+    table.fail(last, error.what());
+  }
+}
+
 }  // namespace
+
+bool Conditions::has(const std::string& column) const {
+  if (numbers.count(column)) return true;
+  return varied && std::any_of(varied->conditions.begin(), varied->conditions.end(),
+                               [&](const auto& each) { return each.column == column; });
+}
 
 Conditions read_conditions(const TomlReader& table, const FormulaModel& model) {
   Conditions result;
   std::vector<std::string> words, known;
+  std::vector<VariedCondition> varied;
   for (const formula::ColumnSymbol& each : model.symbols.columns) {
     if (is_condition(model, each.name)) known.push_back(each.name);
   }
@@ -58,13 +88,27 @@ Conditions read_conditions(const TomlReader& table, const FormulaModel& model) {
       continue;
     }
     const NumberColumn& column = *model.data.number(name);
+    if (is_table(table, name)) {
+      varied.push_back(read_varied_condition(table, name, formula::si_text(column.unit.powers)));
+      words.push_back(description(varied.back()));
+      continue;
+    }
     const Quantity quantity = table.required_quantity(name, formula::si_text(column.unit.powers));
     result.numbers[name] = quantity.si();
     words.push_back(fmt::format("{} = {:.6g}{}", name, quantity.value,
                                 quantity.unit.text == "1" ? "" : " " + quantity.unit.text));
   }
   result.words = fmt::format("{}", fmt::join(words, ", "));
+  if (!varied.empty()) result.varied = varied_or_refused(table, std::move(varied));
   return result;
+}
+
+void refuse_varied(const Conditions& conditions, const TomlReader& table, const std::string& key,
+                   const std::string& where) {
+  if (!conditions.varied) return;
+  const std::string& column = conditions.varied->conditions.front().column;
+  table.fail(key, fmt::format("{} has a distribution, but {} needs one value; write {} = a number",
+                              column, where, column));
 }
 
 Conditions conditions_of_unit(const FormulaModel& model, std::size_t unit,
@@ -79,7 +123,8 @@ Conditions conditions_of_unit(const FormulaModel& model, std::size_t unit,
   if (!last) return result;
   for (const NumberColumn& each : model.data.numbers) {
     if (!is_condition(model, each.name)) continue;
-    if (!result.numbers.try_emplace(each.name, each.values[*last]).second) continue;
+    if (given.has(each.name)) continue;
+    result.numbers.emplace(each.name, each.values[*last]);
     const bool alike = std::all_of(each.values.begin(), each.values.end(),
                                    [&](double x) { return x == each.values.front(); });
     if (!alike) result.of_last_row.insert(each.name);
@@ -97,7 +142,7 @@ Conditions common_conditions(const FormulaModel& model, const Conditions& given)
   for (const NumberColumn& each : model.data.numbers) {
     const bool same = std::all_of(each.values.begin(), each.values.end(),
                                   [&](double x) { return x == each.values.front(); });
-    if (same && is_condition(model, each.name)) {
+    if (same && is_condition(model, each.name) && !given.has(each.name)) {
       result.numbers.try_emplace(each.name, each.values.front());
     }
   }

@@ -6,6 +6,7 @@
 
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/models/formula_model/formula_model.h"
+#include "wearwell/models/formula_model/varied_conditions.h"
 
 namespace wearwell::formula_model {
 
@@ -16,10 +17,19 @@ struct Conditions {
   std::string words;                      ///< "force = 20 N"
   /// Values that were not given and vary between rows: taken from a unit's last row.
   std::set<std::string> of_last_row = {};
+  /// Those that differ between units; null if there are none.
+  std::shared_ptr<const VariedConditions> varied = {};
+
+  /// Whether this column has a value or a distribution.
+  bool has(const std::string& column) const;
 };
 
 /// Reads predict.given or a similar table. Throws InputError.
 Conditions read_conditions(const TomlReader& table, const FormulaModel& model);
+
+/// Refuses conditions that differ between units, at `key` of `table`: `where` is what needs numbers, "predict.limit".
+void refuse_varied(const Conditions& conditions, const TomlReader& table, const std::string& key,
+                   const std::string& where);
 
 /// Adds the conditions of a unit's last row, unless `given` has them.
 Conditions conditions_of_unit(const FormulaModel& model, std::size_t unit, const Conditions& given);

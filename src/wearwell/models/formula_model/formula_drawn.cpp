@@ -12,6 +12,7 @@
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/formula/no_columns.h"
 #include "wearwell/models/formula_model/fail_at_place.h"
+#include "wearwell/prognosis/plural.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::formula_model {
@@ -101,8 +102,8 @@ void require_few(const TomlReader& root, const FormulaModel& model, const std::s
       .fail(label,
             fmt::format(
                 "the random effects of each {} and of a new one bring the number of parameters "
-                "to {}; a posterior may have at most {}: use fewer random effects, or fewer {}s",
-                label, model.parameters.size(), max_dimension, label));
+                "to {}; a posterior may have at most {}: use fewer random effects, or fewer {}",
+                label, model.parameters.size(), max_dimension, prognosis::plural(label)));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "wearwell/models/formula_model/formula_process_spread.h"
 #include "wearwell/models/formula_model/formula_spread.h"
 #include "wearwell/present/plot.h"
+#include "wearwell/prognosis/plural.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -148,9 +149,9 @@ std::vector<html::Figure> panels_of(const Drawing& drawing, const std::vector<Ba
       quantity, html::unit(drawing.unit.text), drawing.along, html::unit(drawing.axis.text),
       drawing.limit ? "; dashed: the failure threshold" : "");
   if (drawing.left_out > 0) {
-    caption +=
-        fmt::format(" Of {} {}s, those {} are drawn.", drawing.left_out + bands.size() - 1,
-                    drawing.noun, drawing.limit ? "nearest to the threshold" : "that come first");
+    caption += fmt::format(" Of {} {}, those {} are drawn.", drawing.left_out + bands.size() - 1,
+                           prognosis::plural(drawing.noun),
+                           drawing.limit ? "nearest to the threshold" : "that come first");
   }
   std::vector<html::Figure> figures;
   for (std::size_t i = 1; i < bands.size(); ++i) {

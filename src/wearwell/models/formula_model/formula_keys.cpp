@@ -8,6 +8,7 @@
 #include "wearwell/models/formula_model/formula_process.h"
 #include "wearwell/models/formula_model/returns_keys.h"
 #include "wearwell/prob/response.h"
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_keys.h"
 
 namespace wearwell::formula_model {
@@ -119,26 +120,31 @@ StudyKeys formula_keys() {
        {"predict.units", "[\"3\", \"7\"]",
         "only these units, with future measurements: reported at predict.at"},
        {"predict.given.*", "\"20 N\"", "a condition; all others must be the same in all rows"},
+       {"predict.given.*.distribution", "\"normal\"",
+        "of a condition that differs between units: a life is that of a unit with its own"},
+       {"predict.given.*.values", "[\"20 degC\", \"35 degC\"]",
+        "conditions of the units, in place of a distribution"},
+       {"predict.given.*.shares", "[0.7, 0.3]",
+        "share or number of units of each; equal by default"},
+       {"predict.given.*.*", "\"5 K\"", "parameter or bound of the distribution, as in `[prior]`"},
        {"predict.limit.*", "\"100 um\"", "failure threshold of this expression: gives lives"},
        {"predict.lives_of", "[\"3\", \"7\"]",
         "lives to the threshold of these units only; [] for a new unit only"},
        {"predict.b_lives", "[1, 10]",
         "percentages failed, for a likelihood of a life or for lives to the threshold"},
        {"predict.mean_life", "true",
-        "reports the mean life (MTTF), and with `survived` the mean remaining useful life, of a "
-        "likelihood of a life"},
+        "reports the mean life (MTTF) and the mean remaining useful life, of a likelihood of a "
+        "life or to the threshold"},
        {"predict.survived", "\"1000 h\"", "survived use: lives from there on"},
        {"predict.survival_to", "\"1000 h\"", "share that outlasts it, one or several"},
        {"predict.hazard_at", "\"1000 h\"", "hazard rate at this life"},
-       {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives and survival"},
-       {"predict.sides", "\"two\"",
-        "of the bounds of predict.classical: credible_level is that of the interval, not of each "
-        "bound"},
        {"predict.classical", "true",
         "of a likelihood of a life: maximum likelihood with bounds, median rank regression and "
         "Kaplan-Meier beside the posterior"},
        {"predict.accelerated.*", "\"80 degC\"",
         "conditions of a test, for the acceleration factor"},
+       {"predict.accelerated.*.*", "\"normal\"", "as under `predict.given.*`"},
+       {"predict.compared_with.*.*", "\"normal\"", "as under `predict.given.*`"},
        {"predict.compared_with.*", "\"old\"",
         "conditions of a life to compare with: probability to outlive it, ratios of B-lives, "
         "differences of survival"},
@@ -146,6 +152,7 @@ StudyKeys formula_keys() {
         "any function of the parameters; or with its unit:"},
        {"predict.quantities.*.value", "\"k * 20 [N]\"", "expression"},
        {"predict.quantities.*.unit", "\"mm^3/m\"", "unit of the report"}});
+  add_keys(keys, level_keys("B-lives, mean lives and survival, and of predict.classical"));
   add_keys(keys, returns_keys());
   return keys;
 }

@@ -87,7 +87,8 @@ double LifeDistribution::Next::quantile(double p, double from) const {
 }
 
 bool LifeDistribution::over_all() const {
-  return risks_.front().family_parameters->model->effects.empty();
+  return risks_.front().family_parameters->model->effects.empty() &&
+         !risks_.front().family_parameters->varied;
 }
 
 void LifeDistribution::Next::add(const LifeAtPoint& at, double weight) {
@@ -104,7 +105,7 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
   LifeAtPoint at = at_point();
   Next next;
   next.risks_ = risks_;
-  if (risks_.front().family_parameters->model->modes) {
+  if (risks_.front().family_parameters->model->modes && at.size() == 1) {
     // All points: few lose digits, because a mode with few failures has a long tail of parameters.
     const double least = QuantityDistribution::least_weight(draws);
     for (Eigen::Index i = 0; i < draws.weights.size(); ++i) {

@@ -86,6 +86,7 @@ class Part {
                units, along);
     }
     found.next.add(units);
+    if (path_.mean) found.add_mean(path_, units);
     if (path_.shares.empty()) return;
     effects() > 0 ? found.add_shares(path_, along, weight) : found.add_shares(path_, units);
   }
@@ -227,7 +228,8 @@ LimitedLives lives_of_points(const FormulaRows& rows, const LimitedPath& path,
   if (path.next) {
     lives.next = cells_of([](Part& part, const double* x) { return part.life_of_next(x); });
     const bool all = path.survived <= path.begin;
-    lives.by_share.assign(path.shares.size(), all ? lives.next : lives.next.beyond(path.survived));
+    lives.mean = all ? lives.next : lives.next.beyond(path.survived);
+    lives.by_share.assign(path.shares.size(), lives.mean);
   }
   for (std::size_t u = 0; u < path.seen.size(); ++u) {
     const CellMixture all =
@@ -267,7 +269,17 @@ LimitedLives limited_lives(const FormulaRows& rows, const LimitedPath& path,
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
   lives.share_misfit = std::move(of_next.share_misfit);
+  lives.mean = std::move(of_next.mean);
+  lives.mean_misfit = of_next.mean_misfit;
   return lives;
+}
+
+void LimitedLives::add_mean(const LimitedPath& path, const CellMixture& units) {
+  const bool all = path.survived <= path.begin;
+  const CellMixture& left = all ? units : units.beyond(path.survived);
+  const double mass = left.mass();
+  mean_at_points.push_back(left.mean());
+  if (mass > 0) mean.add(mass, mean_at_points.back(), mean_at_points.back());
 }
 
 void LimitedLives::add_shares(const LimitedPath& path, const CellMixture& units) {
@@ -297,7 +309,18 @@ void LimitedLives::add_shares(const LimitedPath& path, const NormalLines& units,
 void LimitedLives::spread_shares(const LimitedPath& path, const WeightedDraws& draws,
                                  const ThinnedPosterior& few) {
   const auto shares = static_cast<Eigen::Index>(path.shares.size());
-  if (shares == 0 || path.survived > path.begin) return;
+  if (path.survived > path.begin) return;
+  const bool finite = std::all_of(mean_at_points.begin(), mean_at_points.end(),
+                                  [](double each) { return std::isfinite(each); });
+  if (path.mean && finite) {
+    const Eigen::Map<const Points> means(mean_at_points.data(), few.values.rows(), 1);
+    if (const auto whole = interpolated(draws, few, means).front()) {
+      mean = {};
+      mean.add(whole->distribution);
+      mean_misfit = whole->misfit;
+    }
+  }
+  if (shares == 0) return;
   const Eigen::Map<const Points> lives(at_points.data(), few.values.rows(), shares);
   const auto whole = interpolated(draws, few, lives);
   share_misfit.assign(whole.size(), {});
@@ -311,7 +334,10 @@ void LimitedLives::spread_shares(const LimitedPath& path, const WeightedDraws& d
 
 void LimitedLives::add(const LimitedLives& other) {
   at_points.insert(at_points.end(), other.at_points.begin(), other.at_points.end());
+  mean_at_points.insert(mean_at_points.end(), other.mean_at_points.begin(),
+                        other.mean_at_points.end());
   next.add(other.next);
+  mean.add(other.mean);
   by_share.resize(std::max(by_share.size(), other.by_share.size()));
   for (std::size_t i = 0; i < other.by_share.size(); ++i) by_share[i].add(other.by_share[i]);
   for (std::size_t u = 0; u < remaining.size(); ++u) {

@@ -31,6 +31,7 @@ struct LimitedPath {
   /// The shares whose lives are requested, among units that have survived to `survived`.
   std::vector<double> shares = {};
   double survived = 0;  ///< on the axis, SI; `begin` by default
+  bool mean = false;    ///< whether the mean life is requested, too
 };
 
 /// Lives over a posterior: each mixed over the posterior of the population and, given that and all
@@ -49,6 +50,11 @@ struct LimitedLives {
   /// The same lives, point after point.
   std::vector<double> at_points = {};
 
+  /// The same of the mean life of units, where it is requested.
+  CellMixture mean = {};
+  std::optional<double> mean_misfit = {};
+  std::vector<double> mean_at_points = {};
+
   bool over_all = false;  ///< summed over all cells of the posterior, not over few points
 
   /// From the lives of all units at one point of the posterior, of this weight.
@@ -56,8 +62,10 @@ struct LimitedLives {
   /// The same for units without lines.
   void add_shares(const LimitedPath& path, const CellMixture& units);
 
-  /// After all of `few` points: if lives count from the beginning, `by_share` over the whole
-  /// posterior.
+  void add_mean(const LimitedPath& path, const CellMixture& units);
+
+  /// After all of `few` points: if lives count from the beginning, `by_share` and `mean` over the
+  /// whole posterior.
   void spread_shares(const LimitedPath& path, const WeightedDraws& draws,
                      const ThinnedPosterior& few);
 

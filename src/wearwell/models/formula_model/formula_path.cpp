@@ -8,14 +8,23 @@ namespace wearwell::formula_model {
 
 namespace {
 
-// The axis becomes a row input, so that no row is bound again during the search for a life.
-formula::Symbols with_open_axis(formula::Symbols symbols, const std::string& along) {
+// A column, for example the axis, becomes a row input, so that no row is bound again during the search for a life.
+formula::Symbols with_open_column(formula::Symbols symbols, const std::string& name) {
   auto& columns = symbols.columns;
-  const auto axis = std::find_if(columns.begin(), columns.end(),
-                                 [&](const auto& each) { return each.name == along; });
-  symbols.parameters.push_back({axis->name, axis->powers, formula::Scope::per_row, {}});
-  columns.erase(axis);
+  const auto column = std::find_if(columns.begin(), columns.end(),
+                                   [&](const auto& each) { return each.name == name; });
+  symbols.parameters.push_back({column->name, column->powers, formula::Scope::per_row, {}});
+  columns.erase(column);
   return symbols;
+}
+
+void open_varied(const FormulaModel& model, const std::vector<formula::Wanted>& wanted,
+                 const Conditions& conditions, Path& path) {
+  path.varied = conditions.varied;
+  for (const VariedCondition& each : conditions.varied->conditions) {
+    path.symbols = with_open_column(std::move(path.symbols), each.column);
+  }
+  path.program = formula::compile(model.lines, wanted, path.symbols);
 }
 
 // Identical rows.
@@ -61,9 +70,11 @@ std::shared_ptr<const Path> make_path(std::shared_ptr<const FormulaModel> model,
     const bool has_state = path->program.running().state;
     if (along && !path->program.has_paths() && !has_state) {
       path->along = true;
-      path->symbols = with_open_axis(std::move(path->symbols), *model->along);
+      path->symbols = with_open_column(std::move(path->symbols), *model->along);
       path->program = formula::compile(model->lines, wanted, path->symbols);
     }
+    if (conditions.varied && !along && !path->program.has_paths())
+      open_varied(*model, wanted, conditions, *path);
   } catch (const InputError& error) {
     table.fail(key, error.what());
   }
@@ -156,9 +167,10 @@ void PathAt::stand(std::size_t count, const double* z) {
   }
 }
 
-void PathAt::evaluate(std::size_t count, const double* z, const double* place) {
+void PathAt::evaluate(std::size_t count, const double* z, const double* place,
+                      std::span<const double* const> varied) {
   fill_effects(count, z);
-  const double* by_row[3] = {effect_[0].data(), effect_[1].data(), nullptr};
+  const double* by_row[3 + VariedConditions::most] = {effect_[0].data(), effect_[1].data()};
   std::size_t given = path_->model->effects.size();
   if (path_->running) {
     path_->running->bind(path_->program, count, place, ahead_);
@@ -166,6 +178,7 @@ void PathAt::evaluate(std::size_t count, const double* z, const double* place) {
     return;
   }
   if (path_->along) by_row[given++] = place;
+  for (const double* const each : varied) by_row[given++] = each;
   path_->program.forward(path_->data, 0, count, {inner_, {by_row, given}}, workspace_);
 }
 

@@ -20,6 +20,8 @@ struct Path {
   std::vector<std::size_t> shared;  ///< the study's parameters among those of the symbols
   formula::Data data;               ///< `most` rows, all identical
   static constexpr std::size_t most = 128;
+  /// Conditions that differ between units, given by row; else null.
+  std::shared_ptr<const VariedConditions> varied = {};
   /// If the formula has a state, or the expressions depend on earlier rows; `data` is then empty.
   std::optional<RunningPath> running = {};
   /// Whether it depends on earlier rows: then the path of a unit starts at its last row.
@@ -60,8 +62,9 @@ class PathAt {
   double retraced(std::size_t o, std::size_t row) const;
 
   /// Computes the outputs for `count` units at z (effects() each; null for none) and positions on
-  /// the axis (null if it is none), count <= Path::most.
-  void evaluate(std::size_t count, const double* z, const double* place);
+  /// the axis (null if it is none), count <= Path::most. `varied` has the values of each varied condition.
+  void evaluate(std::size_t count, const double* z, const double* place,
+                std::span<const double* const> varied = {});
   double output(std::size_t o, std::size_t i) const;
 
  private:

@@ -18,6 +18,7 @@
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_answers.h"
 #include "wearwell/models/formula_model/subpopulation_answers.h"
+#include "wearwell/models/formula_model/use_check.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::formula_model {
@@ -45,10 +46,12 @@ class Predictions {
       predict_.fail("units",
                     "needs predict.at: the positions of future measurements of these units");
     }
+    if (asks_along || model_->along)
+      refuse_varied(asked_.given, predict_, "given", "a path along " + *model_->along);
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key : {"mean_life", "survival_to", "hazard_at", "accelerated",
-                              "compared_with", "classical", "sides"}) {
+      for (const char* key :
+           {"survival_to", "hazard_at", "accelerated", "compared_with", "classical"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; with predict.limit lives are those to the "
@@ -59,7 +62,7 @@ class Predictions {
       read_life();
     } else {
       for (const char* key :
-           {"b_lives", "credible_level", "survived", "lives_of", "classical", "sides"}) {
+           {"b_lives", "level", "credible_level", "survived", "lives_of", "classical", "sides"}) {
         if (predict_.has(key)) {
           predict_.fail(key, "needs predict.limit: the failure threshold that ends a life");
         }
@@ -88,10 +91,12 @@ class Predictions {
     }
     const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
-      for (const char* key : {"b_lives", "credible_level", "mean_life", "survival_to", "survived",
-                              "hazard_at", "accelerated", "compared_with", "classical", "sides"}) {
+      for (const char* key :
+           {"b_lives", "level", "credible_level", "mean_life", "survival_to", "survived",
+            "hazard_at", "accelerated", "compared_with", "classical", "sides"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
+      refuse_varied(asked_.given, predict_, "given", "a count");
       return;
     }
     const bool mean = predict_.boolean("mean_life").value_or(false);
@@ -127,7 +132,7 @@ class Predictions {
     group.requests.back().headline = model_->modes || model_->subpopulations;
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
-      group.requests.back().credible_level = levels.credible_level;
+      ask_bounds(levels, group.requests.back());
       group.requests.back().safe_end = 0.05;
     };
     for (const double percent : percents) {
@@ -168,6 +173,7 @@ class Predictions {
                                        fmt::format("{} over {}", given_words_, fast_words),
                                        Unit{"1", 1, 0}));
     }
+    add_use_check(model_, asked_.given, study_);
     const AskedOfLife asked{life, fast, other, levels, mean, survived, survival, hazard};
     group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
     group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };
@@ -175,10 +181,10 @@ class Predictions {
     if (model_->modes && model_->measured.size() > 1)
       add_mode_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
     const bool classical = predict_.boolean("classical").value_or(false);
-    if (predict_.text("sides") && !classical)
-      predict_.fail("sides", "is for the bounds of predict.classical");
-    if (classical)
+    if (classical) {
+      refuse_varied(common_, predict_, "classical", "predict.classical");
       add_classical_estimates({predict_, model_, common_, given_words_, noun_, asked}, study_);
+    }
     if (!measured.life.plain())
       add_mixture_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }

@@ -110,6 +110,7 @@ class Part {
       }
     }
     found.next.add(units);
+    if (limit_.path.mean) found.add_mean(limit_.path, units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
   }
 
@@ -239,6 +240,8 @@ LimitedLives process_lives(const FormulaRows& rows, const ProcessLimit& limit,
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
   lives.share_misfit = std::move(of_next.share_misfit);
+  lives.mean = std::move(of_next.mean);
+  lives.mean_misfit = of_next.mean_misfit;
   return lives;
 }
 

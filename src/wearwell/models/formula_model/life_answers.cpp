@@ -65,10 +65,10 @@ struct Answer {
   double mean = 0;
 };
 
-Answer answer_of(const Known& known, double credible_level) {
+Answer answer_of(const Known& known, const LifeLevels& levels) {
   const QuantityDistribution& of = known.distribution;
   Answer answer{{of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0}, of.mean()};
-  answer.quantiles.bound = of.quantile(1 - credible_level);
+  add_bounds(of, levels, answer.quantiles);
   answer.quantiles.numerical_error = known.misfit;
   return answer;
 }
@@ -84,14 +84,14 @@ std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const Weig
       if (asked.other) other = asked.other->next(draws, points);
       return;
     }
-    found[i - 1] = answer_of(known[i - 1](), asked.levels.credible_level);
+    found[i - 1] = answer_of(known[i - 1](), asked.levels);
   });
   std::vector<QuantityQuantiles> all;
   auto answer = found.begin();
   const auto add = [&](std::optional<double> predictive) {
     all.push_back((answer++)->quantiles);
     all.back().predictive = predictive;
-    if (!predictive) all.back().bound = {};
+    if (!predictive) all.back().bound = all.back().upper_bound = {};
   };
   const std::vector<double>& percents = asked.levels.percents;
   const std::vector<QuantityQuantiles> lives = lives_of_next(asked, next);

@@ -11,6 +11,11 @@ namespace {
 using LifeRule = boost::math::quadrature::gauss_kronrod<double, 31>;
 constexpr unsigned deepest_cut = 12;
 
+// How far the life in the middle may move from one node to the next, as a share of the units that fail by then.
+constexpr double farthest_step = 0.2;
+// Nodes that hold less do not decide on the rule.
+constexpr double least_deciding = 1e-5;
+
 }  // namespace
 
 double log_survival_of(std::span<const Risk> risks, double life, const double* family_parameters) {
@@ -32,20 +37,48 @@ LifeAtPoint::LifeAtPoint(std::span<const Risk> risks)
       model_(*risks.front().family_parameters->model),
       nodes_(model_.effects.size(), 6.5),
       new_units_(model_),
-      stride_(parameters_of(risks)) {
+      stride_(parameters_of(risks)),
+      varied_(risks.front().family_parameters->varied.get()) {
   for (const Risk& each : risks) paths_.emplace_back(*each.family_parameters);
+  if (varied_) {
+    rule_ = &varied_->rules.front();
+    varied_at_.assign(rule_->columns, std::vector<double>(Path::most));
+    z_.resize(Path::most * model_.effects.size());
+  }
   family_parameters_.resize(stride_ * size());
 }
 
 void LifeAtPoint::move_to(const double* x) {
-  const std::size_t d = model_.effects.size(), count = nodes_.weight.size();
+  if (!varied_) return fill(x);
+  for (const ConditionNodes& rule : varied_->rules) {
+    rule_ = &rule;
+    family_parameters_.resize(stride_ * size());
+    fill(x);
+    if (is_fine()) return;
+  }
+}
+
+// Nodes of the effects under each condition, new unit by new unit.
+void LifeAtPoint::fill(const double* x) {
+  const std::size_t d = model_.effects.size(), effects = nodes_.weight.size(),
+                    count = effects * conditions();
+  std::vector<const double*> varied;
+  for (const std::vector<double>& each : varied_at_) varied.push_back(each.data());
   for (std::size_t k = 0; k < new_units_.count(); ++k) {
     const double* const there = new_units_.at(k, x, model_.parameters.size());
     for (std::size_t r = 0; r < risks_.size(); ++r) {
       paths_[r].move_to(there);
       for (std::size_t at = 0; at < count; at += Path::most) {
         const std::size_t n = std::min(Path::most, count - at);
-        paths_[r].evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
+        for (std::size_t i = 0; varied_ && i < n; ++i) {
+          const std::size_t effect = (at + i) % effects, condition = (at + i) / effects;
+          std::copy_n(nodes_.z.begin() + static_cast<std::ptrdiff_t>(effect * d), d,
+                      z_.begin() + static_cast<std::ptrdiff_t>(i * d));
+          for (std::size_t c = 0; c < varied.size(); ++c)
+            varied_at_[c][i] = rule_->at[condition * varied.size() + c];
+        }
+        const double* const z = d == 0 ? nullptr : varied_ ? z_.data() : &nodes_.z[at * d];
+        paths_[r].evaluate(n, z, nullptr, varied);
         for (std::size_t i = 0; i < n; ++i) {
           double* const own =
               &family_parameters_[(k * count + at + i) * stride_ + r * most_response_parameters];
@@ -59,7 +92,57 @@ void LifeAtPoint::move_to(const double* x) {
 
 double LifeAtPoint::weight(std::size_t i) const {
   const std::size_t count = nodes_.weight.size();
-  return nodes_.weight[i % count] * new_units_.share(i / count);
+  if (!rule_) return nodes_.weight[i % count] * new_units_.share(i / count);
+  const std::size_t among = i / count;
+  return nodes_.weight[i % count] * rule_->share[among % rule_->count()] *
+         new_units_.share(among / rule_->count());
+}
+
+// In the middle of the effects, along the last condition and then along the first.
+bool LifeAtPoint::is_fine() const {
+  const std::size_t effects = nodes_.weight.size(), count = rule_->count();
+  const auto own = [&](std::size_t condition, std::size_t r) {
+    return slots(condition * effects + effects / 2, r);
+  };
+  const auto overlap = [&](std::size_t a, std::size_t b) {
+    for (std::size_t r = 0; r < risks_.size(); ++r) {
+      const LifeMixture& life = risks_[r].life;
+      const double here = life.middle(own(a, r)), there = life.middle(own(b, r));
+      const double moved =
+          std::exp(life.log_cdf(there, own(a, r))) - std::exp(life.log_cdf(here, own(a, r)));
+      const double all = life.failing(own(a, r)) - life.dead_share(own(a, r));
+      if (std::abs(moved) > farthest_step * all) return false;
+    }
+    return true;
+  };
+  const std::size_t columns = rule_->columns;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rule_->share[i] < least_deciding) continue;
+    if (i + 1 < count && (columns == 1 || rule_->at[i * columns] == rule_->at[(i + 1) * columns]) &&
+        !overlap(i, i + 1))
+      return false;
+    if (columns == 1) continue;
+    const double* const at = &rule_->at[i * columns];
+    for (std::size_t j = i + 1; j < count; ++j) {  // the next with the same last condition
+      const double* const next = &rule_->at[j * columns];
+      if (next[columns - 1] != at[columns - 1]) continue;
+      if (!overlap(i, j)) return false;
+      break;
+    }
+  }
+  return true;
+}
+
+std::optional<double> LifeAtPoint::undefined_condition() const {
+  for (std::size_t i = 0; rule_ && i < size(); ++i) {
+    for (std::size_t r = 0; r < risks_.size(); ++r) {
+      for (const std::size_t place : risks_[r].places) {
+        if (!std::isfinite(slots(i, r)[place]))
+          return rule_->at[(i / nodes_.weight.size()) % rule_->count() * rule_->columns];
+      }
+    }
+  }
+  return {};
 }
 
 double LifeAtPoint::log_survival(std::size_t component, double life) const {
@@ -117,6 +200,12 @@ double LifeAtPoint::hazard(double life) const {
 
 double LifeAtPoint::quantile(double p) const {
   if (single()) return risks_.front().life.quantile(p, slots(0));
+  if (!risks_.front().life.plain()) {
+    if (p <= dead_share()) return 0;
+    if (p >= failing()) return infinity;
+    return quantile_of_cdf([&](double life) { return cdf(life); }, p,
+                           risks_.front().life.middle(slots(size() / 2)), positive_);
+  }
   const auto earliest = [&](double share) {
     double least = infinity;
     for (std::size_t r = 0; r < risks_.size(); ++r)
@@ -135,21 +224,43 @@ double LifeAtPoint::quantile(double p) const {
 }
 
 double LifeAtPoint::middle() const {
-  return single() ? risks_.front().life.middle(slots(0)) : quantile(0.5);
+  if (single()) return risks_.front().life.middle(slots(0));
+  return quantile(0.5 * (dead_share() + failing()));
 }
 
 double LifeAtPoint::failing() const {
-  return single() ? risks_.front().life.failing(slots(0)) : 1;
+  if (single()) return risks_.front().life.failing(slots(0));
+  if (risks_.front().life.plain()) return 1;
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) sum += weight(i) * risks_.front().life.failing(slots(i));
+  return sum;
+}
+
+double LifeAtPoint::dead_share() const {
+  if (single()) return risks_.front().life.dead_share(slots(0));
+  if (risks_.front().life.plain()) return 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    sum += weight(i) * risks_.front().life.dead_share(slots(i));
+  return sum;
 }
 
 double LifeAtPoint::share_among_survivors(std::size_t k, double life) const {
-  return risks_.front().life.share_among_survivors(k, life, slots(0));
+  const LifeMixture& mixture = risks_.front().life;
+  if (single()) return mixture.share_among_survivors(k, life, slots(0));
+  double of_k = 0, all = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double left = weight(i) * std::exp(mixture.log_survival(life, slots(i)));
+    of_k += left * mixture.share_among_survivors(k, life, slots(i));
+    all += left;
+  }
+  return of_k / all;
 }
 
 double LifeAtPoint::mean_beyond(double from) const {
-  if (failing() < 1) return infinity;
+  if (failing() < 1 - 1e-12) return infinity;
   // Of those that are not dead on arrival; these count as lives of 0.
-  const double works = single() ? 1 - risks_.front().life.dead_share(slots(0)) : 1;
+  const double works = 1 - dead_share();
   const double mean = wearwell::mean_beyond(
       [&, log_works = std::log(works)](double life) { return log_survival(life) - log_works; },
       middle(), from);
@@ -159,7 +270,7 @@ double LifeAtPoint::mean_beyond(double from) const {
 double LifeAtPoint::outlives(const LifeAtPoint& other) const {
   constexpr double tail = 1e-10;
   // Those of the other that are dead on arrival end at 0.
-  const double dead = other.single() ? other.risks_.front().life.dead_share(other.slots(0)) : 0;
+  const double dead = other.dead_share();
   const double at_once = dead > 0 ? dead * std::exp(log_survival(0)) : 0;
   const double ending = other.failing() - dead;
   const double low = other.quantile(dead + tail * ending),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,12 @@ struct Risk {
 /// Parameters in a row: those of each risk's life, one after the other.
 std::size_t parameters_of(std::span<const Risk> risks);
 
-/// A life at one point of the parameters: a mixture over the random effects of new items, one
-/// distribution where there are none; or the earliest of several independent lives, without
+/// A life at one point of the parameters: a mixture over the random effects of new items and over conditions that
+/// differ between units, one distribution where there are none; or the earliest of several independent lives, without
 /// random effects. One thread at a time.
+///
+/// Conditions: the rule is refined until lives at neighbouring nodes overlap, so far that the sum over nodes is within
+/// 1e-6 of the integral.
 class LifeAtPoint {
  public:
   /// They must outlive this.
@@ -36,8 +40,9 @@ class LifeAtPoint {
 
   void move_to(const double* x);  ///< natural parameters, SI
 
-  /// The components: their weights, which sum to 1, and their families' parameters, risk by risk.
-  std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
+  /// The components: their weights, which sum to 1, and their families' parameters, risk by risk. With conditions
+  /// that differ between units their number depends on the point.
+  std::size_t size() const { return nodes_.weight.size() * conditions() * new_units_.count(); }
   double weight(std::size_t i) const;
   const double* slots(std::size_t i, std::size_t risk = 0) const {
     return &family_parameters_[i * stride_ + risk * most_response_parameters];
@@ -51,6 +56,8 @@ class LifeAtPoint {
   /// A life in the middle of those that end: the median, except where a share never fails or is dead on arrival.
   double middle() const;
   double failing() const;  ///< the share whose life ends at all
+  /// The first varied condition, SI, of a node where a parameter of the life is not finite; none if all are.
+  std::optional<double> undefined_condition() const;
   /// The share of subpopulation k among the survivors of a life.
   double share_among_survivors(std::size_t k, double life) const;
   /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
@@ -64,6 +71,10 @@ class LifeAtPoint {
 
  private:
   bool single() const { return size() == 1 && risks_.size() == 1; }
+  std::size_t conditions() const { return rule_ ? rule_->count() : 1; }
+  void fill(const double* x);
+  bool is_fine() const;
+  double dead_share() const;
   double log_survival(std::size_t component, double life) const;  // of all risks
   double log_density(std::size_t component, double life) const;
 
@@ -75,6 +86,10 @@ class LifeAtPoint {
   std::vector<PathAt> paths_;
   std::size_t stride_;
   std::vector<double> family_parameters_;
+  const VariedConditions* varied_;  // null if conditions are the same for all units
+  const ConditionNodes* rule_ = nullptr;
+  std::vector<double> z_;
+  std::vector<std::vector<double>> varied_at_;  // by condition, of a block of nodes
 };
 
 /// log of the share that outlasts `life`, of risks with these parameters.

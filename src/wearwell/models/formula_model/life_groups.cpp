@@ -89,6 +89,37 @@ std::vector<LifeGroup> groups_of_modes(const FormulaModel& model, std::size_t mo
   return groups;
 }
 
+// Conditions that differ between units: a life depends on one of them at least, and has finite parameters wherever
+// the conditions may be.
+void require_values(const TomlReader& table, const std::string& key, const FormulaModel& model,
+                    const std::vector<Risk>& risks) {
+  const std::shared_ptr<const VariedConditions>& varied = risks.front().family_parameters->varied;
+  if (!varied) return;
+  const auto fail = [&](const std::string& column, const std::string& message) {
+    table.required_table(key).fail(column, message);
+  };
+  for (const VariedCondition& each : varied->conditions) {
+    const auto& columns = model.row_symbols.columns;
+    const auto at = std::find_if(columns.begin(), columns.end(),
+                                 [&](const auto& column) { return column.name == each.column; });
+    const auto c = static_cast<std::size_t>(at - columns.begin());
+    if (std::none_of(model.measured.begin(), model.measured.end(),
+                     [c](const Measured& one) { return one.program.uses_column(c); }))
+      fail(each.column, "has a distribution, but no life depends on it");
+  }
+  std::vector<double> start;
+  for (const Parameter& each : model.parameters) start.push_back(each.start);
+  LifeAtPoint at(risks);
+  at.move_to(start.data());
+  if (const auto node = at.undefined_condition()) {
+    const Unit& unit = varied->conditions.front().distribution.unit;
+    fail(varied->conditions.front().column,
+         fmt::format("has units at {:.4g}{}, where the formula has no finite value; state bounds "
+                     "of the distribution (lower, upper)",
+                     from_si(unit, *node), unit.text == "1" ? "" : " " + unit.text));
+  }
+}
+
 }  // namespace
 
 std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most) {
@@ -122,6 +153,7 @@ std::shared_ptr<const LifeDistribution> life_distribution(
     if (model->steps) wanted.pop_back();  // a new item has no age
     risks.push_back(risk_of(make_path(model, table, key, wanted, false, conditions), measured));
   }
+  require_values(table, key, *model, risks);
   return std::make_shared<const LifeDistribution>(std::move(risks));
 }
 
@@ -136,6 +168,7 @@ std::shared_ptr<const LifeDistribution> life_of_subpopulation(
   }
   std::vector<Risk> risks = {
       risk_of_subpopulation(make_path(model, table, key, own, false, conditions), measured, k)};
+  require_values(table, key, *model, risks);
   return std::make_shared<const LifeDistribution>(std::move(risks));
 }
 

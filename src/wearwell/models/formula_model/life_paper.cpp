@@ -247,13 +247,13 @@ class Drawing {
       thinned |= positions_[g].size() > most_points;
     }
     std::string words =
-        !measured_.life.plain() ? fmt::format(
-                                      "A {} distribution alone would be a straight line here; "
-                                      "subpopulations bend it",
-                                      measured_.form->name)
+        !measured_.life.plain()
+            ? std::string(
+                  "One distribution of this family alone would be a straight line here; "
+                  "subpopulations bend it")
         : paper_.straight
             ? "A distribution of this family is a straight line here"
-            : fmt::format("The {} distribution is curved on this paper", measured_.form->name);
+            : fmt::format("The {} distribution is curved on this paper", measured_.form->title);
     words += ". Lines are posterior medians of the share failed by then, bands hold 90 %. ";
     words +=
         intervals

@@ -97,6 +97,13 @@ std::vector<LifeStress> life_stresses(const TomlReader& root,
       low = std::min(low, asked->second);
       high = std::max(high, asked->second);
     }
+    for (std::size_t i = 0; given.varied && i < given.varied->conditions.size(); ++i) {
+      const VariedCondition& each = given.varied->conditions[i];
+      if (each.column != name) continue;
+      low = std::min(low, each.quantile(0.01));
+      high = std::max(high, each.quantile(0.99));
+      stress.of_units = description(each);
+    }
     stress.held.words = words_of_held(*model, most->conditions, name);
     stress.at = spread_over(low, high);
     for (const double at : stress.at) {
@@ -135,6 +142,7 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
+    if (positive && !(row.low > 0 && row.b10 > 0)) continue;  // dead on arrival
     if (!std::isfinite(row.low) || !std::isfinite(row.high) || !std::isfinite(row.b10)) continue;
     x.push_back(from_si(column.unit.unit, stress.at[i]));
     low.push_back(from_si(measured.unit, row.low));
@@ -145,10 +153,15 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
     cover(b10.back());
   }
   Points failed, went_on;
+  bool dead = false;
   for (const LifeGroup& group : stress.tested) {
     for (const Response& each : group.responses) {
       const bool above = each.seen == Censoring::right;
       const double life = each.seen == Censoring::interval ? 0.5 * (each.at + each.until) : each.at;
+      if (positive && !(life > 0)) {
+        dead = true;
+        continue;
+      }
       Points& points = above ? went_on : failed;
       points.x.push_back(from_si(column.unit.unit, group.conditions.numbers.at(stress.column)));
       points.y.push_back(from_si(measured.unit, life));
@@ -181,7 +194,9 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
   return {"life-stress-" + stress.column, fmt::format("Life against {}", stress.column),
           fmt::format("Posterior medians of the life that half of all outlast, and of B10{}.{}",
                       stress.held.words.empty() ? "" : ", at " + stress.held.words,
-                      went_on.x.empty() ? "" : " Arrows: not failed by then."),
+                      went_on.x.empty() ? "" : " Arrows: not failed by then.") +
+              (dead ? " Parts dead on arrival have no point." : "") +
+              (stress.of_units.empty() ? "" : " In use " + stress.of_units + " over the units."),
           plot::plot(fmt::format("{} against {}", html::capital(measured.column), stress.column),
                      {title(stress.column, column.unit.unit), by_decades,
                       std::min(one, other) / factor - room, std::max(one, other) * factor + room},

@@ -14,6 +14,7 @@ struct LifeStress {
   std::vector<double> at;                                      ///< SI
   std::vector<std::shared_ptr<const LifeDistribution>> lives;  ///< at each of them
   std::vector<LifeGroup> tested;  ///< observations under the fixed conditions
+  std::string of_units = {};      ///< how the column differs between units in use; may be empty
 };
 
 /// One for each numeric column on which the life depends and that has more than one value among the

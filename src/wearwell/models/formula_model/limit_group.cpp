@@ -10,7 +10,7 @@
 namespace wearwell::formula_model {
 
 LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path) {
-  LimitWishes wishes{read_life_levels(asked.predict), {}};
+  LimitWishes wishes{read_life_levels(asked.predict), {}, false};
   path.survived = path.begin;
   const auto survived =
       asked.predict.quantity("survived", formula::si_text(asked.axis().unit.powers));
@@ -24,6 +24,7 @@ LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path) {
     wishes.survived = survived;
   }
   for (const double percent : wishes.levels.percents) path.shares.push_back(percent / 100);
+  wishes.mean = path.mean = asked.predict.boolean("mean_life").value_or(false);
   return wishes;
 }
 
@@ -38,6 +39,10 @@ struct LimitGroup::Remaining {
   double quantile(double p) const {
     if (any() && survival < 1e-3) return std::nan("");
     return any() ? lives.quantile(p) : 0;
+  }
+  double mean() const {
+    if (any() && survival < 1e-3) return std::nan("");
+    return any() ? lives.mean() : 0;
   }
   double cdf(double x) const { return any() ? lives.cdf(x) : 1; }
   QuantityQuantiles quantiles() const {
@@ -78,7 +83,17 @@ LimitGroup::LimitGroup(const Asked& asked, const std::string& name, const Quanti
       requests_.push_back(
           b_life_request(percent, wishes_.levels, life, next ? asked.noun : life.of));
     }
+    if (wishes_.mean)
+      add_mean(requests_[i], path_->next && i == (wishes_.survived ? 1 : 0), asked.noun);
   }
+}
+
+// The mean over new units has a posterior; that of one unit is averaged over it.
+void LimitGroup::add_mean(const QuantityRequest& life, bool next, const std::string& noun) {
+  const QuantityRequest own = life;
+  requests_.push_back(request("mean " + own.name, next ? noun : own.of, own.at, own.unit));
+  requests_.back().safe_end = 0.05;
+  if (next) ask_bounds(wishes_.levels, requests_.back());
 }
 
 std::vector<LimitGroup::Remaining> LimitGroup::remaining(const LimitedLives& lives) const {
@@ -116,6 +131,14 @@ std::vector<QuantityQuantiles> LimitGroup::answers(const LimitedLives& lives) co
       if (next && k < lives.share_misfit.size())
         found.back().numerical_error = lives.share_misfit[k];
     }
+    if (!wishes_.mean) continue;
+    const double mean = all[i].mean();
+    if (!next) {
+      found.push_back({mean, mean, mean, 0, 0, 0});
+      continue;
+    }
+    found.push_back(b_life(Remaining{lives.mean, all[i].survival}, mean, wishes_.levels));
+    found.back().numerical_error = lives.mean_misfit;
   }
   return found;
 }

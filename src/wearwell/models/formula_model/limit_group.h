@@ -17,6 +17,7 @@ namespace wearwell::formula_model {
 struct LimitWishes {
   LifeLevels levels;
   std::optional<Quantity> survived;  ///< lives then count from this point, given survival to it
+  bool mean = false;                 ///< the mean life, and the mean remaining useful life
 };
 
 /// Reads them, and sets the shares and the survived point of `path`. Throws InputError.
@@ -43,6 +44,7 @@ class LimitGroup {
   std::vector<Remaining> remaining(const LimitedLives& lives) const;
   std::vector<QuantityQuantiles> answers(const LimitedLives& lives) const;
   double begin_of(std::size_t u) const;
+  void add_mean(const QuantityRequest& life, bool next, const std::string& noun);
   void add_life(const std::string& name, const std::string& of, const std::string& at,
                 const Unit& unit);
 

@@ -15,7 +15,7 @@ void add_lives_of(const AskedOfLife& asked, const std::string& noun, const std::
   const auto add = [&](const std::string& name, const std::string& where, const Unit& in) {
     group.requests.push_back(request(name, noun, where, in));
     group.requests.back().safe_end = 0.05;
-    group.requests.back().credible_level = own.levels.credible_level;
+    ask_bounds(own.levels, group.requests.back());
   };
   const auto add_life = [&](const std::string& name, const std::string& where) {
     group.requests.push_back(request(name, "new " + noun, where, unit));

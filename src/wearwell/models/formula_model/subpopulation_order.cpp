@@ -133,9 +133,53 @@ Check distinguished(const FormulaModel& model, const Fit& fit) {
                   share > 0.5 ? "the named" : "the opposite", apart));
 }
 
+namespace {
+
+// The priors of the shares that are parameters; empty if an expression is another.
+std::vector<const Distribution*> priors_of_shares(const FormulaModel& model) {
+  const Measured& measured = model.measured.front();
+  std::vector<const Distribution*> priors;
+  for (std::size_t k = 0; k < measured.life.families.size(); ++k) {
+    if (k == measured.life.rest) continue;
+    for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
+      if (measured.family_parameter[o] != measured.life.share(k)) continue;
+      const auto parameter =
+          std::find_if(model.parameters.begin(), model.parameters.end(),
+                       [&](const Parameter& each) { return each.name == measured.wanted[o].text; });
+      if (parameter == model.parameters.end() || !parameter->prior.proper) return {};
+      priors.push_back(&parameter->prior);
+    }
+  }
+  return priors;
+}
+
+// The prior probability that these shares leave a rest, by the midpoint rule in probability.
+double probability_of_rest(std::span<const Distribution* const> priors, double rest) {
+  if (!(rest > priors.front()->lower)) return 0;
+  if (priors.size() == 1) {
+    double low = 0, high = 1;
+    for (int step = 0; step < 40; ++step) {
+      const double p = 0.5 * (low + high);
+      (quantile(*priors.front(), p) < rest ? low : high) = p;
+    }
+    return 0.5 * (low + high);
+  }
+  constexpr int points = 128;
+  double sum = 0;
+  for (int i = 0; i < points; ++i)
+    sum += probability_of_rest(priors.subspan(1),
+                               rest - quantile(*priors.front(), (i + 0.5) / points));
+  return sum / points;
+}
+
+}  // namespace
+
 double log_orders(const FormulaModel& model) {
-  if (!model.subpopulations || !model.subpopulations->exchangeable) return 0;
-  return std::lgamma(static_cast<double>(model.subpopulations->names.size()) + 1);
+  if (!model.subpopulations) return 0;
+  const std::vector<const Distribution*> shares = priors_of_shares(model);
+  const double rest = shares.size() > 1 ? std::log(probability_of_rest(shares, 1)) : 0;
+  if (!model.subpopulations->exchangeable) return -rest;
+  return std::lgamma(static_cast<double>(model.subpopulations->names.size()) + 1) - rest;
 }
 
 }  // namespace wearwell::formula_model

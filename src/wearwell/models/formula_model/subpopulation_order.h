@@ -44,7 +44,8 @@ class SubpopulationOrder {
 /// mixes both orders has no parameters of "early" and "late".
 Check distinguished(const FormulaModel& model, const Fit& fit);
 
-/// ln K!: by how much the prior of ordered subpopulations is denser than the product of their priors; 0 without order.
+/// By how much the prior of subpopulations is denser than the product of the parameters' priors: ln K! where they are ordered,
+/// and less ln P of two or more shares that are parameters, with P the probability by their priors that they leave a rest.
 double log_orders(const FormulaModel& model);
 
 }  // namespace wearwell::formula_model

@@ -1,5 +1,6 @@
 #include "wearwell/models/joint/joint_keys.h"
 
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_keys.h"
 
 namespace wearwell::joint {
@@ -59,10 +60,10 @@ StudyKeys study_keys() {
         "risk of passing the threshold before the next inspection (1 %)"},
        {"predict.b_lives", "[1, 10]",
         "percentages failed; adds the lives at which 1 and 10 % have reached the threshold"},
-       {"predict.credible_level", "0.9", "confidence of lower bounds of B-lives"},
        {"predict.work_per_cycle", "\"6 N m\"",
         "of future cycles, if conditions.work_per_cycle is not given"}});
   add_keys(keys, layout_keys("conditions.profile"));
+  add_keys(keys, level_keys("B-lives"));
   return keys;
 }
 

@@ -102,7 +102,7 @@ void add_life(const TomlReader& predict, const CycleWork& cycle_work, const Arch
     predict.fail("risk", "must lie between 0 and 1, like 0.05 or \"5 %\"");
   const auto limit = predict.quantity("limit", "m^3");
   if (!limit) {
-    for (const char* key : {"risk", "b_lives", "credible_level"}) {
+    for (const char* key : {"risk", "b_lives", "level", "credible_level", "sides"}) {
       if (predict.has(key)) predict.fail(key, "needs predict.limit");
     }
     return;

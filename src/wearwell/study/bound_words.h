@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/study/posterior_summary.h"
+
+namespace wearwell {
+
+/// The headings of the bounds on the terminal, in order: "at least, 90 %"; of both "90 % from", "to".
+std::vector<std::string> bound_headings(const std::string& level, BoundSides sides);
+
+/// The same in the report: "At least, 90 % confidence".
+std::vector<std::string> bound_columns(double level, BoundSides sides);
+
+/// What they mean, below the table.
+std::string bound_sentence(const std::string& level, BoundSides sides);
+
+}  // namespace wearwell
