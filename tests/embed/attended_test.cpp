@@ -61,7 +61,7 @@ TEST(Attended, LoopsWithoutAMonitorStopToo) {
 
 TEST(Attended, WhatStoppedOneWorkDoesNotStopTheNext) {
   const auto ctrl_c = [](const auto&) { throw std::domain_error("Ctrl-C"); };
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 5; ++i) {
     EXPECT_THROW(attended<Away>(loop_until_stopped, ctrl_c), std::domain_error);
     const auto short_loop = [](const Monitor&) {
       tbb::parallel_for(0, 1000, [](int) { check_stop(); });
