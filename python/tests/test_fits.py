@@ -255,7 +255,7 @@ def test_forecasts_are_asked_later(examples):
     fit = ww.fit(study, seed=1, method="exact", draws=100, report=False)
     other = re.sub(r"(?m)^next *=.*", 'next = ["200 day"]', open(study).read())
     whole = ww.Study.from_toml(other, folder=os.path.dirname(study)).fit(seed=1, method="exact", draws=100, report=False)
-    later = fit.ask({"next": ["200 day"]})
+    later = fit.ask({"next": ["200 day"], "age": ["600 day"]})
     assert later["repairable"] == whole.results["repairable"]
     assert later["repairable"]["forecast"] != fit.results["repairable"]["forecast"]
     assert "repairable" not in fit.ask({"age": ["600 day"]})

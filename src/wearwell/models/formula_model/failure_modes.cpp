@@ -76,8 +76,8 @@ class ModeCells {
       if (all_.responses[i].seen == Censoring::right || !is_failure_of_no_mode(text)) continue;
       fail(i,
            fmt::format("'{0}' can mean a failure of unknown mode, or a failure mode of this name "
-                       "(beside {1}); write [failure_modes] unknown = \"{0}\" for the first, "
-                       "unknown = \"unknown\" for the second",
+                       "(beside {1}); for the first write 'unknown' in the cell, or "
+                       "[failure_modes] unknown = \"{0}\"; for the second unknown = \"unknown\"",
                        text, fmt::join(others(modes, text), ", ")));
     }
   }
