@@ -3,6 +3,10 @@
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 #include "core.h"
 #include "wearwell/embed/attended.h"
 
@@ -18,6 +22,14 @@ void attended(const py::object& progress, const Work& work) {
         if (reported && !progress.is_none())
           progress(reported->what, reported->done, reported->total, reported->seconds);
       });
+}
+
+/// What `work` returns; the same without progress.
+template <class Work>
+auto interruptible(const Work& work) {
+  std::optional<std::invoke_result_t<const Work&>> result;
+  attended(py::none{}, [&](const Monitor&) { result.emplace(work()); });
+  return std::move(*result);
 }
 
 }  // namespace wearwell::python

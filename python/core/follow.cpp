@@ -40,8 +40,7 @@ embed::Run update(const embed::Run* run, const std::string& path,
 // A study of a saved state as the study of a run is: what is pickled of an update.
 embed::ReadStudy study_of_state(const py::bytes& state) {
   const std::string bytes = state;
-  const py::gil_scoped_release release;
-  return embed::study_of_state(bytes);
+  return interruptible([&] { return embed::study_of_state(bytes); });
 }
 
 // (at, level05, level50, level95), each an array.
@@ -89,19 +88,21 @@ void add_followed(py::module_& module) {
            unlocked())
       .def("update",
            [](FollowedUnit& unit, const SharedTable& rows) {
-             const py::gil_scoped_release release;
-             return unit.update(*rows);
+             return interruptible([&] { return unit.update(*rows); });
            })
       .def("json", &FollowedUnit::json, unlocked())
       .def("risk", &FollowedUnit::risk, unlocked())
       .def("path", &path_of);
   module.def("population_of", [](const embed::Run* run, const std::string& path) {
-    const py::gil_scoped_release release;
-    return std::const_pointer_cast<Population>(embed::population_of({run, path}));
+    return interruptible([&] {
+      return std::const_pointer_cast<Population>(embed::population_of({run, path}));
+    });
   });
   module.def("update", &update);
   module.def("study_of_state", &study_of_state);
-  module.def("study_with_text", &embed::with_text, unlocked());
+  module.def("study_with_text", [](const embed::ReadStudy& study, const std::string& text) {
+    return interruptible([&] { return embed::with_text(study, text); });
+  });
   module.def("export_c",
              [](const embed::Run* run, const std::string& path, const std::string& arguments) {
                embed::CCode code;

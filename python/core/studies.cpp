@@ -20,8 +20,7 @@ ReadStudy read_text(const std::string& text, const std::string& path,
                     const std::map<std::string, std::shared_ptr<Table>>& tables) {
   std::map<std::string, Table> own;
   for (const auto& [name, table] : tables) own.emplace(name, *table);
-  const py::gil_scoped_release release;
-  return embed::read_text(text, path, std::move(own));
+  return interruptible([&] { return embed::read_text(text, path, std::move(own)); });
 }
 
 Run run(const ReadStudy& read, const std::string& method, std::optional<int> chains,
@@ -71,22 +70,16 @@ std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
 
 // Of each observation its score and whether it is censored; what an observation is.
 py::tuple residuals_of(const Run& run) {
-  embed::Residuals found;
-  {
-    const py::gil_scoped_release release;
+  const embed::Residuals found = interruptible([&] {
     const embed::ForkGuard guard;
-    found = embed::residuals(run);
-  }
+    return embed::residuals(run);
+  });
   return py::make_tuple(found.score, found.censored, found.noun);
 }
 
 // Texts, but of files that end in .bin bytes.
 py::list files_of(const Run& run) {
-  embed::Files files;
-  {
-    const py::gil_scoped_release release;
-    files = embed::files_of(run);
-  }
+  const embed::Files files = interruptible([&] { return embed::files_of(run); });
   py::list all;
   for (const auto& [name, content] : files) {
     all.append(name.ends_with(".bin") ? py::make_tuple(name, py::bytes(content))
@@ -102,7 +95,8 @@ void write_netcdf(const Run& run, const std::string& target) {
 }
 
 py::tuple compared(const embed::Files& names_and_folders) {
-  const embed::Compared compared = embed::compared(names_and_folders);
+  const embed::Compared compared =
+      interruptible([&] { return embed::compared(names_and_folders); });
   return py::make_tuple(compared.json.dump(), compared.text, compared.page);
 }
 
@@ -114,9 +108,10 @@ void add_studies(py::module_& module) {
       .def_readonly("text", &ReadStudy::text)
       .def("description",
            [](const ReadStudy& read) {
-             const py::gil_scoped_release release;
-             const embed::ForkGuard guard;
-             return read.study->description();
+             return interruptible([&] {
+               const embed::ForkGuard guard;
+               return read.study->description();
+             });
            })
       .def("run", &run, py::arg("method"), py::arg("chains"), py::arg("warmup"), py::arg("draws"),
            py::arg("seed"), py::arg("threads"), py::arg("report"), py::arg("progress"));
@@ -130,12 +125,10 @@ void add_studies(py::module_& module) {
       .def("state", [](const Run& run) { return py::bytes(embed::saved_state(run)); })
       .def("write_netcdf", &write_netcdf)
       .def("asked", [](const Run& run, const ReadStudy& other, double level) {
-        const py::gil_scoped_release release;
-        return embed::asked(run, other, level).dump();
+        return interruptible([&] { return embed::asked(run, other, level).dump(); });
       });
   module.def("read_file", [](const std::string& file) {
-    const py::gil_scoped_release release;
-    return embed::read(source_of(file));
+    return interruptible([&] { return embed::read(source_of(file)); });
   });
   module.def("read_text", &read_text);
   module.def("page_of", &embed::page_of, unlocked());

@@ -44,11 +44,10 @@ py::tuple rainflow(const py::array_t<double, py::array::forcecast>& signal, bool
 py::tuple bearing_answer(const std::string& command, const std::string& contact,
                          const std::map<std::string, std::string>& inputs, const std::string& unit,
                          const std::string& limit, int draws, std::uint64_t seed) {
-  const bearing::Answer answer = [&] {
-    const py::gil_scoped_release release;
+  const bearing::Answer answer = interruptible([&] {
     return bearing::answer(command, contact, inputs,
                            {.unit = unit, .limit = limit, .draws = draws, .seed = seed});
-  }();
+  });
   return py::make_tuple(bearing::to_json(answer).dump(), bearing::warnings(answer), answer.margin);
 }
 

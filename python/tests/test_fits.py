@@ -249,6 +249,18 @@ def test_asked_later_is_what_the_study_says(fit, joint):
         fit.ask({"cykles": [1]})
 
 
+def test_forecasts_are_asked_later(examples):
+    """What a study of a repairable system says of the failures to come, without its being fitted again."""
+    study = os.path.join(examples, "repairable", "study.toml")
+    fit = ww.fit(study, seed=1, method="exact", draws=100, report=False)
+    other = re.sub(r"(?m)^next *=.*", 'next = ["200 day"]', open(study).read())
+    whole = ww.Study.from_toml(other, folder=os.path.dirname(study)).fit(seed=1, method="exact", draws=100, report=False)
+    later = fit.ask({"next": ["200 day"], "age": ["600 day"]})
+    assert later["repairable"] == whole.results["repairable"]
+    assert later["repairable"]["forecast"] != fit.results["repairable"]["forecast"]
+    assert "repairable" not in fit.ask({"age": ["600 day"]})
+
+
 def test_html_shows_verdict_and_parameters(fit):
     html = fit._repr_html_()
     assert "trusted" in html and "mm^3/(N m)" in html and "7.759e-04" in html.replace("0.0007759", "7.759e-04")

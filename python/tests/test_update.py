@@ -142,3 +142,19 @@ def test_a_mode_that_no_earlier_row_has_is_named(tmp_path):
     assert [each["place"] for each in later.results["update"]["contradictions"]] == ["data, row 2, column 'cause'"]
     known = quietly(fit.update, new.assign(cause=["wear", "seal"]), report=False)
     assert not known.results["update"]["contradictions"]
+
+
+def test_what_became_of_the_rows_is_told_of_an_improper_posterior_too(tmp_path):
+    """Two inspections with flat priors leave k and sigma open; the row is known already."""
+    (tmp_path / "two.csv").write_text("cycles,volume [mm^3]\n1000,8.1\n2000,17.0\n")
+    study = ww.Study.from_toml(
+        'model = "archard-joint"\n[data]\nfile = "two.csv"\n[data.columns]\ncycles = "cycles"\nvolume = "volume [mm^3]"\n'
+        '[conditions]\nwork_per_cycle = "5.966 N m"\n[likelihood]\nfamily = "normal"\n[prior]\n'
+        'k = { distribution = "flat", lower = "0 mm^3/(N m)" }\nsigma = { distribution = "flat", lower = "0 mm^3" }\n', folder=tmp_path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        before = study.fit(seed=1, method="exact", draws=100, report=False)
+        later = before.update(pd.DataFrame({"cycles": [2000], "volume [mm^3]": [17.0]}), repeated="once")
+    assert [c.verdict for c in later.checks if c.name == "proper-posterior"] == ["fail"]
+    assert later.results["update"]["repeated"] == 1 and later.results["update"]["counted"] == 0
+    assert later.results["update"]["rows_before"] == 2

@@ -23,7 +23,8 @@ class FitAnswers:
         Returns
         -------
         dict
-            With the keys "predictions", "quantities" and "life" of summary.json, as far as they are asked for.
+            With the keys "predictions", "quantities" and "life" of summary.json, as far as they are asked for. ``next`` of a
+            repairable system adds "repairable", of warranty returns "returns", and ``classical`` of lives "classical".
 
         Raises
         ------
@@ -42,8 +43,7 @@ class FitAnswers:
         """
         if not 0 < level < 1:
             raise InputError(f"level is {level}; it lies between 0 and 1")
-        answers = json.loads(self._live().asked(self.study._asking(predict), float(level)))
-        return {k: answers[k] for k in ("predictions", "quantities", "life") if k in answers}
+        return json.loads(self._live().asked(self.study._asking(predict), float(level)))
 
     def predict(self, new, level=0.9, kind="mean", *, along=None):
         """Predictions under new conditions, of a study of a formula.

@@ -6,8 +6,7 @@ ww_ask <- function(fit, predict, level = 0.9) {
   }
   run <- run_again(fit)
   text <- paste0(without_table(fit$study$text, "predict"), "\n", toml_table("predict", predict))
-  answers <- core(C_asked, run, read_again(fit$study, text), as.double(level))
-  answers[intersect(c("predictions", "quantities", "life"), names(answers))]
+  core(C_asked, run, read_again(fit$study, text), as.double(level))
 }
 
 # The study's tables and keys; of a study of these models alone.

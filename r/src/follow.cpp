@@ -50,7 +50,8 @@ SEXP study_with_text(SEXP study, const std::string& text) {
 }
 
 SEXP population_of(SEXP run, const std::string& path) {
-  return hold(Population(embed::population_of(fitted(run, path))));
+  const embed::Fitted of = fitted(run, path);
+  return hold(interruptible([&] { return Population(embed::population_of(of)); }));
 }
 
 SEXP is_trusted(SEXP population) {
@@ -58,12 +59,16 @@ SEXP is_trusted(SEXP population) {
 }
 
 SEXP followed_unit(SEXP population, const std::string& unit, bool fresh) {
+  const auto& all = held<Population>(population);
   return hold(
-      Unit(std::make_shared<embed::FollowedUnit>(held<Population>(population), unit, fresh)));
+      interruptible([&] { return Unit(std::make_shared<embed::FollowedUnit>(all, unit, fresh)); }));
 }
 
 SEXP take_readings(SEXP unit, SEXP rows) {
-  return list_of(nlohmann::ordered_json::parse(held<Unit>(unit)->update(held<Table>(rows))));
+  const Unit& followed = held<Unit>(unit);
+  const Table& readings = held<Table>(rows);
+  return list_of(
+      nlohmann::ordered_json::parse(interruptible([&] { return followed->update(readings); })));
 }
 
 SEXP forecast(SEXP unit) {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 #include "core.h"
 #include "wearwell/embed/attended.h"
 
@@ -20,6 +24,14 @@ void attended(SEXP progress, const Work& work) {
     function(reported->what, static_cast<double>(reported->done),
              static_cast<double>(reported->total), reported->seconds);
   });
+}
+
+/// What `work` returns; the same without progress. `work` calls nothing of R.
+template <class Work>
+auto interruptible(const Work& work) {
+  std::optional<std::invoke_result_t<const Work&>> result;
+  attended(R_NilValue, [&](const Monitor&) { result.emplace(work()); });
+  return std::move(*result);
 }
 
 }  // namespace wearwell::r

@@ -17,7 +17,7 @@ using embed::ReadStudy;
 using embed::Run;
 
 SEXP read_file(const std::string& file) {
-  return hold(embed::read(source_of(file)));
+  return hold(interruptible([&] { return embed::read(source_of(file)); }));
 }
 
 SEXP read_text(const std::string& text, const std::string& path, const Rcpp::List& tables) {
@@ -27,7 +27,7 @@ SEXP read_text(const std::string& text, const std::string& path, const Rcpp::Lis
     for (R_xlen_t i = 0; i < tables.size(); ++i)
       all.emplace(Rcpp::as<std::string>(names[i]), held<Table>(tables[i]));
   }
-  return hold(embed::read_text(text, path, std::move(all)));
+  return hold(interruptible([&] { return embed::read_text(text, path, std::move(all)); }));
 }
 
 SEXP study_text(SEXP study) {
@@ -126,7 +126,9 @@ bool is_bytes(const std::string& name) {
 
 SEXP files_of(SEXP run) {
   std::vector<std::string> names, contents;
-  for (auto& [name, content] : embed::files_of(held<Run>(run))) {
+  const Run& fitted = held<Run>(run);
+  embed::Files files = interruptible([&] { return embed::files_of(fitted); });
+  for (auto& [name, content] : files) {
     contents.push_back(is_bytes(name) ? in_digits(content) : std::move(content));
     names.push_back(name);
   }
@@ -168,11 +170,14 @@ SEXP write_netcdf(SEXP run, const std::string& target) {
 }
 
 SEXP asked(SEXP run, SEXP other, double level) {
-  return list_of(embed::asked(held<Run>(run), held<ReadStudy>(other), level));
+  const Run& fitted = held<Run>(run);
+  const ReadStudy& study = held<ReadStudy>(other);
+  return list_of(interruptible([&] { return embed::asked(fitted, study, level); }));
 }
 
 SEXP residuals_of(SEXP run) {
-  const embed::Residuals found = embed::residuals(held<Run>(run));
+  const Run& fitted = held<Run>(run);
+  const embed::Residuals found = interruptible([&] { return embed::residuals(fitted); });
   return Rcpp::List::create(
       Rcpp::Named("score") = Rcpp::NumericVector(found.score.begin(), found.score.end()),
       Rcpp::Named("censored") = Rcpp::IntegerVector(found.censored.begin(), found.censored.end()),
@@ -185,7 +190,8 @@ SEXP from_json(const std::string& text) {
 }
 
 SEXP compared(const Rcpp::CharacterVector& folders) {
-  const embed::Compared found = embed::compared(pairs_of(folders));
+  const embed::Files pairs = pairs_of(folders);
+  const embed::Compared found = interruptible([&] { return embed::compared(pairs); });
   return named_list({{"summary", Rcpp::Shield<SEXP>(list_of(found.json))},
                      {"text", Rcpp::Shield<SEXP>(text_of(found.text))},
                      {"page", Rcpp::Shield<SEXP>(text_of(found.page))}});

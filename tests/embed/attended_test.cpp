@@ -1,10 +1,14 @@
 #include "wearwell/embed/attended.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell::embed {
 namespace {
@@ -40,6 +44,31 @@ TEST(Attended, WhatTheOnLookerThrowsStopsTheWorkAndComesOut) {
                                 throw std::domain_error("Ctrl-C");
                               }),
                std::domain_error);
+}
+
+// Loops of the library without a Monitor, on the pool of threads.
+void loop_until_stopped(const Monitor&) {
+  tbb::parallel_for(0, 1000, [](int) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+    while (std::chrono::steady_clock::now() < until) check_stop();
+  });
+}
+
+TEST(Attended, LoopsWithoutAMonitorStopToo) {
+  const auto ctrl_c = [](const auto&) { throw std::domain_error("Ctrl-C"); };
+  EXPECT_THROW(attended<Away>(loop_until_stopped, ctrl_c), std::domain_error);
+}
+
+TEST(Attended, WhatStoppedOneWorkDoesNotStopTheNext) {
+  const auto ctrl_c = [](const auto&) { throw std::domain_error("Ctrl-C"); };
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_THROW(attended<Away>(loop_until_stopped, ctrl_c), std::domain_error);
+    const auto short_loop = [](const Monitor&) {
+      tbb::parallel_for(0, 1000, [](int) { check_stop(); });
+    };
+    EXPECT_NO_THROW(attended<Away>(short_loop, [](const auto&) {}));
+    EXPECT_NO_THROW(tbb::parallel_for(0, 1000, [](int) { check_stop(); }));
+  }
 }
 
 TEST(Attended, TheLastStepBeforeALookIsTold) {

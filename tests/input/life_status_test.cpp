@@ -5,6 +5,7 @@
 
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/input/status_words.h"
 
 namespace wearwell {
 namespace {
@@ -130,6 +131,22 @@ TEST_F(LifeStatusTest, CodesOfTheOtherSetAreRefused) {
               HasSubstr("row 2, column 'status': 'brake' is not a status"));
   EXPECT_THAT(message_of<InputError>([&] { seen("d", {"0"}, "{ column = \"d\", failure = 2 }"); }),
               HasSubstr("failure"));
+}
+
+TEST(StatusWords, MisspeltRunOutsAreRecognized) {
+  for (const char* word : {"still runing", "Runout!", "runnout", "rumout", "runuot", "survved",
+                           "in sevrice", "Durchlaufr", "suspendet", "not faild"})
+    EXPECT_EQ(misspelt_runout(word).has_value(), folded_word(word) != "runout") << word;
+  for (const char* word : {"seal", "sensor", "rubbing", "burnout", "contact", "impact", "valve",
+                           "tight", "running", "suspension", "crack", "mode 1", ""})
+    EXPECT_FALSE(misspelt_runout(word)) << word;
+}
+
+TEST(StatusWords, AFailureOfNoModeNamesNoCause) {
+  for (const char* word : {"failed", "FAILURE", "n.i.O.", "Ausfall", "en panne", "averiado"})
+    EXPECT_TRUE(is_failure_of_no_mode(word)) << word;
+  for (const char* word : {"crack", "Bruch", "rupture", "worn out", "suspended", "seal", ""})
+    EXPECT_FALSE(is_failure_of_no_mode(word)) << word;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell {
 
 int threads_or_all(int wanted) {
@@ -14,8 +16,9 @@ int threads_or_all(int wanted) {
 
 void run_workers(int threads, const std::function<void(int)>& work) {
   std::vector<std::exception_ptr> failures(threads);
-  const auto guarded = [&](int worker) {
+  const auto guarded = [&, signal = current_stop_signal()](int worker) {
     try {
+      const StopScope scope(signal);
       work(worker);
     } catch (...) {
       failures[worker] = std::current_exception();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -70,6 +71,7 @@ double Posterior::value(std::span<const double> z) const {
 }
 
 double Posterior::value_above(std::span<const double> z, double least) const {
+  check_stop();
   std::array<double, max_dimension> x;
   double sum = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -86,6 +88,7 @@ double Posterior::value_above(std::span<const double> z, double least) const {
 }
 
 double Posterior::value_and_gradient(std::span<const double> z, std::span<double> gradient) const {
+  check_stop();
   std::array<double, max_dimension> x, slope, rest;
   double sum = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -113,6 +116,7 @@ double Posterior::log_prior(std::span<const double> x) const {
 }
 
 double Posterior::natural_value(std::span<const double> x) const {
+  check_stop();
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const Distribution& prior = parameters_[i].prior;
     if (!(prior.lower < x[i] && x[i] < prior.upper)) return minus_infinity;
@@ -122,6 +126,7 @@ double Posterior::natural_value(std::span<const double> x) const {
 
 double Posterior::natural_value_and_gradient(std::span<const double> x,
                                              std::span<double> gradient) const {
+  check_stop();
   double sum = likelihood_->value_and_gradient(x, gradient);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const LogDensityAndSlope prior = log_density(parameters_[i].prior, x[i]);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "wearwell/base/monitor.h"
+#include "wearwell/embed/stoppable.h"
 
 namespace wearwell::embed {
 
@@ -26,7 +27,8 @@ struct ProgressSnapshot {
 /// the work.
 using Look = std::function<void(const std::optional<ProgressSnapshot>&)>;
 
-/// Runs `work`, a function of a Monitor, on its own thread, while this thread serves its user.
+/// Runs `work`, a function of a Monitor, on its own thread, while this thread serves its user; its
+/// loops without a Monitor stop too (`check_stop`).
 /// `Away` is what this thread holds while it waits: a released interpreter lock, or nothing.
 /// Returns when the work has ended, and rethrows its exception, or that of `look` if it threw
 /// meanwhile.
@@ -41,13 +43,14 @@ void attended(const Work& work, const Look& look) {
   std::exception_ptr thrown, raised;
   std::thread worker([&] {
     try {
-      work(Monitor{.progress =
-                       [&](const Step& step) {
-                         const std::lock_guard lock(mutex);
-                         fresh = ProgressSnapshot{std::string(step.what), step.done, step.total,
-                                                  step.seconds};
-                       },
-                   .stop = stop.get_token()});
+      const Monitor monitor{.progress =
+                                [&](const Step& step) {
+                                  const std::lock_guard lock(mutex);
+                                  fresh = ProgressSnapshot{std::string(step.what), step.done,
+                                                           step.total, step.seconds};
+                                },
+                            .stop = stop.get_token()};
+      stoppable(monitor.stop, [&] { work(monitor); });
     } catch (...) {
       thrown = std::current_exception();
     }

@@ -3,6 +3,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/embed/fork_guard.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/netcdf/netcdf_file.h"
 #include "wearwell/present/result_folder.h"
@@ -22,6 +24,13 @@ namespace {
 const PosteriorSummary& posterior_of(const Run& run) {
   static_cast<void>(require_posterior_study(*run.of.study));
   return *run.result->posterior;
+}
+
+// Whether [predict] has keys that are answered by what a model adds to its result: forecasts of
+// failures and returns, estimates of frequentist software.
+bool asks_for_addition(const std::string& study) {
+  const auto predict = TomlReader::parse({"study", study}).table("predict");
+  return predict && (predict->has("next") || predict->has("classical"));
 }
 
 }  // namespace
@@ -127,8 +136,18 @@ nlohmann::ordered_json asked(const Run& run, const ReadStudy& other, double leve
   const ForkGuard guard;
   constexpr double usual = 0.9;
   const Ends ends = level == usual ? Ends{} : Ends{(1 - level) / 2, (1 + level) / 2};
-  return posterior_json(
-      asked_later(require_posterior_study(*other.study), posterior_of(run), ends));
+  const PosteriorStudy& study = require_posterior_study(*other.study);
+  const PosteriorSummary& fitted = posterior_of(run);
+  const auto all = posterior_json(asked_later(study, fitted, ends));
+  nlohmann::ordered_json answers;
+  for (const char* each : {"predictions", "quantities", "life"})
+    if (all.contains(each)) answers[each] = all[each];
+  if (study.addition && asks_for_addition(other.text)) {
+    if (!proper(*fitted.fit))
+      throw InputError("the posterior is improper, so that it forecasts nothing");
+    answers.update(study.addition(*fitted.fit).body);
+  }
+  return answers;
 }
 
 Compared compared(const Files& names_and_folders) {

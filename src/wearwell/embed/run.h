@@ -55,7 +55,8 @@ void write_folder(const std::string& target, const Files& files);
 void write_netcdf(const Run& run, const std::string& target);
 
 /// Predictions, quantities and life for another [predict] with the same posterior, as in
-/// summary.json.
+/// summary.json; with predict.next or predict.classical also what the model adds to its result
+/// ("repairable", "returns", "classical").
 nlohmann::ordered_json asked(const Run& run, const ReadStudy& other, double level);
 
 struct Compared {

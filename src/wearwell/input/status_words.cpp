@@ -5,6 +5,7 @@
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "wearwell/base/nearest.h"
@@ -67,6 +68,14 @@ const Words& status_words() {
   return words;
 }
 
+// Whether one insertion, deletion, substitution or transposition makes one word of the other.
+bool one_edit_apart(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty() && a.front() == b.front()) a.remove_prefix(1), b.remove_prefix(1);
+  while (!a.empty() && !b.empty() && a.back() == b.back()) a.remove_suffix(1), b.remove_suffix(1);
+  if (a.size() <= 1 && b.size() <= 1) return true;
+  return a.size() == 2 && b.size() == 2 && a[0] == b[1] && a[1] == b[0];
+}
+
 }  // namespace
 
 std::string folded_word(std::string_view word) {
@@ -102,6 +111,34 @@ std::optional<std::string> near_status_word(std::string_view word) {
     if (each.size() > 2) words.push_back(each);
   }
   return near_name(folded_word(word), words);
+}
+
+std::optional<std::string> misspelt_runout(std::string_view word) {
+  constexpr std::size_t shortest = 6, one_edit_until = 10;
+  const std::string folded = folded_word(word);
+  if (status_words().contains(folded)) return {};
+  std::vector<std::string> words;
+  for (const auto& [each, seen] : status_words()) {
+    if (seen != Censoring::right || each.size() < shortest || each == "censor") continue;  // sensor
+    if (one_edit_apart(folded, each)) return each;
+    if (each.size() >= one_edit_until) words.push_back(each);
+  }
+  return near_name(folded, words);
+}
+
+bool is_failure_of_no_mode(std::string_view word) {
+  static const std::set<std::string, std::less<>> words = [] {
+    std::set<std::string, std::less<>> all;
+    for (const char* each :
+         {"failure",    "failed",      "fail",     "dead",         "died",        "observed",
+          "event",      "uncensored",  "NOK",      "not ok",       "ausgefallen", "Ausfall",
+          "defekt",     "versagt",     "Versagen", "n.i.O.",       "unzensiert",  "défaillance",
+          "défaillant", "défaillante", "en panne", "hors service", "fallo",       "falla",
+          "fallado",    "fallada",     "avería",   "averiado",     "averiada"})
+      all.insert(folded_word(each));
+    return all;
+  }();
+  return words.contains(folded_word(word));
 }
 
 std::optional<bool> truth_in(std::string_view word) {

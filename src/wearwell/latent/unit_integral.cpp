@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 
 // Longer than others: one integrand, its mode, its nodes, and the sums over them.
@@ -94,6 +95,7 @@ class Search {
     constexpr double probe = 0.02, close = 0.1;
     bool first = true;
     for (int step = 0; step < most_steps; ++step) {
+      check_stop();
       bool any = false;
       for (std::size_t u = 0; u < units_; ++u) {
         next[u] = at[u];
@@ -148,6 +150,7 @@ class Search {
     begin(at, log_f, slope);
     constexpr double width = 1e-3;
     for (int step = 0; step < most_steps; ++step) {
+      check_stop();
       if (std::none_of(wanted_.begin(), wanted_.end(), [](auto w) { return w; })) break;
       for (std::size_t u = 0; u < units_; ++u) probe[u] = {at[u][0] + width, at[u][1]};
       look(probe, other, one);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell::plan {
@@ -65,6 +66,7 @@ class Nested {
   }
 
   Simulated sample(int s) const {
+    check_stop();
     const std::size_t n = nodes_.weight.size();
     const double share = (s + 0.5) / settings_.samples * cumulated_.back();
     const auto at = std::upper_bound(cumulated_.begin(), cumulated_.end(), share);
@@ -149,6 +151,7 @@ Gain gain_of_one(const GoalNodes& nodes, const Outcomes& outcomes) {
   Gain gain;
   std::vector<double> weight(n);
   for (std::size_t m = 0; m < outcomes.size(); ++m) {
+    check_stop();
     const auto column = outcomes.log_probability.col(static_cast<Index>(m));
     double evidence = 0, log_sum = 0;
     for (std::size_t j = 0; j < n; ++j) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/plan/new_level_integral.h"
@@ -96,6 +97,7 @@ class JoinedStudy {
 
   // Of the tests and of the copies alone: the sum of the log factors of each.
   std::vector<double> new_factors(Index j, double effect) const {
+    check_stop();
     const std::vector<double> all = factors(j, effect);
     std::vector<double> sums;
     std::size_t at = first_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell {
@@ -183,6 +184,7 @@ double CellMixture::mass() const {
 }
 
 double CellMixture::cdf(double x) const {
+  check_stop();
   double below = 0, all = 0;
   for (const Cell& cell : cells_) {
     all += cell.weight;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/boost_policy.h"
 #include "wearwell/math/root.h"
 
@@ -23,6 +24,7 @@ ItemMixture::ItemMixture(const WeightedDraws& draws, const Function& center,
 }
 
 double ItemMixture::below(double log_value) const {
+  check_stop();
   double sum = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     sum +=

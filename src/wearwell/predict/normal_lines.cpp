@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/root.h"
@@ -109,6 +110,7 @@ double NormalLines::below(const Line& line, double x) const {
 }
 
 double NormalLines::cdf(double x) const {
+  check_stop();
   if (!defined_ || lines_.empty()) return std::nan("");
   double sum = 0;
   for (const Line& line : lines_) sum += line.weight * below(line, x);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
 #include "wearwell/predict/item_mixture.h"
@@ -28,6 +29,7 @@ struct Mixture {
   double middle = 0, width = 0;  // approximate location and width: medians over the draws
 
   double cdf(double y) const {
+    check_stop();
     const bool lognormal = family == ObservationFamily::lognormal;
     if (lognormal && y <= 0) return 0;
     const double t = lognormal ? std::log(y) : y;
@@ -70,6 +72,7 @@ struct Mixture {
     const bool lognormal = family == ObservationFamily::lognormal;
     double t = lognormal ? std::log(near) : near;
     for (int step = 0; step < 8; ++step) {
+      check_stop();
       double below = 0, slope = 0, bend = 0;
       for (std::size_t i = 0; i < weight.size(); ++i) {
         const double each = weight[i] * density(distribution[i], t);
@@ -105,6 +108,7 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
   Mixture all{family, {}, {}};
   std::vector<WeightedValue> means, sds;
   for (std::size_t i = 0; i < n; ++i) {
+    check_stop();
     const double* x = draws.values.row(dominant.rows[i]).data();
     const double s = sd(x);
     if (item) stratified_normals(i, strata, z);

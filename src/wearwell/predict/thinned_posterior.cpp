@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell {
@@ -137,6 +138,7 @@ class Region {
 // Splits at equal weight along the axis of largest spread until there are enough regions.
 void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t regions,
            std::vector<std::size_t>& kept, std::vector<double>& weights) {
+  check_stop();
   const auto moments = static_cast<std::size_t>(Region::moments(cloud.at.cols()));
   if (regions <= 1 || points.size() <= 2 * moments) {
     return Region(cloud, points).reduce(points, kept, weights);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell::prognosis {
@@ -25,6 +26,7 @@ CommonPopulation independent(std::span<const KnownUnit* const> units, std::span<
   common.why = why;
   common.failed.assign(1, std::vector<std::vector<double>>(after.size()));
   for (const KnownUnit* unit : units) {
+    check_stop();
     for (std::size_t m = 0; m < after.size(); ++m)
       common.failed[0][m].push_back(failed_by(unit->passed, unit->remaining, after[m]));
   }
@@ -72,6 +74,7 @@ CommonPopulation in_common(const KnownLives& lives, std::span<const KnownUnit* c
       return alone;
     }
     for (std::size_t k = 0; k < populations; ++k) {
+      check_stop();
       log_weight[k] += unit->log_likelihood[k];
       shown |= unit->log_likelihood[k] != 0;
       for (std::size_t m = 0; m < after.size(); ++m)

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell::prognosis {
 
 Count how_many(std::span<const double> probability) {
   Count count = {1};
   count.reserve(probability.size() + 1);
   for (const double p : probability) {
+    check_stop();
     count.push_back(0);
     for (std::size_t k = count.size() - 1; k > 0; --k)
       count[k] = count[k] * (1 - p) + count[k - 1] * p;

@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -35,6 +36,7 @@ class Asked {
         history_(history) {}
 
   std::unique_ptr<TrackedUnit> after(double value, double* p_value = nullptr) const {
+    check_stop();
     auto unit = tracker_.restore(saved_);
     Reading reading = reading_;
     reading.numbers[column_] = value;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/prognosis/least.h"
 
 namespace wearwell::prognosis {
@@ -85,6 +86,7 @@ InspectionInterval cheapest(const PopulationLives& lives, const Inspected& inspe
 
 InspectedLife hidden_failure(const WeightedLives& lives, const Costs& costs, double hidden,
                              double interval) {
+  check_stop();
   InspectedLife life;
   life.inspections = 1 + later_inspections(lives, interval);
   life.length = interval * life.inspections;
@@ -95,6 +97,7 @@ InspectedLife hidden_failure(const WeightedLives& lives, const Costs& costs, dou
 }
 
 InspectedLife perfect_inspection(const WeightedLives& lives, const Costs& costs, double interval) {
+  check_stop();
   InspectedLife life;
   life.failing = lives.cdf(interval);
   life.inspections = later_inspections(lives, interval);

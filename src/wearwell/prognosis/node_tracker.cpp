@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/prognosis/unit_state.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
@@ -140,6 +141,7 @@ PredictiveTails NodeUnit::tails(const NodeReading& reading_at) const {
   PredictiveTails all;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (!(weight_[i] > negligible)) continue;
+    check_stop();
     const double share = reading_at.cdf(node(i));
     all.below += weight_[i] * share;
     all.above += weight_[i] * (1 - share);
@@ -167,6 +169,7 @@ UpdateResult NodeUnit::update(const Reading& reading, const History& history) {
   std::vector<double> after = nodes_.log_weight;
   bool any = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
+    check_stop();
     if (!(after[i] > -infinity)) continue;
     const double own = reading_at.log_density(node(i));
     after[i] = own < infinity ? after[i] + own : -infinity;
@@ -202,6 +205,7 @@ Forecast NodeUnit::forecast() const {
   std::vector<double> level, level_weight, life, life_weight;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (!(weight_[i] > negligible)) continue;
+    check_stop();
     level.push_back(degradation_path->level(node(i), forecast.now));
     level_weight.push_back(weight_[i]);
     const double end = degradation_path->end(node(i));
@@ -231,6 +235,7 @@ std::vector<ForecastBand> NodeUnit::ahead(std::span<const double> places) const 
   std::vector<ForecastBand> path;
   std::vector<double> level(weight_.size());
   for (const double at : places) {
+    check_stop();
     for (std::size_t i = 0; i < level.size(); ++i)
       level[i] = weight_[i] > negligible ? degradation_path->level(node(i), at) : 0;
     const std::vector<double> q = weighted_quantiles(level, weight_, std::array{0.05, 0.5, 0.95});

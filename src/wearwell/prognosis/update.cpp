@@ -41,6 +41,22 @@ class CampaignOfAllRows : public Study {
   std::string names_;
 };
 
+// An improper posterior gives no additions of a study, but what became of the rows is known.
+class PosteriorOfAllRows : public PosteriorStudy {
+ public:
+  PosteriorOfAllRows(PosteriorStudy study, nlohmann::ordered_json rows)
+      : PosteriorStudy(std::move(study)), rows_(std::move(rows)) {}
+
+  Result run(const RunOptions& options, const Monitor& monitor) const override {
+    Result result = PosteriorStudy::run(options, monitor);
+    if (!result.body.contains("update")) result.body["update"] = rows_;
+    return result;
+  }
+
+ private:
+  nlohmann::ordered_json rows_;
+};
+
 std::string names_of(const std::vector<NewRows>& rows) {
   std::vector<std::string> names;
   for (const NewRows& each : rows) {
@@ -152,8 +168,9 @@ StudyOfAllRows study_of_all_rows(const CarriedState& state, const std::vector<Ne
   const PosteriorStudy& of_all = require_posterior_study(*study);
   judge_new_data(of_all, state.posterior, joined);
   report_new_words(state.parameters, of_all, tables, joined);
-  all.study =
-      std::make_shared<const PosteriorStudy>(updated_study(of_all, std::move(joined), names));
+  nlohmann::ordered_json of_rows = rows_json(joined, names);
+  all.study = std::make_shared<const PosteriorOfAllRows>(
+      updated_study(of_all, std::move(joined), names), std::move(of_rows));
   return all;
 }
 

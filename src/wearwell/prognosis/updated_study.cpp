@@ -64,23 +64,14 @@ Check check_of(const JoinedData& joined, const std::string& files) {
 
 PresetAddition addition_of(const JoinedData& joined, const std::string& files) {
   PresetAddition added;
-  nlohmann::ordered_json update = {{"files", files},
-                                   {"rows_before", joined.before},
-                                   {"counted", joined.counted},
-                                   {"repeated", joined.repeated},
-                                   {"contradictions", nlohmann::ordered_json::array()},
-                                   {"notes", joined.notes}};
+  added.body["update"] = rows_json(joined, files);
   present::Table table{"new-data",
                        "New readings that contradict the earlier posterior",
                        {{"row", "1", present::given}, {"reading"}, {"contradicts"}},
                        {},
                        true};
-  for (const Contradiction& each : joined.contradictions) {
-    update["contradictions"].push_back(
-        {{"row", each.row + 1}, {"place", each.place}, {"why", each.why}});
+  for (const Contradiction& each : joined.contradictions)
     table.rows.push_back({present::count(each.row + 1), each.place, each.why});
-  }
-  added.body["update"] = std::move(update);
   if (!joined.contradictions.empty()) added.blocks["checks"] = {{table}};
   return added;
 }
@@ -95,6 +86,19 @@ void add(PresetAddition own, PresetAddition& all) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json rows_json(const JoinedData& joined, const std::string& files) {
+  nlohmann::ordered_json update = {{"files", files},
+                                   {"rows_before", joined.before},
+                                   {"counted", joined.counted},
+                                   {"repeated", joined.repeated},
+                                   {"contradictions", nlohmann::ordered_json::array()},
+                                   {"notes", joined.notes}};
+  for (const Contradiction& each : joined.contradictions)
+    update["contradictions"].push_back(
+        {{"row", each.row + 1}, {"place", each.place}, {"why", each.why}});
+  return update;
+}
 
 std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& study,
                                                           const WeightedDraws& before,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
 
 /// Adds them to the known contradictions; if the check is not possible, adds a note.
 void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, JoinedData& joined);
+
+/// What became of the new rows, as `update` in summary.json.
+nlohmann::ordered_json rows_json(const JoinedData& joined, const std::string& files);
 
 /// The study with an additional check `new-data`, which reports the counts of rows; summary.json
 /// has it under `update`.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/prognosis/float_order.h"
 
@@ -128,6 +129,7 @@ double WeightedLives::quantile(double p) const {
 }
 
 double WeightedLives::mean_up_to(double x) const {
+  check_stop();
   // The integral of the survival function: linear between points.
   if (life_.empty()) return std::nan("");
   if (x <= life_.front()) return x;
@@ -145,6 +147,7 @@ double WeightedLives::mean_up_to(double x) const {
 }
 
 WeightedLives WeightedLives::beyond(double x) const {
+  check_stop();
   const auto above = std::upper_bound(life_.begin(), life_.end(), x);
   if (above == life_.begin()) {
     std::vector<double> life(life_);

@@ -356,6 +356,13 @@ TEST_F(FailureModesTest, CellsWithTwoReadingsAreRefused) {
   says("life,mode\n1,S\n2,W\n3,C\n", columns + modes + rest,
        "'S' can mean a run-out, or a failure mode");
   says("life,mode\n1,1\n2,2\n3,0\n", columns + modes + rest, "'0' can mean a run-out");
+  for (const char* others : {"3,b", "3,running"})
+    says(std::string("life,mode\n1,a\n2,still runing\n") + others + "\n", columns + modes + rest,
+         "row 2, column 'mode': 'still runing' can mean a run-out ('stillrunning', misspelt)");
+  says("life,mode\n1,seal\n2,failed\n3,running\n", columns + modes + rest,
+       "row 2, column 'mode': 'failed' can mean a failure of unknown mode, or a failure mode of "
+       "this "
+       "name (beside seal)");
   says("life,mode\n1,a\n2,a|\n3,b\n", columns + modes + rest, "empty failure mode");
   says("life,mode,status\n1,a,failure\n2,b,runout\n3,b,failure\n",
        columns + "status = \"status\"\n" + modes + rest, "a run-out has no mode");
@@ -380,6 +387,25 @@ TEST_F(FailureModesTest, CellsWithTwoReadingsAreRefused) {
            "[likelihood.life]\nfamily = \"normal\"\nmean = \"eta[mode]\"\nsd = \"beta[mode]\"\n" +
            flat("eta beta"),
        "positive lives");
+}
+
+// The study states what its words mean.
+TEST_F(FailureModesTest, WordsOfTwoReadingsAreReadAsTheStudyStates) {
+  const auto modes_of = [&](const std::string& words) {
+    return model("life,mode\n1,seal\n2,failed\n3,still runing\n4,sensor\n5,suspended\n",
+                 "[data.columns]\nlife = { column = \"life\", unit = \"1\" }\nmode = \"mode\"\n"
+                 "[failure_modes]\ncolumn = \"mode\"\n" +
+                     words +
+                     "[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta[mode]\"\n"
+                     "shape = \"beta\"\n" +
+                     flat("eta beta"))
+        ->modes->modes;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(modes_of("runout = [\"still runing\", \"suspended\"]\nunknown = \"failed\"\n"),
+            (Names{"seal", "sensor"}));
+  EXPECT_EQ(modes_of("runout = \"suspended\"\nunknown = \"unknown\"\n"),
+            (Names{"seal", "failed", "still runing", "sensor"}));
 }
 
 // Words and sets: run-outs, unknown modes, possible modes.

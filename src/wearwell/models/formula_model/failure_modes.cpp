@@ -68,7 +68,25 @@ class ModeCells {
     return none ? Named{} : Named{false, parts(i, text)};
   }
 
+  // "failed" beside "seal" and "motor": a mode of this name, or one that nobody knows.
+  void refuse_failures_of_no_mode(const std::vector<std::string>& modes) const {
+    if (!unknown_.empty() || modes.size() < 2) return;
+    for (std::size_t i = 0; i < all_.rows.size(); ++i) {
+      const std::string text = word(i);
+      if (all_.responses[i].seen == Censoring::right || !is_failure_of_no_mode(text)) continue;
+      fail(i,
+           fmt::format("'{0}' can mean a failure of unknown mode, or a failure mode of this name "
+                       "(beside {1}); for the first write 'unknown' in the cell, or "
+                       "[failure_modes] unknown = \"{0}\"; for the second unknown = \"unknown\"",
+                       text, fmt::join(others(modes, text), ", ")));
+    }
+  }
+
  private:
+  static std::vector<std::string> others(std::vector<std::string> modes, const std::string& but) {
+    std::erase(modes, but);
+    return modes;
+  }
   std::string word(std::size_t i) const {
     const std::string text = cell_word(column_, all_.rows[i]);
     return is_missing_mark(text) ? std::string() : text;
@@ -107,7 +125,14 @@ class ModeCells {
   }
 
   void refuse_two_readings(std::size_t i, const std::string& mode) const {
-    if (data_.status || !runout_.empty() || marks_runouts_) return;
+    if (!runout_.empty()) return;
+    if (const auto near = misspelt_runout(mode); near && !data_.status)
+      fail(i,
+           fmt::format("'{}' can mean a run-out ('{}', misspelt), or a failure mode of this name; "
+                       "correct the cell, or list the words of this column that mark run-outs: "
+                       "[failure_modes] runout = [...]",
+                       mode, *near));
+    if (data_.status || marks_runouts_) return;
     if (!is_runout_word(mode) && mode != "0") return;
     fail(i,
          fmt::format("'{0}' can mean a run-out, or a failure mode of this name; give the study a "
@@ -171,6 +196,7 @@ FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
       found.possible[all.rows[i]] |= std::uint32_t{1} << k;
     }
   }
+  cells.refuse_failures_of_no_mode(found.modes);
   if (found.modes.empty())
     throw InputError(
         fmt::format("{}: column '{}' names no failure mode", data.table.source, heading));

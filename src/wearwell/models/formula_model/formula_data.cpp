@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/cell_text.h"
@@ -98,6 +99,7 @@ class ObservedReader {
   Observed read(bool may_lack) {
     Observed all;
     for (std::size_t i = 0; i < data_.table.rows; ++i) {
+      check_stop();
       if (may_lack && exact_ && std::isnan(exact_->values[i])) continue;
       const Response response = row(i);
       all.rows.push_back(i);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/predict/interpolated.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/predict/thinned_posterior.h"
@@ -57,6 +58,7 @@ Risk risk_of_subpopulation(std::shared_ptr<const Path> family_parameters, const 
 LifeDistribution::LifeDistribution(std::vector<Risk> risks) : risks_(std::move(risks)) {}
 
 double LifeDistribution::Next::cdf(double life) const {
+  check_stop();
   constexpr std::size_t part = 4096;  // components, independent of the number of threads
   std::vector<double> sums((weights_.size() + part - 1) / part);
   const std::size_t stride = parameters_of(risks_);

@@ -47,6 +47,9 @@ void require_monotone(const Asked& asked, const TomlReader& table, const std::st
   }
 }
 
+// Lives of all units are computed together.
+constexpr std::size_t most_units = 500;
+
 // Each unit of the study, and a new one; with predict.lives_of only those, with an empty list only
 // the new one.
 void add_units(const Asked& asked, const TomlReader& table, const std::string& name,
@@ -54,6 +57,13 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
   const std::vector<std::string>& units = asked.model->units;
   const bool only = asked.predict.has("lives_of");
   const std::vector<std::string> reported = asked.predict.texts("lives_of");
+  if (!only && units.size() > most_units)
+    asked.predict.fail(
+        "limit",
+        fmt::format("the data have {} units of '{}', and the remaining useful life of each "
+                    "takes about 10 MB of memory; without a choice at most {} are computed: "
+                    "lives_of = [\"{}\"] chooses some, lives_of = [] only a new one",
+                    units.size(), asked.noun, most_units, units.front()));
   for (const std::string& each : reported) {
     if (std::find(units.begin(), units.end(), each) == units.end()) {
       asked.predict.fail("lives_of", fmt::format("the data have no {} '{}'{}", asked.noun, each,

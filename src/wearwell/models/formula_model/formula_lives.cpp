@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/models/formula_model/effect_lines.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/predict/interpolated.h"
@@ -68,6 +69,7 @@ class Part {
   // Lives of units at `z`, as many as `z` holds.
   void solve(Crossing& crossing, const std::vector<double>& z, std::size_t count,
              std::vector<double>& place) {
+    check_stop();
     place.resize(count);
     past_.resize(count);
     level_.assign(count, path_.limit);

@@ -1,0 +1,88 @@
+"""Ctrl-C ends every long question, and what follows works as before."""
+
+import os
+import re
+import signal
+import threading
+import time
+import warnings
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import wearwell as ww
+
+costs = {"failure_cost": "12000 EUR", "replacement_cost": "900 EUR", "inspection_cost": "50 EUR"}
+
+
+def liners(folder):
+    """The example with a known scatter between machines, and no lives of machines: two parameters are fitted soon."""
+    with open(os.path.join(folder, "study.toml"), encoding="utf-8") as file:
+        text = file.read()
+    for before, after in ((r"(?m)^at +=.*", "lives_of = []"), (r"(?m)^k_scatter .*", ""), ('"k_scatter"', "0.35"), ("k_scatter", "0.35")):
+        text = re.sub(before, after, text)
+    return ww.Study.from_toml(text, folder=folder).fit(seed=1, draws=100, method="exact", report=False)
+
+
+@pytest.fixture(scope="module")
+def subjects():
+    """Fits whose questions take long, each made once."""
+    examples = os.path.join(os.environ.get("WEARWELL_SOURCE", "."), "examples")
+    lives = np.random.default_rng(1).weibull(2, 500_000) * 1000
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        springs = ww.fit(os.path.join(examples, "spring", "sensible.toml"), seed=1, draws=100, method="exact", report=False)
+    made = {"liners": liners(os.path.join(examples, "formula")), "springs": springs, "lives": pd.DataFrame({"life [h]": lives}),
+            "hours": pd.DataFrame({"hours": lives})}
+    made["folder"] = os.path.join(examples, "formula", "wear.csv")
+    return made
+
+
+def springs_to_test(n):
+    return pd.DataFrame({"alternating_stress_MPa": np.linspace(240, 300, n), "mean_stress_MPa": 1000.0, "specimens": 3})
+
+
+def readings(n):
+    return pd.DataFrame({"s": np.linspace(1, 100, n), "F": 20.0, "machine": ""})
+
+
+# What takes longer than the interrupt waits, on a machine with nothing else to do.
+calls = {
+    "decide, a table": lambda s: ww.decide(s["lives"], **costs),
+    "decide, another reading": lambda s: ww.decide(s["liners"], **costs, unit="1", inspect_after="5 km", given={"force": "20 N"}),
+    "plan next, independent tests": lambda s: ww.plan.next(s["springs"], goal="B10 at softer spring", candidates=springs_to_test(400)),
+    "plan next, units that differ": lambda s: ww.plan.next(s["liners"], goal="k", candidates=readings(100)),
+    "ask": lambda s: s["liners"].ask({"along": "distance", "at": [f"{k} km" for k in range(1, 400)], "given": {"force": "20 N"}}),
+    "update": lambda s: s["liners"].update(pd.DataFrame({"h_um": [50.0], "F": [20.0], "s": [30.0], "machine": ["1"]})),
+    "backtest": lambda s: s["liners"].backtest(s["folder"], pd.DataFrame({"machine": [str(i) for i in range(1, 13)], "life [km]": 80.0})),
+    "life of a large table": lambda s: ww.life(s["hours"], "hours", units={"hours": "h"}, seed=1, report=False),
+}
+
+
+@pytest.mark.parametrize("name", calls)
+def test_ctrl_c_ends_a_question(subjects, name):
+    """The processor's time is counted: other work on the machine does not matter. The bound is generous."""
+    sent = []
+
+    def interrupt():
+        sent.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.1, interrupt)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            calls[name](subjects)
+            timer.cancel()
+    finally:
+        timer.join()
+    assert time.process_time() - sent[0] < 2
+
+
+def test_the_next_question_is_answered(subjects):
+    """A request to stop one question reaches no other."""
+    for name in ("decide, a table", "plan next, independent tests"):
+        test_ctrl_c_ends_a_question(subjects, name)
+        lives = {"life [h]": [1200, 1500, 1900, 2300, 2600, 3100, 3600]}
+        assert ww.decide(lives, **costs).summary["unit"] == "h"
