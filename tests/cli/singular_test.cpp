@@ -84,6 +84,25 @@ TEST_F(SingularStudy, LivesExactlyOnALineAreNotTrusted) {
   EXPECT_FALSE(line(0)["trusted"]);
 }
 
+// One failure: the density of the shape has no end, that of the scale neither, and a search for the mode leaves for the
+// largest numbers of the machine.
+TEST_F(SingularStudy, OneFailureDoesNotDetermineAWeibull) {
+  const json summary =
+      exact("formula", "hours,status", "100,failure\n50,runout\n", R"toml([data.columns]
+life = { column = "hours", unit = "h" }
+status = "status"
+[likelihood.life]
+family = "weibull"
+scale = "m"
+shape = "b"
+[prior]
+m = { distribution = "flat", lower = "0 h" }
+b = { distribution = "flat", lower = 0 }
+)toml");
+  EXPECT_FALSE(summary["trusted"]);
+  EXPECT_THAT(summary.dump(), testing::HasSubstr("may be improper"));
+}
+
 // Six lives, two parameters of the line: sigma has density sigma^-4 exp(-S/2 sigma^2) with S the sum of squares beside
 // the best line, b so well known that its factor 1/b is a constant.
 TEST_F(SingularStudy, LivesTenMillionthsBesideALineAreIntegrated) {

@@ -47,6 +47,19 @@ class Sense {
                   advice);
   }
 
+  // No quantity of any unit is as large: the posterior has no finite integral, and its mode was
+  // searched for up to the largest numbers of the machine.
+  void magnitude(const std::string& what, const std::string& unit, double q05, double q95) {
+    constexpr double largest = 1e100;
+    if (std::abs(q05) < largest && std::abs(q95) < largest) return;
+    findings_.add(
+        Verdict::fail,
+        fmt::format("the 90 % interval of {} is {:.3g} to {:.3g}{}: the posterior may be "
+                    "improper",
+                    what, q05, q95, with_unit(unit)),
+        fmt::format("The data alone do not determine {}: state prior knowledge of it.", what));
+  }
+
   Check result() {
     return findings_.result(
         fmt::format("every result is a number, and no 90 % interval spans more than {:.0f} decades",
@@ -100,6 +113,8 @@ Check sense_check(const PosteriorSummary& result) {
     // Another check covers means and deviations that do not exist.
     if (std::isnan(p.q05) || std::isnan(p.q95)) {
       sense.interval(each.name, each.unit, p.q05, p.q95, {}, false);
+    } else {
+      sense.magnitude(each.name, each.unit, p.q05, p.q95);
     }
   }
   for (const PredictionSummary& each : result.predictions) {
