@@ -117,11 +117,17 @@ TEST_P(Stores, KeepEventsInTheirOrder) {
   EXPECT_TRUE(std::isnan(events[1].use));
   EXPECT_EQ(events[2].cancels, 1);
   EXPECT_EQ(store->events_after(events[0].number).size(), 2U);
+  // As long as names, notes and labels may be.
+  UnitEvent longest = corrected;
+  longest.unit = std::string(200, 'u');
+  longest.note = std::string(1000, 'n');
+  longest.labels = std::vector<std::string>(40, std::string(200, 'l'));
+  EXPECT_THAT(store->add_events({longest, longest}), ElementsAre(Kept::stored, Kept::repeated));
   // A sensor's offset, and readings as they were stored.
   UnitEvent sensor{0, "a", EventKind::sensor, 3, 80, "x", ""};
   sensor.offset = -2.5e-6;
   store->add_events({sensor});
-  EXPECT_EQ(store->events_after(events[2].number)[0].offset, -2.5e-6);
+  EXPECT_EQ(store->events_after(events[2].number)[1].offset, -2.5e-6);
   store->add({reading("a", 3, 0.5)});
   ASSERT_TRUE(store->reading("a", 3));
   EXPECT_EQ(store->reading("a", 3)->numbers[0], 0.5);

@@ -59,7 +59,7 @@ UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingM
     event.labels = at.labels;
   } else if (cancelled) {
     const Field* number = find_field(fields, "number");
-    if (!number || !number->whole)
+    if (!number || !number->whole || number->integer < 1)
       throw InputError("number must be a whole number: of the event that is cancelled");
     event.cancels = number->integer;
   } else if (event.kind == EventKind::sensor) {

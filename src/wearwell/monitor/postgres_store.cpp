@@ -34,7 +34,7 @@ constexpr const char* tables = R"(
 constexpr const char* event_table = R"(
   CREATE TABLE wearwell_event (
     number bigserial PRIMARY KEY, unit text NOT NULL, event text NOT NULL, key bigint NOT NULL, received_ms bigint NOT NULL,
-    author text NOT NULL, note text NOT NULL, content text NOT NULL, UNIQUE (unit, event, key, author, note, content)))";
+    author text NOT NULL, note text NOT NULL, content text NOT NULL, identity text NOT NULL UNIQUE))";
 
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
@@ -259,10 +259,11 @@ std::vector<Kept> PostgresStore::add_events(const std::vector<UnitEvent>& events
     kept.clear();
     for (const UnitEvent& each : events) {
       const pqxx::result stored = work.exec_params(
-          "INSERT INTO wearwell_event (unit, event, key, received_ms, author, note, content) "
-          "VALUES ($1, $2, $3, $4, $5, $6, $7) ON CONFLICT DO NOTHING RETURNING number",
+          "INSERT INTO wearwell_event (unit, event, key, received_ms, author, note, content, "
+          "identity) VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT DO NOTHING RETURNING "
+          "number",
           each.unit, name(each.kind), each.key, each.received_ms, each.author, each.note,
-          content_of(each));
+          content_of(each), identity_of(each));
       kept.push_back(stored.empty() ? Kept::repeated : Kept::stored);
     }
   });

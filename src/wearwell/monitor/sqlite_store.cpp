@@ -30,7 +30,7 @@ constexpr const char* tables = R"(
 constexpr const char* event_table = R"(
   CREATE TABLE event (
     number INTEGER PRIMARY KEY, unit TEXT NOT NULL, event TEXT NOT NULL, key INTEGER NOT NULL, received_ms INTEGER NOT NULL,
-    author TEXT NOT NULL, note TEXT NOT NULL, content TEXT NOT NULL, UNIQUE (unit, event, key, author, note, content));)";
+    author TEXT NOT NULL, note TEXT NOT NULL, content TEXT NOT NULL, identity TEXT NOT NULL UNIQUE);)";
 
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
@@ -234,13 +234,14 @@ std::vector<Kept> SqliteStore::add_events(const std::vector<UnitEvent>& events) 
   std::vector<Kept> kept;
   SqliteTransaction transaction(write_);
   SqliteStatement insert(write_,
-                         "INSERT INTO event (unit, event, key, received_ms, author, note, content) "
-                         "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+                         "INSERT INTO event (unit, event, key, received_ms, author, note, content, "
+                         "identity) VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   for (const UnitEvent& each : events) {
-    const std::string content = content_of(each);
+    const std::string content = content_of(each), identity = identity_of(each);
     insert.bind(1, std::string_view(each.unit)).bind(2, std::string_view(name(each.kind)));
     insert.bind(3, each.key).bind(4, each.received_ms).bind(5, std::string_view(each.author));
-    insert.bind(6, std::string_view(each.note)).bind(7, std::string_view(content)).run();
+    insert.bind(6, std::string_view(each.note)).bind(7, std::string_view(content));
+    insert.bind(8, std::string_view(identity)).run();
     kept.push_back(write_.changes() == 1 ? Kept::stored : Kept::repeated);
   }
   transaction.commit();

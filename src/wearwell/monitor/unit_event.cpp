@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "wearwell/base/sha1.h"
 #include "wearwell/monitor/store.h"
 
 namespace wearwell::monitor {
@@ -55,6 +56,12 @@ std::string content_of(const UnitEvent& event) {
     json["labels"] = json_of(event.labels);
   }
   return json.dump();
+}
+
+std::string identity_of(const UnitEvent& event) {
+  const nlohmann::json all = {event.unit,   name(event.kind), event.key,
+                              event.author, event.note,       content_of(event)};
+  return sha1_of(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void read_content(const std::string& text, UnitEvent& event) {

@@ -48,6 +48,8 @@ struct UnitEvent {
 
 /// What an event says beside unit, kind, key, author and note, as JSON for a store.
 std::string content_of(const UnitEvent& event);
+/// A SHA-1 of all that an event says: the same for the same event that comes again.
+std::string identity_of(const UnitEvent& event);
 /// Sets these fields. Throws StoreError if the text is damaged.
 void read_content(const std::string& json, UnitEvent& event);
 
