@@ -36,7 +36,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wearwell DESTINATION ${CMAKE_INSTALL
   FILES_MATCHING PATTERN "*.h")
 install(FILES ${DuckDB_LIBRARY} DESTINATION ${third_party} COMPONENT program)
 install(FILES ${DuckDB_INCLUDE_DIR}/duckdb.h DESTINATION ${third_party})
-install(FILES ${PROJECT_SOURCE_DIR}/setup/package/wearwell-monitor@.service DESTINATION lib/systemd/system COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/setup/package/wearwell-monitor@.service DESTINATION lib/systemd/system
+  COMPONENT service EXCLUDE_FROM_ALL)  # it names /usr/bin
 install(FILES ${PROJECT_SOURCE_DIR}/setup/package/grafana.json DESTINATION ${CMAKE_INSTALL_DATADIR}/wearwell COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wearwell COMPONENT program RENAME copyright)
 install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wearwell COMPONENT program)

@@ -17,7 +17,7 @@ class Events : public FleetRig {
   Events() { source_.mapping = plain(); }
   static ReadingMapping plain() {
     static const GrowthTracker tracker;
-    ReadingMapping mapping = plain_mapping(tracker);
+    ReadingMapping mapping = plain_mapping(tracker, false);
     mapping.unit = "machine";
     mapping.sequence = "n";
     return mapping;
@@ -179,6 +179,62 @@ TEST_F(Events, APartIsOutOfServiceUntilItIsReplaced) {
             "a (part 2),10,suspended\n"
             "b,50,suspended\n");
   EXPECT_EQ(count, 3U);
+}
+
+// Of two ends under one key the last holds, and a part cannot end before it is installed.
+TEST_F(Events, EndsOfAPart) {
+  open();
+  for (int n = 1; n <= 3; ++n) deliver(message("a", n, 50.0 * n, 50 * n));
+  report("a", "removed", R"("n": 3)");
+  report("a", "failed", R"("n": 3, "time": 160)");
+  EXPECT_EQ(view("a").service, "failed");
+  std::uint64_t count = 0;
+  EXPECT_THAT(lives_as_csv(*store_, tracker_, count), HasSubstr("a,160,failed"));
+  report("a", "replaced", R"("n": 4, "time": 200)");
+  report("a", "failed", R"("n": 5, "time": 40)");
+  EXPECT_THAT(message_of<InputError>([&] { lives_as_csv(*store_, tracker_, count); }),
+              HasSubstr("unit 'a' is reported as failed at time = 40"));
+}
+
+// An event that is stored already but does not hold is said to be so.
+TEST_F(Events, ThatCameBeforeAndDoNotHold) {
+  open();
+  deliver(message("a", 1, 10, 10));
+  report("a", "corrected", R"("n": 1, "wear": 20, "time": 10)");
+  report("a", "corrected", R"("n": 1, "wear": 30, "time": 10)");
+  EXPECT_EQ(report("a", "corrected", R"("n": 1, "wear": 30, "time": 10)").problem, "");
+  const Delivery again = report("a", "corrected", R"("n": 1, "wear": 20, "time": 10)");
+  EXPECT_EQ(again.repeated, 1U);
+  EXPECT_THAT(again.problem, HasSubstr("event 1 again, which event 2 has replaced"));
+  report("a", "failed", R"("n": 1, "time": 10)");
+  report("a", "cancelled", R"("number": 3)");
+  EXPECT_THAT(report("a", "failed", R"("n": 1, "time": 10)").problem,
+              HasSubstr("event 3 again, which is cancelled"));
+  EXPECT_EQ(report("a", "failed", R"("n": 1, "time": 10, "note": "indeed")").events, 1U);
+  EXPECT_EQ(view("a").service, "failed");
+}
+
+// What is shown of the past follows, too; and the largest key is known where not every reading is kept.
+TEST_F(Events, ChangeTheHistory) {
+  open();
+  for (int n = 1; n <= 14; ++n) deliver(message("a", n, 50.0 * n, 50 * n));
+  catch_up();
+  EXPECT_EQ(fleet_->unit("a")->moments[9].measured, 500);
+  EXPECT_EQ(fleet_->unit("a")->moments.back().key, 14);
+  report("a", "corrected", R"("n": 10, "wear": 480, "time": 500)");
+  catch_up();
+  EXPECT_EQ(fleet_->unit("a")->moments[9].measured, 480);
+  ASSERT_EQ(fleet_->unit("a")->events[0].values.size(), 2U);
+  EXPECT_EQ(fleet_->unit("a")->events[0].values[0].second, 480);
+  report("a", "replaced", R"("n": 15, "time": 700)");
+  EXPECT_EQ(view("a").last_key, 14);
+  // A unit of which only an event is known survives a restart.
+  report("b", "replaced", R"("n": 1, "time": 0)");
+  catch_up();
+  close();
+  open();
+  catch_up();
+  EXPECT_TRUE(fleet_->unit("b"));
 }
 
 TEST_F(Events, AreRefusedWithAReason) {

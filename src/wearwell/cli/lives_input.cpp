@@ -49,6 +49,7 @@ prognosis::FollowedUnits LivesInput::followed() const {
   prognosis::FollowedUnits units = prognosis::units_of_study(*tracker);
   if (!store) return units;
   units.source = "fleet";
+  std::erase_if(units.names, [&](const std::string& name) { return stored.contains(name); });
   for (const auto& [name, record] : stored) {
     if (in_service(record)) units.names.push_back(name);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wearwell/base/error.h"
@@ -43,6 +44,17 @@ std::string column_lines(const prognosis::Tracker& tracker) {
   return text;
 }
 
+// A field that no column of the study has: its axis may be called time.
+std::string free_field(const prognosis::Tracker& tracker, const std::string& name) {
+  const auto columns = tracker.columns();
+  const auto labels = tracker.labels();
+  const bool taken = tracker.noun() == name ||
+                     std::find(labels.begin(), labels.end(), name) != labels.end() ||
+                     std::any_of(columns.begin(), columns.end(),
+                                 [&](const auto& each) { return each.name == name; });
+  return taken ? "message_" + name : name;
+}
+
 std::string configuration(const prognosis::Tracker& tracker, const fs::path& result) {
   const std::string noun = tracker.noun().empty() ? "unit" : tracker.noun();
   std::string ending = horizon(tracker);
@@ -58,15 +70,15 @@ url = "fleet.sqlite"  # readings, states, events; or postgresql://USER@HOST/DATA
 # The fields of a message: a JSON object, or a line of CSV with a heading.
 [reading]
 unit        = {3}
-time        = "time"      # identifies a reading of a {0}
+time        = {9}  # identifies a reading of a {0}
 time_format = "iso 8601"  # 2026-11-22T15:04:05Z; or "unix s", "unix ms"
 # sequence  = "n"         # a whole number that identifies a reading instead
-event       = "event"     # rows with this field are events: replaced, failed, corrected, withdrawn, ...
+event       = {10}  # rows with this field are events: replaced, failed, corrected, withdrawn, ...
 [reading.columns]
 {4}
 # Where readings come from: as many as there are, each with a name.
 [source.line]
-kind = "stdin"
+kind = "stdin"            # which a service does not have
 # [source.files]
 # kind   = "folder"       # .csv, .jsonl, .ndjson, .json
 # folder = "incoming"
@@ -91,7 +103,8 @@ listen = "127.0.0.1:8080"  # the page; beyond this machine with token, certifica
 )",
       noun, toml_text(fmt::format("All {}s", noun)), toml_text(result.generic_string()),
       toml_text(noun), column_lines(tracker), tracker.limited(), tracker.limit().value,
-      tracker.limit().unit.text, toml_text(ending));
+      tracker.limit().unit.text, toml_text(ending), toml_text(free_field(tracker, "time")),
+      toml_text(free_field(tracker, "event")));
 }
 
 }  // namespace

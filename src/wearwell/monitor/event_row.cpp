@@ -11,10 +11,10 @@ namespace {
 std::string text_in(const Fields& fields, const char* name, std::size_t most) {
   const Field* field = find_field(fields, name);
   if (!field || field->kind == Field::Kind::null) return {};
-  const std::string text = !field->text.empty() ? field->text
-                           : field->whole       ? fmt::format("{}", field->integer)
-                                                : std::string();
-  if (text.size() > most || printable(text) != text)
+  const bool written = field->kind == Field::Kind::text || field->whole;
+  const std::string text =
+      field->kind == Field::Kind::text ? field->text : fmt::format("{}", field->integer);
+  if (!written || text.size() > most || printable(text) != text)
     throw InputError(fmt::format("{} must be a text of at most {} bytes without control characters",
                                  name, most));
   return text;

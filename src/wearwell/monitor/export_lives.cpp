@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "wearwell/base/error.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/unit_events.h"
@@ -20,8 +21,15 @@ struct PartLife {
 };
 
 /// What an event says of the end of a part counts more than its last reading.
-PartLife ended(PartLife life, const UnitPart& part, const UnitPart* next) {
+PartLife ended(PartLife life, const std::string& unit, const UnitPart& part, const UnitPart* next,
+               const prognosis::TrackerUnits& reported) {
   life.failed = part.service == Service::failed;
+  if (part.to_use <= part.from_use)
+    throw InputError(fmt::format(
+        "unit '{}' is reported as {} at {} = {:.6g}, but its part was installed at {:.6g} "
+        "on the same counter: cancel the wrong event",
+        unit, name(part.service), reported.tracker().axis().name, reported.at(part.to_use),
+        reported.at(part.from_use)));
   if (!std::isnan(part.to_use)) {
     life.use = part.to_use - part.from_use;
   } else if (next && next->from_use >= part.from_use + life.use) {
@@ -37,7 +45,7 @@ std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::u
   const std::size_t axis = prognosis::watched_columns(tracker).axis;
   std::map<std::string, std::vector<PartLife>> units;
   for (const auto& [unit, list] : events) units[unit].resize(list->parts().size());
-  for_each_counted(store, tracker, [&](const std::string& unit, CountedReading& seen) {
+  for_each_counted(store, events, [&](const std::string& unit, CountedReading& seen) {
     if (seen.state != CountedReading::State::counts) return;
     auto& parts = units[unit];
     parts.resize(std::max<std::size_t>(parts.size(), 1));
@@ -54,7 +62,7 @@ std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::u
     const std::vector<UnitPart>& parts = of_unit->parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const PartLife life =
-          ended(lives[i], parts[i], i + 1 < parts.size() ? &parts[i + 1] : nullptr);
+          ended(lives[i], unit, parts[i], i + 1 < parts.size() ? &parts[i + 1] : nullptr, reported);
       if (!(life.use > 0)) continue;
       ++count;
       text += fmt::format("{},{},{}\n", printable_csv_cell(part_name(unit, parts[i].number)),

@@ -15,20 +15,20 @@ namespace {
 /// Readings that count, under the name of their part.
 void for_each_reading(Store& store, const prognosis::Tracker& tracker,
                       const std::function<void(const StoredReading&)>& visit) {
-  for_each_counted(store, tracker, [&](const std::string& unit, CountedReading& seen) {
-    if (seen.state != CountedReading::State::counts) return;
-    seen.reading.unit = part_name(unit, seen.part);
-    visit(seen.reading);
-  });
+  for_each_counted(store, events_of_units(store, tracker),
+                   [&](const std::string& unit, CountedReading& seen) {
+                     if (seen.state != CountedReading::State::counts) return;
+                     seen.reading.unit = part_name(unit, seen.part);
+                     visit(seen.reading);
+                   });
 }
 
 }  // namespace
 
 void for_each_counted(
-    Store& store, const prognosis::Tracker& tracker,
+    Store& store, const EventsOfUnits& events,
     const std::function<void(const std::string& unit, CountedReading& seen)>& visit) {
   constexpr std::size_t at_once = 10'000;
-  const EventsOfUnits events = events_of_units(store, tracker);
   std::int64_t place = 0;
   for (;;) {
     const std::vector<StoredReading> readings = store.after(place, at_once);

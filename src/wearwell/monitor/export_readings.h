@@ -9,9 +9,9 @@
 
 namespace wearwell::monitor {
 
-/// All readings of a store in their order, as their units' events say. Throws StoreError.
+/// All readings of a store in their order, as these events of their units say. Throws StoreError.
 void for_each_counted(
-    Store& store, const prognosis::Tracker& tracker,
+    Store& store, const EventsOfUnits& events,
     const std::function<void(const std::string& unit, CountedReading& seen)>& visit);
 
 /// "wear [um]", and "wear" where it has no unit.

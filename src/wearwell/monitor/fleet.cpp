@@ -44,6 +44,12 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
     unit.by_risk = unit.alarm = unit.shown = unit.logged = each.alarm;
     if (unit.lost) any_lost_ = true;
   }
+  for (const auto& [name, events] : events_) {
+    Unit& unit = unit_named(name);
+    if (!unit.lost) continue;
+    any_lost_ = true;
+    if (events->part().number > 1) unit.by_risk = Alarm::ok;  // as in take_events
+  }
   stored_before_ = store_.count();
 }
 
@@ -119,16 +125,20 @@ void Fleet::take_events() {
     list.push_back(std::move(each));
   }
   for (auto& [name, list] : lists) {
+    const std::int64_t part = events_of(events_, name)->part().number;
     events_[name] = std::make_shared<const UnitEvents>(std::move(list), columns_);
     Unit& unit = unit_named(name);
     const std::lock_guard lock(unit.moving);
     unit.lost = any_lost_ = true;
-    unit.by_risk = Alarm::ok;  // a new part knows nothing of earlier alarms
+    // A new part knows nothing of earlier alarms.
+    if (events_[name]->part().number != part) unit.by_risk = Alarm::ok;
   }
 }
 
 void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
+  std::int64_t received_ms = 0;
   const auto take_one = [&](const StoredReading& each) {
+    received_ms = std::max(received_ms, each.received_ms);
     if (each.place <= unit.record.place) return;
     const std::lock_guard lock(unit.moving);
     try {
@@ -154,6 +164,7 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
         unit.stale = unit.unsaved = true;
       }
       if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
+      if (!live_) hear(unit, received_ms);
     }
     for (const StoredReading* each : readings) take_one(*each);
   } catch (const StoreError&) {

@@ -3,7 +3,7 @@
 (() => {
   const {element, given, quantity, range, probability, unit: words} = wearwell;
   const detail = document.getElementById('detail');
-  let fleet = null, opened = '', serial = 0, waiting = null, form = null;
+  let fleet = null, opened = '', serial = 0, waiting = null, shown = null, form = null;
 
   const finite = (x) => typeof x === 'number' && Number.isFinite(x);
   const name = (what, unit) => (words(unit) ? `${wearwell.capital(what)} (${words(unit)})` : wearwell.capital(what));
@@ -170,6 +170,7 @@
   }
 
   function draw(view) {
+    shown = view;
     const same = detail.dataset.unit === view.unit;
     const old = detail.querySelector('.figures');
     const keep = same && old && busy();
@@ -180,7 +181,7 @@
     }
     waiting = null;
     const focused = document.activeElement?.closest?.('figure')?.id;
-    if (!same || !form) form = wearwell.eventForm(fleet, view, load);
+    if (!same || !form) form = wearwell.eventForm(fleet, () => shown, load);
     detail.dataset.unit = view.unit;
     detail.replaceChildren(head(view), figures(view), tally(view.forecasts), wearwell.eventSection(fleet, view, form), quality(view.quality));
     if (same && focused) document.querySelector(`#${focused} svg`)?.focus({preventScroll: true});

@@ -12,6 +12,7 @@
   function description(fleet, each) {
     if (each.event === 'cancelled') return `event ${each.cancels} cancelled`;
     const more = each.use !== undefined ? `, ${fleet.axis} ${quantity(each.use, fleet.axis_unit)}`
+        : each.values ? `: ${Object.entries(each.values).map(([name, value]) => `${name} ${wearwell.number(value, 6)}`).join(', ')}`
         : each.offset !== undefined ? `, shows ${quantity(each.offset, fleet.level_unit)} too much` : '';
     return `${meanings[each.event]}, ${keyText(fleet, each.key)}${more}`;
   }
@@ -38,7 +39,7 @@
   }
 
   function keyField(fleet, view, kind) {
-    const last = view.moments.at(-1)?.key ?? 0;
+    const last = view.last_key;
     const ofReading = kind === 'corrected' || kind === 'withdrawn';
     if (!byTime(fleet) || ofReading) {
       const input = element('input', {name: 'key', type: 'number', step: 1, required: true, value: ofReading || kind === 'failed' || kind === 'removed' ? last : last + 1});
@@ -52,8 +53,9 @@
     if (kind === 'cancelled') return [field('Number of the event', element('input', {name: 'number', type: 'number', step: 1, min: 1, required: true}))];
     const fields = [keyField(fleet, view, kind)];
     if (kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
-    if (kind === 'sensor') fields.push(field(`${wearwell.capital(fleet.limited)} that it shows too much`, numeric(fleet.limited), fleet.level_unit));
+    if (kind === 'sensor') fields.push(field(`${wearwell.capital(fleet.limited)} that it shows too much`, numeric(fleet.level_column), fleet.level_unit));
     if (kind === 'corrected') {
+      // As messages have them: the use on the counter, the level as the sensor shows it.
       for (const {name, unit} of fleet.columns) fields.push(field(wearwell.capital(name), unit === null ? element('input', {name, required: true}) : numeric(name), unit ?? ''));
     }
     return fields;
@@ -69,13 +71,14 @@
     return body;
   }
 
-  // One form a unit: it stays as it is while the values around it change.
-  wearwell.eventForm = (fleet, view, done) => {
-    const kinds = Object.keys(meanings).filter((kind) => kind !== 'sensor' || fleet.level_measured);
+  // One form a unit: it stays as it is while the values around it change. `latest` is the unit as it is now.
+  wearwell.eventForm = (fleet, latest, done) => {
+    const {unit} = latest();
+    const kinds = Object.keys(meanings).filter((kind) => kind !== 'sensor' || fleet.level_column);
     const kind = element('select', {name: 'event', id: 'event-kind'}, ...kinds.map((each) => element('option', {value: each}, meanings[each])));
     const own = element('div', {class: 'fields'});
     const message = element('p', {class: 'note', role: 'status'});
-    const choose = () => own.replaceChildren(...fieldsOf(fleet, view, kind.value));
+    const choose = () => own.replaceChildren(...fieldsOf(fleet, latest(), kind.value));
     kind.addEventListener('change', choose);
     choose();
     const form = element('form', {class: 'event-form'},
@@ -88,8 +91,9 @@
       message.className = 'note';
       message.textContent = 'Sending';
       try {
-        const answer = await wearwell.send(`/api/units/${encodeURIComponent(view.unit)}/events`, bodyOf(form));
-        message.textContent = answer.events ? 'Stored. The forecast follows in a moment.' : 'This event is stored already.';
+        const answer = await wearwell.send(`/api/units/${encodeURIComponent(unit)}/events`, bodyOf(form));
+        message.textContent = answer.events ? 'Stored. The forecast follows in a moment.' : answer.problem || 'This event is stored already.';
+        choose();
         document.activeElement?.blur();  // the list above may change again
         done();
       } catch (error) {
@@ -97,7 +101,9 @@
         message.textContent = error.message;
       }
     });
-    return element('details', {class: 'report'}, element('summary', {}, 'Report an event'), form);
+    const report = element('details', {class: 'report'}, element('summary', {}, 'Report an event'), form);
+    report.addEventListener('toggle', () => { if (report.open) choose(); });
+    return report;
   };
 
   wearwell.eventSection = (fleet, view, form) => element('section', {class: 'events'}, element('h3', {}, 'Events'), listed(fleet, view), form);

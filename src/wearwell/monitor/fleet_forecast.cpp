@@ -23,6 +23,7 @@ void Fleet::forecast(Unit& unit) {
   view.unit = record.unit;
   view.known = known;
   view.at = reported_.at(forecast.now);
+  view.last_key = record.stored_key;
   // A reading cannot be newer than its message, even if the sender's clock says so.
   view.last_reading_ms = record.last_time_ms
                              ? std::min(record.last_time_ms, record.last_received_ms)
@@ -46,7 +47,8 @@ void Fleet::forecast(Unit& unit) {
       survival_curve(forecast.remaining, reported_));
   seen->held = record.held;
   seen->judged = record.judged;
-  seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
+  seen->moments = unit.seen && unit.seen->events == record.events &&
+                          unit.seen->moments->size() == record.moments.size()
                       ? unit.seen->moments
                       : std::make_shared<const std::vector<UnitMoment>>(record.moments);
   seen->place = record.place;

@@ -46,6 +46,7 @@ Json json_of_event(const EventView& view) {
   }
   if (std::isfinite(view.use)) json["use"] = view.use;
   if (event.kind == EventKind::sensor) json["offset"] = view.offset;
+  for (const auto& [column, value] : view.values) json["values"][column] = number(value);
   json["received_ms"] = event.received_ms;
   json["by"] = event.author;
   json["note"] = event.note;
@@ -69,7 +70,7 @@ Json json_of(const FleetView& fleet) {
           {"horizon", number(fleet.horizon)},
           {"keys", fleet.keys_are_times ? "time" : "sequence"},
           {"columns", std::move(columns)},
-          {"level_measured", fleet.level_measured},
+          {"level_column", fleet.level_column ? Json(fleet.level_column->name) : Json(nullptr)},
           {"trusted", fleet.trusted},
           {"units",
            {{"all", fleet.units},
@@ -94,6 +95,7 @@ Json json_of(const UnitView& unit) {
           {"alarm", name(unit.alarm)},
           {"known", unit.known},
           {"at", json_of_known(unit, unit.at)},
+          {"last_key", unit.last_key},
           {"last_reading_ms", unit.last_reading_ms},
           {"level", json_of_known(unit, unit.level)},
           {"remaining", json_of_known(unit, unit.remaining)},

@@ -41,7 +41,7 @@ FleetView Fleet::fleet() const {
   for (const prognosis::ReadingColumn& each : tracker_.columns())
     view.columns.push_back({each.name, each.unit.text});
   for (const std::string& each : tracker_.labels()) view.columns.push_back({each, ""});
-  view.level_measured = columns_.level.has_value();
+  if (columns_.level) view.level_column = view.columns[*columns_.level];
   view.trusted = settings_.trusted;
   const Tally::Total total = tally_.total();
   view.messages = total.messages;
@@ -105,10 +105,17 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   }
   UnitDetail detail;
   detail.view = counted(seen->view, tally_);
-  for (const UnitEvent& each : seen->events->list())
-    detail.events.push_back({each, reported_.along(each.use),
-                             reported_.level(each.offset) - reported_.level(0),
-                             seen->events->is_cancelled(each.number)});
+  for (const UnitEvent& each : seen->events->list()) {
+    EventView event{each,
+                    reported_.along(each.use),
+                    reported_.level(each.offset) - reported_.level(0),
+                    {},
+                    seen->events->is_cancelled(each.number)};
+    for (std::size_t i = 0; i < each.numbers.size(); ++i)
+      event.values.emplace_back(tracker_.columns()[i].name,
+                                from_si(tracker_.columns()[i].unit, each.numbers[i]));
+    detail.events.push_back(std::move(event));
+  }
   detail.held = seen->held;
   detail.judged = seen->judged;
   detail.moments = *seen->moments;
@@ -116,6 +123,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   const UnitView& view = seen->view;
   if (view.known && (detail.moments.empty() || detail.moments.back().at < view.at)) {
     UnitMoment now;
+    now.key = view.last_key;
     now.time_ms = view.last_reading_ms;
     now.at = view.at;
     now.level = view.level;

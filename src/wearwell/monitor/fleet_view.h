@@ -30,7 +30,8 @@ struct UnitView {
   /// False: neither a reading nor the study determines how it continues; then `at`, `level`,
   /// `remaining`, `b10`, `risk` and `passed` are undefined, and not shown.
   bool known = true;
-  double at = 0;                     ///< along the axis
+  double at = 0;              ///< along the axis
+  std::int64_t last_key = 0;  ///< the largest of its stored readings, of all its parts; 0: none
   std::int64_t last_reading_ms = 0;  ///< Unix time of its last message; 0: none
   Interval level;                    ///< wear, now
   Interval remaining;                ///< life, from now on
@@ -59,9 +60,10 @@ struct UnitMoment {
 
 /// An event as readers see it.
 struct EventView {
-  UnitEvent event;    ///< its own numbers in SI
-  double use = 0;     ///< in `axis_unit`; NaN if not given
-  double offset = 0;  ///< in `level_unit`
+  UnitEvent event;                                     ///< its own numbers in SI
+  double use = 0;                                      ///< in `axis_unit`; NaN if not given
+  double offset = 0;                                   ///< in `level_unit`
+  std::vector<std::pair<std::string, double>> values;  ///< of `corrected`, by column, in its unit
   bool cancelled = false;
 };
 
@@ -94,8 +96,9 @@ struct FleetView {
   double limit = 0, horizon = 0;  ///< in these units
   bool keys_are_times = false;    ///< keys of readings: Unix times in ms, not sequence numbers
   std::vector<ColumnView> columns;
-  bool level_measured = false;  ///< whether a column of a reading measures the level
-  bool trusted = true;          ///< the result that the population comes from
+  /// The column of a reading that measures the level, if one does.
+  std::optional<ColumnView> level_column = {};
+  bool trusted = true;  ///< the result that the population comes from
   std::uint64_t units = 0, ok = 0, watch = 0, act = 0, doubt = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;

@@ -37,6 +37,7 @@ struct HttpSettings {
   /// Further names of the server: of a proxy, or of this machine. Names in the certificate are
   /// included.
   std::vector<std::string> names = {};
+  bool events = true;  ///< whether events of units are accepted
   HttpLimits limits = {};
 };
 

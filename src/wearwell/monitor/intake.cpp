@@ -6,6 +6,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/event_row.h"
 #include "wearwell/monitor/time_text.h"
+#include "wearwell/monitor/unit_events.h"
 
 namespace wearwell::monitor {
 
@@ -61,6 +62,7 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
   }
   for (std::size_t i = 0; i < batch.kept_events.size(); ++i)
     ++(batch.kept_events[i] == Kept::stored ? delivery.events : delivery.repeated);
+  if (delivery.problem.empty()) delivery.problem = batch.remark;
   tally_.stored(delivery.readings);
   return delivery;
 }
@@ -111,7 +113,7 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
   try {
     if (is_event(fields, source.mapping)) {
       UnitEvent event = event_of(fields, unit, source.mapping, now_ms);
-      admit(event.unit);
+      if (!needs_reference(event.kind)) admit(event.unit);
       batch.events.push_back(std::move(event));
       return;
     }
@@ -139,17 +141,25 @@ void Intake::commit(Batch& batch) {
 
 /// What an event refers to and the store does not have; empty if it is there.
 std::string Intake::missing_reference(const UnitEvent& event) {
-  if (event.kind == EventKind::corrected || event.kind == EventKind::withdrawn) {
+  if (!needs_reference(event.kind)) return {};
+  if (event.kind != EventKind::cancelled) {
     if (store_.reading(event.unit, event.key)) return {};
     return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),
                        event.unit, event.key);
   }
-  if (event.kind != EventKind::cancelled) return {};
   for (const UnitEvent& each : store_.events_after(event.cancels - 1)) {
     if (each.number != event.cancels) break;
     if (each.unit == event.unit && each.kind != EventKind::cancelled) return {};
   }
   return fmt::format("cancelled: unit '{}' has no event with number {}", event.unit, event.cancels);
+}
+
+std::string Intake::not_in_force(const UnitEvent& event) {
+  std::vector<UnitEvent> of_unit;
+  for (UnitEvent& each : store_.events_after(0)) {
+    if (each.unit == event.unit) of_unit.push_back(std::move(each));
+  }
+  return UnitEvents(std::move(of_unit), {}).not_in_force(event);
 }
 
 void Intake::commit_events(Batch& batch) {
@@ -165,6 +175,9 @@ void Intake::commit_events(Batch& batch) {
       }
     }
     batch.kept_events = store_.add_events(events);
+    for (std::size_t i = 0; i < events.size() && batch.remark.empty(); ++i) {
+      if (batch.kept_events[i] == Kept::repeated) batch.remark = not_in_force(events[i]);
+    }
     batch.refusals.insert(batch.refusals.end(), refusals.begin(), refusals.end());
     stored_();
   } catch (const std::exception& error) {
@@ -173,9 +186,10 @@ void Intake::commit_events(Batch& batch) {
   }
 }
 
-EventInbox::EventInbox(Intake& intake, const prognosis::Tracker& tracker) : intake_(intake) {
+EventInbox::EventInbox(Intake& intake, const prognosis::Tracker& tracker, bool keys_are_times)
+    : intake_(intake) {
   source_.name = "http";
-  source_.mapping = plain_mapping(tracker);
+  source_.mapping = plain_mapping(tracker, keys_are_times);
 }
 
 Delivery EventInbox::deliver(const std::string& unit, const std::string& payload) {
@@ -184,6 +198,13 @@ Delivery EventInbox::deliver(const std::string& unit, const std::string& payload
     row.fields = fields_of_json(payload);
     if (!is_event(row.fields, source_.mapping))
       row.problem = fmt::format("event is missing: one of {}", event_names());
+    const Field* key = find_field(row.fields, "key");
+    constexpr double seconds_end = 1e11;  // as milliseconds: the year 1973
+    if (!source_.mapping.time.empty() && key && key->number > 0 && key->number < seconds_end)
+      row.problem = fmt::format(
+          "key is {}, which is a time in the year {}; it is a Unix time in milliseconds, not "
+          "seconds",
+          key->integer, iso_of_unix_ms(key->integer).substr(0, 4));
   } catch (const InputError& error) {
     row.problem = fmt::format("the event {}", error.what());
   }

@@ -54,6 +54,7 @@ class Intake {
     std::vector<Refusal> refusals = {};  // counted when the others are stored, and so only once
     std::size_t rows = 0;
     std::vector<Kept> kept = {}, kept_events = {};
+    std::string remark = {};  // of an event that was stored already and does not hold
     std::string trouble = {};
     bool done = false;
   };
@@ -65,6 +66,7 @@ class Intake {
   void commit(Batch& batch);
   void commit_events(Batch& batch);
   std::string missing_reference(const UnitEvent& event);
+  std::string not_in_force(const UnitEvent& event);
   void store_waiting(std::unique_lock<std::mutex>& lock);
 
   Store& store_;
@@ -81,7 +83,7 @@ class Intake {
 /// the study; the topic is the unit's name.
 class EventInbox : public Inbox {
  public:
-  EventInbox(Intake& intake, const prognosis::Tracker& tracker);
+  EventInbox(Intake& intake, const prognosis::Tracker& tracker, bool keys_are_times);
   Delivery deliver(const std::string& unit, const std::string& payload) override;
 
  private:

@@ -232,6 +232,7 @@ HttpSettings read_http(const TomlReader& table) {
   http.host = address.host;
   http.port = address.port;
   http.names = table.texts("names");
+  http.events = table.boolean("events").value_or(true);
   http.token = table.text("token").value_or("");
   constexpr std::size_t shortest_token = 16;
   if (table.has("token") && http.token.size() < shortest_token)

@@ -206,13 +206,14 @@ class Outlets {
  public:
   Outlets(const MonitorConfig& config, const MonitorOptions& options, const Fleet& fleet,
           Intake& intake, const prognosis::Tracker& tracker, Notices& notices)
-      : events_(intake, tracker) {
+      : events_(intake, tracker, !config.sequence) {
     if (options.once) return;
     for (const SourceSettings& source : config.sources) {
       if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
     }
     if (config.http)
-      server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get(), &events_);
+      server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get(),
+                                             config.http->events ? &events_ : nullptr);
     if (config.publish)
       publisher_ = std::jthread([&](std::stop_token stop) {
         publish_states(fleet, *config.publish, notices, std::move(stop));

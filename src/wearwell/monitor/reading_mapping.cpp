@@ -209,9 +209,10 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
   return mapping;
 }
 
-ReadingMapping plain_mapping(const prognosis::Tracker& tracker) {
+ReadingMapping plain_mapping(const prognosis::Tracker& tracker, bool keys_are_times) {
   ReadingMapping mapping = mapping_for(tracker);
-  mapping.sequence = "key";
+  (keys_are_times ? mapping.time : mapping.sequence) = "key";
+  mapping.format = TimeFormat::unix_ms;
   mapping.event = "event";
   for (const prognosis::ReadingColumn& each : tracker.columns())
     mapping.columns.push_back({each.name, each.measured, each.name, each.unit, {}});

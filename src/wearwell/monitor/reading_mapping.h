@@ -58,8 +58,8 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
 std::vector<std::string> needed_fields(const ReadingMapping& mapping);
 
 /// The mapping of rows whose fields are the study's columns, in its units, with a whole number
-/// `key`; the unit is given beside them.
-ReadingMapping plain_mapping(const prognosis::Tracker& tracker);
+/// `key`, a time in Unix milliseconds or a sequence number; the unit is given beside them.
+ReadingMapping plain_mapping(const prognosis::Tracker& tracker, bool keys_are_times);
 
 /// The unit, key and times of a row; no values. As `reading_of`.
 StoredReading identity_of(const Fields& fields, const std::string& unit,

@@ -34,6 +34,11 @@ std::optional<EventKind> event_named(std::string_view name) {
   return {};
 }
 
+bool needs_reference(EventKind kind) {
+  return kind == EventKind::corrected || kind == EventKind::withdrawn ||
+         kind == EventKind::cancelled;
+}
+
 EventKind stored_event(std::string_view name) {
   if (const auto kind = event_named(name)) return *kind;
   throw StoreError(fmt::format("'{}' is not an event", name));

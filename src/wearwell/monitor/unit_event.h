@@ -21,6 +21,8 @@ enum class EventKind {
 };
 const char* name(EventKind kind);
 std::optional<EventKind> event_named(std::string_view name);
+/// Whether it is about a stored reading or another event.
+bool needs_reference(EventKind kind);
 /// The kind in a store. Throws StoreError for another text.
 EventKind stored_event(std::string_view name);
 /// "replaced, removed, ...", for messages.

@@ -15,6 +15,9 @@ const char* name(Service service) {
 
 UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns)
     : columns_(columns), events_(std::move(events)) {
+  for (const UnitEvent& each : events_) {
+    if (each.kind == EventKind::cancelled) cancelled_.insert(each.cancels);
+  }
   std::vector<const UnitEvent*> valid;
   for (const UnitEvent& each : events_) {
     if (each.kind == EventKind::cancelled || is_cancelled(each.number)) continue;
@@ -28,9 +31,30 @@ UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedCo
 
 // Cancelling the cancellation of an event is not possible: the event is reported again.
 bool UnitEvents::is_cancelled(std::int64_t number) const {
-  return std::any_of(events_.begin(), events_.end(), [&](const UnitEvent& each) {
-    return each.kind == EventKind::cancelled && each.cancels == number;
+  return cancelled_.contains(number);
+}
+
+std::string UnitEvents::not_in_force(const UnitEvent& event) const {
+  const auto edits = [](EventKind kind) {
+    return kind == EventKind::corrected || kind == EventKind::withdrawn;
+  };
+  const std::string identity = identity_of(event);
+  const auto same = std::find_if(events_.begin(), events_.end(), [&](const UnitEvent& each) {
+    return identity_of(each) == identity;
   });
+  if (same == events_.end()) return {};
+  const auto again = [&](const std::string& what) {
+    return fmt::format("this is event {} again, which {}; to report it anew, add a note",
+                       same->number, what);
+  };
+  if (is_cancelled(same->number)) return again("is cancelled");
+  const auto later = std::find_if(same + 1, events_.end(), [&](const UnitEvent& each) {
+    const bool kind = each.kind == same->kind || (edits(each.kind) && edits(same->kind));
+    return kind && each.key == same->key && !is_cancelled(each.number);
+  });
+  return later == events_.end() || same->kind == EventKind::cancelled
+             ? std::string()
+             : again(fmt::format("event {} has replaced", later->number));
 }
 
 void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
@@ -51,7 +75,7 @@ void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
     auto at = std::find_if(parts_.rbegin(), parts_.rend(),
                            [&](const UnitPart& part) { return part.from_key < each->key; });
     if (at == parts_.rend()) at = std::prev(parts_.rend());
-    if (each->key >= at->to_key) continue;
+    if (each->key > at->to_key) continue;  // of two under one key the last holds
     at->to_key = each->key;
     at->to_use = each->use;
     at->service = each->kind == EventKind::failed ? Service::failed : Service::removed;
@@ -121,11 +145,11 @@ std::string event_problem(const UnitEvent& event, const prognosis::Tracker& trac
       event.kind == EventKind::replaced ? tracker.refusal(part_name(event.unit, 2)) : "";
   if (!refusal.empty()) return fmt::format("{}: {}", what, refusal);
   if (event.kind != EventKind::sensor) return {};
-  if (!prognosis::watched_columns(tracker).level)
-    return fmt::format("{}: no column of a reading measures {}", what, tracker.limited());
+  const auto level = prognosis::watched_columns(tracker).level;
+  if (!level) return fmt::format("{}: no column of a reading measures {}", what, tracker.limited());
   if (!std::isfinite(event.offset))
     return fmt::format("{}: {} is missing: what the sensor shows too much", what,
-                       tracker.limited());
+                       tracker.columns()[*level].name);
   return {};
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,8 @@ class UnitEvents {
   const UnitPart& part() const { return parts_.back(); }
   const std::vector<UnitEvent>& list() const { return events_; }
   bool is_cancelled(std::int64_t number) const;
+  /// Why an event that is stored already does not hold; empty if it does.
+  std::string not_in_force(const UnitEvent& event) const;
   /// Number of the last event; 0 if there is none.
   std::int64_t last() const { return events_.empty() ? 0 : events_.back().number; }
 
@@ -60,6 +64,7 @@ class UnitEvents {
 
   prognosis::WatchedColumns columns_ = {};
   std::vector<UnitEvent> events_ = {};
+  std::set<std::int64_t> cancelled_ = {};
   std::vector<UnitPart> parts_ = {UnitPart{}};
   std::map<std::int64_t, double> offsets_ = {};          // of the sensor, from a key on
   std::map<std::int64_t, const UnitEvent*> edits_ = {};  // of readings, by key

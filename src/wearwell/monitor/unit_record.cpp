@@ -86,6 +86,7 @@ bool is_kept_moment(std::uint64_t n) {
 void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& units,
           Store& store) {
   using State = CountedReading::State;
+  record.stored_key = record.place == 0 ? stored.key : std::max(record.stored_key, stored.key);
   record.place = stored.place;
   const CountedReading seen = record.events->counted(stored);
   if (seen.part != record.events->part().number || seen.state == State::withdrawn) return;
@@ -106,8 +107,9 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
   record.last_key = first ? reading.key : std::max(record.last_key, reading.key);
   ++record.readings;
   const prognosis::History history = counted_history(record, reading.place - 1, store);
+  const std::string part = part_name(record.unit, record.events->part().number);
   const prognosis::UpdateResult taken =
-      record.watch.update({units.tracker(), units.watched(), record.unit, *record.state},
+      record.watch.update({units.tracker(), units.watched(), part, *record.state},
                           {reading.numbers, reading.labels}, late, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
@@ -163,6 +165,7 @@ std::string bytes_of(const UnitRecord& record) {
       {"moments", moments},
       {"watch", Json::binary({watch.begin(), watch.end()})},
       {"event", record.events->last()},
+      {"stored_key", record.stored_key},
   };
   const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
   return {bytes.begin(), bytes.end()};
@@ -189,6 +192,7 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
     json.at("judged").get_to(record.judged);
     json.at("problem").get_to(record.last_problem);
     json.at("key").get_to(record.last_key);
+    json.at("stored_key").get_to(record.stored_key);
     json.at("time_ms").get_to(record.last_time_ms);
     json.at("received_ms").get_to(record.last_received_ms);
     for (const Json& each : json.at("moments")) record.moments.push_back(moment_of(each));

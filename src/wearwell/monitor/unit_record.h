@@ -26,7 +26,8 @@ struct UnitRecord {
   std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
   std::uint64_t held = 0, judged = 0;  ///< readings within 5 to 95 % of their forecast
   std::string last_problem = {};
-  std::int64_t last_key = 0;  ///< the largest
+  std::int64_t last_key = 0;    ///< the largest
+  std::int64_t stored_key = 0;  ///< the largest, also of readings that do not count
   std::int64_t last_time_ms = 0, last_received_ms = 0;
   std::vector<UnitMoment> moments = {};
   prognosis::ChangeWatch watch = {};
