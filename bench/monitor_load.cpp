@@ -72,7 +72,10 @@ int main(int argc, char** argv) {
   const auto store = open_store(url, "", {{"depth", "force", "distance"}, {}, true});
   Tally tally(100'000);
   Notices notices(stderr);
-  FleetSettings settings{"load", true, "load", {10e3, 0.05, 0.2, 0.8, {}}, 2};
+  FleetSettings settings;
+  settings.population = "load";
+  settings.alarm = {10e3, 0.05, 0.2, 0.8, {}};
+  settings.threads = 2;
   Fleet fleet(*tracker, *store, tally, notices, settings);
   Intake intake(*store, tally, notices, [] {});
   const SourceSettings source = load_source();
