@@ -32,8 +32,7 @@ constexpr const char* event_table = R"(
     number INTEGER PRIMARY KEY, unit TEXT NOT NULL, event TEXT NOT NULL, key INTEGER NOT NULL, received_ms INTEGER NOT NULL,
     author TEXT NOT NULL, note TEXT NOT NULL, content TEXT NOT NULL, identity TEXT NOT NULL UNIQUE);)";
 
-// Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
-// version exist.
+// Migrations from each version to the next. Never change an existing step: stores of it exist.
 constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
                                  event_table};
 static_assert(std::size(steps) == store_version - 1);

@@ -44,7 +44,7 @@ std::string UnitEvents::not_in_force(const UnitEvent& event) const {
   });
   if (same == events_.end()) return {};
   const auto again = [&](const std::string& what) {
-    return fmt::format("this is event {} again, which {}; to report it anew, add a note",
+    return fmt::format("this is event {} again, which {}; to report it again, add a note",
                        same->number, what);
   };
   if (is_cancelled(same->number)) return again("is cancelled");

@@ -67,7 +67,8 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
     throw InputError(fmt::format("the study has no life of {}", printable(life.of)));
   life.from = from_si(reported, forecast.now);
   life.numerical_error = relative_error(forecast.remaining, tracker.probability_error());
-  for (const double percent : life_percentages(question.risk.value_or(life.risk), question.shares)) {
+  for (const double percent :
+       life_percentages(question.risk.value_or(life.risk), question.shares)) {
     life.share.push_back(percent / 100);
     life.life.push_back(from_si(reported, forecast.remaining.quantile(percent / 100)));
   }

@@ -528,8 +528,8 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                 data.stress_unit);
     stress.headline = allowed.reliability == most_reliable;
     study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {
-                                       return std::vector<QuantityQuantiles>{
-                                           allowed_quantiles(law, draws, allowed, predictions.levels)};
+                                       return std::vector<QuantityQuantiles>{allowed_quantiles(
+                                           law, draws, allowed, predictions.levels)};
                                      }});
   }
 }

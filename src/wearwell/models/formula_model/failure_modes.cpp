@@ -68,7 +68,7 @@ class ModeCells {
     return none ? Named{} : Named{false, parts(i, text)};
   }
 
-  // "failed" beside "seal" and "motor": a mode of this name, or one that nobody knows.
+  // "failed" beside "seal" and "motor": a mode of this name, or one that is not known.
   void refuse_failures_of_no_mode(const std::vector<std::string>& modes) const {
     if (!unknown_.empty() || modes.size() < 2) return;
     for (std::size_t i = 0; i < all_.rows.size(); ++i) {
