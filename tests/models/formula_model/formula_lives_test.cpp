@@ -1,5 +1,6 @@
 // Lives of units that differ, to the digits that are printed, against sums over dense grids that share no code
 // with them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -378,7 +379,7 @@ mean_life = true
 TEST_F(FormulaLivesOfStudies, ManyUnitsNeedAChoice) {
   std::string rows = "depth,time,unit\n";
   for (int u = 0; u < 501; ++u)
-    rows += "10,1,u" + std::to_string(u) + "\n20,2,u" + std::to_string(u) + "\n";
+    rows += fmt::format("{:.1f},1,u{}\n", 1 + 0.2 * (u % 5) + 0.1 * (u % 3), u);
   write("d.csv", rows);
   const std::string text =
       "model = \"formula\"\n[data]\nfile = \"d.csv\"\n" + formula_model::straight;
