@@ -12,6 +12,8 @@
 #include "wearwell/predict/prediction.h"
 #include "wearwell/predict/thinned_posterior.h"
 
+// Longer than others: every quantity of a life, over the posterior and for the next item, goes by the same few points.
+
 namespace wearwell::formula_model {
 namespace {
 
