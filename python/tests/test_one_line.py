@@ -256,6 +256,21 @@ def test_paths_of_units_need_their_column():
     assert "begins at 0" in refusal(ww.degradation, wear.assign(wear=500 + wear["wear"]), "wear", "km", unit="machine", family="wiener-process")
 
 
+def test_level_takes_the_place_of_the_default_confidence():
+    hours = {"hours": [310, 540, 700, 820]}
+    asked = lambda fit: tomllib.loads(fit.toml)["predict"]
+    life = asked(made(ww.life, hours, "hours", predict={"level": 0.95}))
+    assert life["level"] == 0.95 and "credible_level" not in life
+    sn = asked(made(ww.sn, table_of("fatigue/tests.csv"), "stress_amplitude_MPa", "cycles", event="status", stress_ratio="stress_ratio",
+                    units={"stress_amplitude_MPa": "MPa"}, predict={"level": 0.95}))
+    assert sn["level"] == 0.95 and "credible_level" not in sn
+    wear = {"wear [um]": [1.1, 2.3, 0.9, 1.8], "km": [1, 2, 1, 2], "machine": ["A", "A", "B", "B"]}
+    degradation = asked(made(ww.degradation, wear, "wear", "km", unit="machine", limit="10 um", predict={"level": 0.95}))
+    assert degradation["level"] == 0.95 and "credible_level" not in degradation
+    # One that is chosen stands beside it, which can be read two ways.
+    assert "level" in refusal(ww.life, hours, "hours", confidence=0.99, predict={"level": 0.95})
+
+
 def test_presets_are_their_study_files():
     joint = made(ww.joint, table_of("joint/joint_wear.csv"), "volume_mm3", "cycles", work_per_cycle="5.966 N m", limit="100 mm^3",
                  units={"volume_mm3": "mm^3"})

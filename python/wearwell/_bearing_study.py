@@ -3,7 +3,7 @@
 from . import _toml
 from ._fit_options import fits
 from ._errors import InputError
-from ._preset_study import Preset, percentages, quantities
+from ._preset_study import Preset, level_of_bounds, percentages, quantities
 
 
 @fits
@@ -89,7 +89,7 @@ def bearing(data, depth, *, contact, radius, clearance, unit=None, revolutions=N
     asked = {"revolutions": quantities(at, "at"), "limit": None if limit is None else _toml.quantity(limit, "limit"),
              "risk": None if risk is None else _toml.quantity(risk, "risk")}
     if limit is not None:
-        asked.update({"b_lives": percentages(b), "credible_level": confidence})
+        asked.update({"b_lives": percentages(b), **level_of_bounds(confidence, predict)})
     likelihood = {"family": family, **({} if depth_error is None else {"depth_error": _toml.quantity(depth_error, "depth_error")})}
     made = study.study(title or f"Bearing wear: {depth}", {"likelihood": likelihood}, priors, {**asked, **(predict or {})})
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -4,6 +4,7 @@ from . import _toml
 from ._columns import Columns
 from ._errors import InputError
 from ._fit_options import fits
+from ._preset_study import level_of_bounds
 from ._proposed import Priors, factor_27, half_normal, lognormal, normal, quantity_text, rounded_up, unit_of_ratio
 from ._study import Study
 
@@ -142,7 +143,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     asked = {"along": name, "at": [quantity_text(2 * last, along)]}
     if limit is not None:
         asked.update({"limit": {columns.name(y) if process else "path": _limit(limit, y, of)}, "b_lives": list(b) if hasattr(b, "__iter__") else [b],
-                      "credible_level": confidence})
+                      **level_of_bounds(confidence, predict)})
     parts = [_toml.table("", {"title": title or f"Degradation: {y} along {x}", "model": "formula"}), _toml.table("data", {"file": "data"}),
              _toml.table("data.columns", rows), *([] if process else [_toml.table("formula", {"path": formula})]),
              _toml.table(f"likelihood.{columns.name(y)}", slots), _toml.table("prior", known.laws, known.comments), effects,

@@ -3,7 +3,7 @@
 from ._columns import status_of
 from ._errors import InputError
 from ._fit_options import fits
-from ._preset_study import Preset, percentages, quantities
+from ._preset_study import Preset, level_of_bounds, percentages, quantities
 
 _corrections = ("none", "goodman", "gerber", "soderberg", "morrow", "swt", "walker")
 _curves = ("basquin", "knee", "stromeyer", "bastenaire")
@@ -92,7 +92,7 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
     study.column("label", "label", label)
     law = {"mean_stress": correction, **({"curve": curve} if curve != "basquin" else {}),
            **({"fatigue_limit": fatigue_limit} if fatigue_limit != "none" else {})}
-    asked = {"types": "all", "b_lives": percentages(b), "credible_level": confidence, "survival_to": quantities(survival_to, "survival_to"),
+    asked = {"types": "all", "b_lives": percentages(b), **level_of_bounds(confidence, predict), "survival_to": quantities(survival_to, "survival_to"),
              "required_life": quantities(required_life, "required_life"), "reliability": quantities(reliability, "reliability"), **(predict or {})}
     study.arguments.update({"law.mean_stress": "correction", "law.curve": "curve", "likelihood.family": "family"})
     made = study.study(title or f"S-N curve: {stress} and {life}", {"law": law, "likelihood": {"family": family}}, priors, asked, unused)

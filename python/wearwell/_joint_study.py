@@ -3,7 +3,7 @@
 from . import _toml
 from ._fit_options import fits
 from ._errors import InputError
-from ._preset_study import Preset, percentages, quantities
+from ._preset_study import Preset, level_of_bounds, percentages, quantities
 
 
 @fits
@@ -80,6 +80,6 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
         asked["cycles"] = quantities(at, "at")
     study.column("count", "count", count)
     if limit is not None:
-        asked.update({"b_lives": percentages(b), "credible_level": confidence})
+        asked.update({"b_lives": percentages(b), **level_of_bounds(confidence, predict)})
     made = study.study(title or f"Joint wear: {volume} against {cycles}", {"likelihood": {"family": family}}, priors, {**asked, **(predict or {})})
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

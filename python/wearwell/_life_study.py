@@ -6,6 +6,7 @@ from . import _toml
 from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
 from ._fit_options import fits
+from ._preset_study import level_of_bounds
 from ._proposed import Priors, factor_27, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
 from ._study import Study
 
@@ -255,7 +256,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     known.require_used()
     unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
     asked = {**({"given": conditions} if (conditions := _conditions(columns, by, stress, given)) else {}),
-             "b_lives": list(b) if hasattr(b, "__iter__") else [b], "credible_level": confidence, **(predict or {})}
+             "b_lives": list(b) if hasattr(b, "__iter__") else [b], **level_of_bounds(confidence, predict), **(predict or {})}
     place = scale if stress else formula
     parts = [_toml.table("", {"title": title or f"Life: {life if isinstance(life, str) else ' to '.join(life)}", "model": "formula"}),
              _toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}), _toml.table("data.columns", rows)]

@@ -76,3 +76,8 @@ def quantities(values, name):
 def percentages(b):
     """Those of B-lives."""
     return None if b is None else list(b) if hasattr(b, "__iter__") else [b]
+
+
+def level_of_bounds(confidence, predict):
+    """The key of ``confidence``; none where ``predict`` has ``level``, another name of it, and ``confidence`` is the default."""
+    return {} if confidence == 0.9 and "level" in (predict or {}) else {"credible_level": confidence}

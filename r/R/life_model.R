@@ -221,6 +221,8 @@ require_options <- function(name, ..., own) {
 
 predict_of <- function(own, proposed) {
   if (!is.null(own) && (!is.list(own) || is.null(names(own)))) stop_input("predict is ", kind_of(own), "; it is a list with the keys of [predict]")
+  # Another name of credible_level, whose default steps back.
+  if ("level" %in% names(own) && identical(proposed$credible_level, 0.9)) proposed$credible_level <- NULL
   for (key in names(own)) proposed[[key]] <- own[[key]]
   proposed
 }

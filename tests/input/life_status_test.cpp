@@ -140,6 +140,13 @@ TEST(StatusWords, MisspeltRunOutsAreRecognized) {
   for (const char* word : {"seal", "sensor", "rubbing", "burnout", "contact", "impact", "valve",
                            "tight", "running", "suspension", "crack", "mode 1", ""})
     EXPECT_FALSE(misspelt_runout(word)) << word;
+  // Without the syllable that negates, these are other words, not negations misspelt.
+  for (const char* word : {"angebrochen", "abgebrochen", "ausgebrochen", "eingebrochen",
+                           "zerbrochen", "contacto", "intakt"})
+    EXPECT_FALSE(misspelt_runout(word)) << word;
+  for (const char* word :
+       {"ungebrochn", "ungebrohcen", "unbrokn", "nicht gebrochn", "non rompuu", "intct"})
+    EXPECT_TRUE(misspelt_runout(word)) << word;
 }
 
 TEST(StatusWords, AFailureOfNoModeNamesNoCause) {

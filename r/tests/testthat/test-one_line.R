@@ -73,3 +73,15 @@ test_that("a clutch takes three tables", {
   expect_error(ww_clutch(design = data.frame(point = 1), cycles = data.frame(plate = 1), weighings = data.frame(plate = 1), density = "2.2 g/cm^3",
                          depth = "1 mm", area = "100 cm^2", fit = FALSE), "design", class = "wearwell_input_error")
 })
+
+test_that("level takes the place of the default confidence", {
+  level_of <- function(study) {
+    predict <- wearwell:::core(wearwell:::C_keys, study$text)$predict
+    expect_null(predict$credible_level)
+    predict$level
+  }
+  expect_identical(level_of(ww_life(data.frame(hours = c(310, 540, 700, 820)), "hours", predict = list(level = 0.95), fit = FALSE)), 0.95)
+  wear <- data.frame(km = c(10, 20, 10, 20), depth = c(9, 19, 11, 22), machine = c("A", "A", "B", "B"))
+  expect_identical(level_of(ww_degradation(depth ~ km | machine, wear, limit = "100 um", units = c(depth = "um", km = "km"),
+                                           predict = list(level = 0.95), fit = FALSE)), 0.95)
+})

@@ -76,6 +76,16 @@ bool one_edit_apart(std::string_view a, std::string_view b) {
   return a.size() == 2 && b.size() == 2 && a[0] == b[1] && a[1] == b[0];
 }
 
+// Whether a word is a negation ("ungebrochen", "not failed") whose first syllable the other word has not: that one is the
+// opposite, or another word ("abgebrochen"), rather than a misspelling.
+bool loses_negation(std::string_view negated, std::string_view word) {
+  for (const std::string_view prefix :
+       {"nicht", "kein", "ohne", "sans", "pasde", "sin", "not", "non", "no", "un", "int"}) {
+    if (negated.starts_with(prefix)) return !word.starts_with(prefix);
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string folded_word(std::string_view word) {
@@ -120,6 +130,7 @@ std::optional<std::string> misspelt_runout(std::string_view word) {
   std::vector<std::string> words;
   for (const auto& [each, seen] : status_words()) {
     if (seen != Censoring::right || each.size() < shortest || each == "censor") continue;  // sensor
+    if (loses_negation(each, folded)) continue;
     if (one_edit_apart(folded, each)) return each;
     if (each.size() >= one_edit_until) words.push_back(each);
   }

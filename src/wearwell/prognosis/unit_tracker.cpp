@@ -8,7 +8,9 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/prognosis/bytes.h"
 #include "wearwell/prognosis/quantity_like.h"
 #include "wearwell/prognosis/reading_table.h"
 
@@ -64,6 +66,11 @@ std::vector<Reading> readings_of(const Tracker& tracker, const std::string& unit
   return readings;
 }
 
+bool is_complete(const Reading& reading) {
+  return std::none_of(reading.numbers.begin(), reading.numbers.end(),
+                      [](double x) { return std::isnan(x); });
+}
+
 }  // namespace
 
 UnitTracker::UnitTracker(std::shared_ptr<const Tracker> tracker, std::string unit, bool fresh)
@@ -73,12 +80,44 @@ UnitTracker::UnitTracker(std::shared_ptr<const Tracker> tracker, std::string uni
 }
 
 std::vector<RowOutcome> UnitTracker::update(const Table& rows) {
+  std::vector<Reading> readings = readings_of(*tracker_, unit_, rows);
+  const Before before = present();
+  try {
+    return taken(readings);
+  } catch (...) {
+    const StopScope to_the_end(nullptr);
+    go_back(before);
+    throw;
+  }
+}
+
+UnitTracker::Before UnitTracker::present() const {
+  ByteWriter watch;
+  watch_.save(watch);
+  return {state_->save(), watch.take(), history_.size(), repeated_,
+          contradicting_, refused_,     last_problem_};
+}
+
+void UnitTracker::go_back(const Before& before) {
+  state_ = tracker_->restore(before.state);
+  ByteReader watch(before.watch, unit_);
+  watch_ = {};
+  watch_.load(watch, *tracker_);
+  history_.erase(history_.begin() + static_cast<std::ptrdiff_t>(before.readings), history_.end());
+  known_.clear();
+  for (const Reading& each : history_)
+    if (is_complete(each)) known_.emplace(each.numbers, each.labels);
+  repeated_ = before.repeated;
+  contradicting_ = before.contradicting;
+  refused_ = before.refused;
+  last_problem_ = before.last_problem;
+}
+
+std::vector<RowOutcome> UnitTracker::taken(std::vector<Reading>& readings) {
   std::vector<RowOutcome> outcomes;
-  for (Reading& reading : readings_of(*tracker_, unit_, rows)) {
+  for (Reading& reading : readings) {
     RowOutcome outcome;
-    const bool complete = std::none_of(reading.numbers.begin(), reading.numbers.end(),
-                                       [](double x) { return std::isnan(x); });
-    if (complete && !known_.emplace(reading.numbers, reading.labels).second) {
+    if (is_complete(reading) && !known_.emplace(reading.numbers, reading.labels).second) {
       ++repeated_;
       outcome.repeated = true;
       outcomes.push_back(std::move(outcome));

@@ -30,8 +30,8 @@ class UnitTracker {
   UnitTracker(std::shared_ptr<const Tracker> tracker, std::string unit, bool fresh);
 
   /// Takes the rows as readings in the order in which they were taken (reading_table.h); a column
-  /// of units may only name this unit. All rows or none: throws InputError that names the first row
-  /// that is invalid for every unit.
+  /// of units may only name this unit. All rows or none, whatever is thrown: InputError that names the first row that is
+  /// invalid for every unit, or Cancelled (base/stop_scope.h).
   std::vector<RowOutcome> update(const Table& rows);
 
   const std::string& unit() const { return unit_; }
@@ -49,6 +49,16 @@ class UnitTracker {
   std::vector<ForecastBand> path() const;
 
  private:
+  /// What it was before some rows.
+  struct Before {
+    std::string state, watch;  // saved
+    std::size_t readings = 0, repeated = 0, contradicting = 0, refused = 0;
+    std::string last_problem = {};
+  };
+  Before present() const;
+  void go_back(const Before& before);
+  std::vector<RowOutcome> taken(std::vector<Reading>& readings);
+
   std::shared_ptr<const Tracker> tracker_;
   std::string unit_;
   bool fresh_ = false;

@@ -28,6 +28,9 @@ void estimate_numerical_errors(std::vector<QuantityQuantiles>& answers,
       if (q.upper_bound && c.upper_bound)
         error = std::max(error, differ(*q.upper_bound, *c.upper_bound));
     }
+    // A mean that stands alone.
+    if (q.mean && c.mean && std::isnan(q.q50))
+      error = std::max(error, margin * relative_difference(*q.mean, *c.mean, *q.mean));
     if (q.predictive && c.predictive) error = std::max(error, differ(*q.predictive, *c.predictive));
     q.numerical_error = error;
   }

@@ -166,6 +166,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
     const auto value = [&](double x) -> Cell {
+      if (std::isnan(x) && q.mean) return Cell();  // only the mean is known
       return std::isinf(x) && each.is_life ? Cell("never") : Cell(x);
     };
     table.rows.push_back(

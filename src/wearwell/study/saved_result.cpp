@@ -136,6 +136,7 @@ QuantityQuantiles read_quantiles(const JsonReader& json) {
   if (json.find("predictive")) q.predictive = number(json, "predictive", never);
   if (json.find("bound")) q.bound = number(json, "bound", never);
   if (json.find("upper_bound")) q.upper_bound = number(json, "upper_bound", never);
+  if (json.find("mean")) q.mean = number(json, "mean", never);
   if (json.find("numerical_error")) q.numerical_error = number(json, "numerical_error");
   return q;
 }

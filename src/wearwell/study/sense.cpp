@@ -124,7 +124,8 @@ Check sense_check(const PosteriorSummary& result) {
         each.unit, p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
   }
   for (const QuantitySummary& each : result.quantities) {
-    const QuantityQuantiles& q = each.best();
+    QuantityQuantiles q = each.best();
+    if (q.mean && std::isnan(q.q50)) q.q05 = q.q50 = q.q95 = *q.mean;  // one number
     sense.interval(fmt::format("{} of {}{}{}", each.name, item_text(each.of),
                                each.at.empty() ? "" : " ", each.at),
                    each.unit, q.q05, q.q95,

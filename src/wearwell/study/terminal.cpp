@@ -169,6 +169,7 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
     above = heading;
     const int digits = digits_of(q);
     const auto shown_value = [&](double x) {
+      if (std::isnan(x) && q.mean) return std::string("-");  // only the mean is known
       return std::isinf(x) ? b_value(each, x) : plain_number(x, digits);
     };
     rows.push_back(

@@ -1,5 +1,6 @@
 // Lives of units that differ, to the digits that are printed, against sums over dense grids that share no code
 // with them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <map>
 #include <sstream>
 
+#include "calibration/formula_design.h"
 #include "support/posterior_study.h"
 #include "support/scratch.h"
+#include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/prob/standard_distribution.h"
 #include "wearwell/study/run_study.h"
@@ -314,6 +317,94 @@ TEST_F(FormulaLivesOfStudies, MeansToAThresholdHaveTheClosedForm) {
                 1, 2e-3)
         << scatter;
   }
+}
+
+// The mean remaining life of one unit is one number: no interval, no bound, no design value.
+TEST_F(FormulaLivesOfStudies, TheMeanOfOneUnitIsOneNumber) {
+  std::ifstream rows(folder_of_lasers + "laser.csv");
+  write("laser.csv", std::string(std::istreambuf_iterator<char>(rows), {}));
+  const PosteriorStudy study = wearwell::read_posterior_study(write("s.toml", R"(
+model = "formula"
+[data]
+file = "laser.csv"
+[data.columns]
+increase = { column = "increase_percent", unit = "%" }
+time = { column = "hours", unit = "h" }
+laser = "laser"
+[likelihood.increase]
+family = "normal"
+mean = "rate * time"
+sd = "sigma"
+[prior]
+rate = { distribution = "lognormal", median = "0.002 %/h", log_sd = 1 }
+scatter = { distribution = "half-normal", scale = 0.5 }
+sigma = { distribution = "half-normal", scale = "1 %" }
+[random_effects.laser]
+rate = { distribution = "lognormal", log_sd = "scatter" }
+[formula]
+path = "rate * time"
+[predict]
+along = "time"
+limit = { path = "10 %" }
+lives_of = ["3"]
+mean_life = true
+)"));
+  const QuantityGroup& group = study.quantity_groups.front();
+  WeightedDraws one;
+  one.values = Points(1, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string& name = study.parameters[i].name;
+    one.values(0, static_cast<Eigen::Index>(i)) = name == "rate"      ? 2e-5 / 3600
+                                                  : name == "scatter" ? 0.2
+                                                                      : 5e-3;
+  }
+  one.weights = Eigen::VectorXd::Ones(1);
+  const auto found = group.from_draws(one);
+  std::size_t means = 0;
+  double median = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (group.requests[i].name == "remaining useful life") median = found[i].q50;
+    if (group.requests[i].name != "mean remaining useful life") continue;
+    ++means;
+    EXPECT_TRUE(std::isnan(found[i].q05) && std::isnan(found[i].q50) && std::isnan(found[i].q95));
+    EXPECT_FALSE(found[i].bound || found[i].upper_bound || found[i].predictive);
+    EXPECT_FALSE(group.requests[i].safe_end || group.requests[i].credible_level);
+    ASSERT_TRUE(found[i].mean);
+    EXPECT_NEAR(*found[i].mean / median, 1, 0.1);
+  }
+  EXPECT_EQ(means, 1u);
+}
+
+// Of more units than are computed unasked a study is read, for questions on one of them, and refused to a fit.
+TEST_F(FormulaLivesOfStudies, ManyUnitsNeedAChoice) {
+  std::string rows = "depth,time,unit\n";
+  for (int u = 0; u < 501; ++u)
+    rows += fmt::format("{:.1f},1,u{}\n", 1 + 0.2 * (u % 5) + 0.1 * (u % 3), u);
+  write("d.csv", rows);
+  const std::string text =
+      "model = \"formula\"\n[data]\nfile = \"d.csv\"\n" + formula_model::straight;
+  const auto read = [&](const std::string& more) {
+    return wearwell::read_posterior_study(write("s.toml", text + more));
+  };
+  const auto refusal = [](const auto& ask) {
+    try {
+      ask();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const PosteriorStudy all = read(""), some = read("lives_of = [\"u7\"]\n");
+  const QuantityGroup& group = all.quantity_groups.front();
+  EXPECT_EQ(group.requests.size(), 502u);  // --unit finds its name among them
+  for (const std::string& why :
+       {refusal([&] { all.likelihood(all.data_rows); }), refusal([&] { group.from_draws({}); }),
+        refusal([&] { group.lives({}); })}) {
+    EXPECT_NE(why.find("predict.limit"), std::string::npos) << why;
+    EXPECT_NE(why.find("lives_of = [\"u0\"] chooses some"), std::string::npos) << why;
+  }
+  EXPECT_EQ(refusal([&] { some.likelihood(some.data_rows); }), "accepted");
+  EXPECT_EQ(some.quantity_groups.front().requests.size(), 1u);
 }
 
 TEST_F(FormulaLivesOfStudies, BLivesCountPointsByTheirWeight) {

@@ -13,6 +13,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/prognosis/named_life.h"
 
 namespace wearwell {
@@ -20,16 +22,32 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double hour = 3600;
 
 class VariedConditions : public ScratchTest {
  protected:
   PosteriorStudy study(const std::string& likelihood, const std::string& predict) {
+    return read_posterior_study(file(likelihood, predict));
+  }
+  // The life under predict.given.
+  std::shared_ptr<const formula_model::LifeDistribution> given_life(const std::string& likelihood,
+                                                                    const std::string& predict) {
+    const Source source = source_of(file(likelihood, predict));
+    const TomlReader root = TomlReader::parse(source.study);
+    const auto model = formula_model::read_formula_model(root, source);
+    const TomlReader asked = root.required_table("predict");
+    return formula_model::life_distribution(
+        asked, "given", model,
+        formula_model::common_conditions(
+            *model, formula_model::read_conditions(asked.required_table("given"), *model)));
+  }
+  std::filesystem::path file(const std::string& likelihood, const std::string& predict) {
     write("lives.csv",
           "life [h],temperature [degC],voltage [V],site,mode\n900,80,500,a,x\n1500,60,400,b,y\n"
           "4000,40,600,a,x\n300,90,800,b,y\n2000,20,300,a,x\n");
-    return read_posterior_study(write(
+    return write(
         "study.toml",
         "model = \"formula\"\n[data]\nfile = \"lives.csv\"\n[data.columns]\nlife = \"life\"\n"
         "temperature = \"temperature\"\nvoltage = \"voltage\"\nsite = \"site\"\n" +
@@ -40,7 +58,7 @@ class VariedConditions : public ScratchTest {
             "shape = { distribution = \"lognormal\", median = 2, log_sd = 0.5 }\n[predict]\n"
             "b_lives = [1, 10]\nmean_life = true\nsurvived = \"500 h\"\n"
             "survival_to = [\"2000 h\", \"15000 h\", \"40000 h\"]\nhazard_at = \"15000 h\"\n" +
-            predict));
+            predict);
   }
   std::string refusal(const std::string& likelihood, const std::string& predict) {
     try {
@@ -91,6 +109,7 @@ std::vector<double> with_shape(double shape) {
 std::string at_voltage(const std::string& temperature) {
   return fmt::format("given = {{ temperature = {}, voltage = \"400 V\" }}\n", temperature);
 }
+const std::string about_90 = "{ distribution = \"normal\", mean = \"90 degC\", sd = \"5 K\" }";
 const std::string about_40 = "{ distribution = \"normal\", mean = \"40 degC\", sd = \"5 K\" }";
 
 // log life is normal about a line in a normal condition: lognormal with sigma^2 + slope^2 sd^2. From lives that scatter more than
@@ -197,18 +216,24 @@ TEST_F(VariedConditions, SharesOfALimitedFailurePopulation) {
   EXPECT_NEAR(life.cdf(life.quantile(0.03)), 0.03, 1e-8);
 }
 
+Check use_check(const PosteriorStudy& study, const WeightedDraws& posterior) {
+  Fit fit;
+  fit.pooled = posterior;
+  for (const Check& check : study.checks(fit))
+    if (check.name == "use") return check;
+  return {};
+}
+
 TEST_F(VariedConditions, TheDistributionIsNamedAndComparedWithTheTests) {
   const PosteriorStudy read = study(weibull_by_use, at_voltage(about_40));
   EXPECT_THAT(read.equation, HasSubstr("temperature ~ normal (mean 40, sd 5 degC) over the units"));
   EXPECT_THAT(read.quantity_groups.front().requests.front().at,
               HasSubstr("temperature ~ normal (mean 40, sd 5 degC), voltage = 400 V"));
   const auto verdict = [&](const PosteriorStudy& asked) {
-    Fit fit;
-    fit.pooled.values = Eigen::Map<const Points>(point.data(), 1, 3);
-    fit.pooled.weights = Eigen::VectorXd::Ones(1);
-    for (const Check& check : asked.checks(fit))
-      if (check.name == "use") return check;
-    return Check{};
+    WeightedDraws one;
+    one.values = Eigen::Map<const Points>(point.data(), 1, 3);
+    one.weights = Eigen::VectorXd::Ones(1);
+    return use_check(asked, one);
   };
   EXPECT_EQ(verdict(read).verdict, Verdict::pass);
   EXPECT_THAT(verdict(read).detail, HasSubstr("28.37 to 51.63 degC, tested were 20 to 90 degC"));
@@ -216,6 +241,105 @@ TEST_F(VariedConditions, TheDistributionIsNamedAndComparedWithTheTests) {
       study(weibull_by_use,
             at_voltage("{ distribution = \"normal\", mean = \"20 degC\", sd = \"5 degC\" }"));
   EXPECT_EQ(verdict(cold).verdict, Verdict::warn);
+}
+
+// The lightest components of a predictive life are left out, and their weight is put back: it reaches 1.
+TEST_F(VariedConditions, ThePredictiveLifeHasAllOfTheUnits) {
+  const PosteriorStudy read = study(
+      weibull_by_use, "given = { temperature = " + about_40 +
+                          ", voltage = { values = [\"300 V\", \"400 V\"], shares = [1, 3] } }\n");
+  for (const double shape : {1.5, 8.0, 40.0}) {
+    const LifeDistribution life = life_at(read, with_shape(shape));
+    EXPECT_NEAR(life.cdf(1e300), 1, 1e-12) << shape;
+    const double late = life.quantile(1 - 5e-8), median = life.quantile(0.5);
+    EXPECT_GT(late, median) << shape;
+    EXPECT_LT(late, 1e3 * median) << shape;
+    EXPECT_NEAR((1 - life.cdf(late)) / 5e-8, 1, 1e-2) << shape;
+  }
+}
+
+const std::string volts_by_unit =
+    "{ distribution = \"lognormal\", median = \"400 V\", log_sd = 0.2 }";
+
+// Between values of a list there are no units: lives there need no finer rule, wherever the list stands. Along a
+// distribution they do.
+TEST_F(VariedConditions, OnlyDistributionsNeedAFinerRule) {
+  const auto components = [&](const std::string& temperature, const std::string& voltage) {
+    const auto life = given_life(
+        weibull_by_use,
+        fmt::format("given = {{ temperature = {}, voltage = {} }}\n", temperature, voltage));
+    auto at = life->at_point();
+    at.move_to(point.data());
+    EXPECT_TRUE(at.resolved());
+    return at.size();
+  };
+  const std::string volts = "{ values = [\"100 V\", \"400 V\", \"800 V\"] }",
+                    temperatures = "{ values = [\"0 degC\", \"40 degC\", \"120 degC\"] }";
+  const std::size_t warm = components(about_40, "\"400 V\""),
+                    strong = components("\"40 degC\"", volts_by_unit);
+  EXPECT_LE(components(about_40, volts), 3 * warm);
+  EXPECT_LE(components(temperatures, volts_by_unit), 3 * strong);
+  EXPECT_EQ(components(temperatures, volts), 9u);
+  const auto narrow = given_life(weibull_by_use, at_voltage(about_40));
+  auto at = narrow->at_point();
+  at.move_to(with_shape(40).data());
+  EXPECT_GT(at.size(), 4 * warm);
+}
+
+WeightedDraws draws_about(double shape, Eigen::Index count) {
+  WeightedDraws draws;
+  draws.values = Points(count, 3);
+  draws.weights = Eigen::VectorXd::Constant(count, 1 / static_cast<double>(count));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(count);
+    draws.values.row(i) << point[0] * (0.9 + 0.2 * part), point[1] * (1 + 0.01 * std::sin(i)),
+        shape * (1 + 0.1 * std::cos(i));
+  }
+  return draws;
+}
+
+// Lives that scatter little need many nodes: a predictive life then has fewer points of the posterior.
+TEST_F(VariedConditions, ComponentsOfAPredictiveLifeAreLimited) {
+  const auto life = given_life(weibull_by_use, "given = { temperature = " + about_40 +
+                                                   ", voltage = " + volts_by_unit + " }\n");
+  const auto components = life->next(draws_about(60, 3000)).components();
+  EXPECT_LT(components, 2'000'000u);
+  EXPECT_GT(components, 200'000u);
+}
+
+// A life under a number beside one under a distribution: over few points of the posterior, with the error of that.
+TEST_F(VariedConditions, ComparedLivesMayHaveADistributionAlone) {
+  const PosteriorStudy read = study(
+      weibull_by_use, at_voltage("\"40 degC\"") + "compared_with = { temperature = " + about_40 +
+                          ", voltage = \"400 V\" }\naccelerated = { temperature = " + about_90 +
+                          ", voltage = \"400 V\" }\n");
+  EXPECT_THAT(read.equation, HasSubstr("of compared_with temperature ~ normal (mean 40"));
+  const QuantityGroup& group = read.quantity_groups.front();
+  const auto found = group.from_draws(draws_about(1.5, 3000));
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::string& name = group.requests[i].name;
+    if (name != "B10 life ratio" && name != "acceleration factor") continue;
+    ++compared;
+    ASSERT_TRUE(found[i].numerical_error) << name;
+    EXPECT_LT(*found[i].numerical_error, 0.05) << name;
+    // Those that differ among each other fail earlier.
+    EXPECT_GT(found[i].q50, 1) << name;
+  }
+  EXPECT_EQ(compared, 2u);
+  const Check use = use_check(read, draws_about(1.5, 20));
+  EXPECT_EQ(use.verdict, Verdict::warn);
+  EXPECT_THAT(use.detail, HasSubstr("of 98 % of the units (accelerated) is"));
+}
+
+TEST_F(VariedConditions, ASumThatStaysCoarseIsSaid) {
+  const PosteriorStudy read = study(weibull_by_use, "given = { temperature = " + about_40 +
+                                                        ", voltage = " + volts_by_unit + " }\n");
+  EXPECT_THAT(use_check(read, draws_about(1.5, 20)).detail, Not(HasSubstr("coarse")));
+  const Check coarse = use_check(read, draws_about(1e4, 20));
+  EXPECT_EQ(coarse.verdict, Verdict::warn);
+  EXPECT_THAT(coarse.detail, AllOf(HasSubstr("predict.given"), HasSubstr("100 % of the posterior"),
+                                   HasSubstr("coarse")));
 }
 
 TEST_F(VariedConditions, WrongDistributionsAreRefused) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 
 #include "wearwell/base/stop_scope.h"
@@ -11,13 +12,24 @@
 #include "wearwell/predict/prediction.h"
 #include "wearwell/predict/thinned_posterior.h"
 
+// Longer than others: every quantity of a life, over the posterior and for the next item, goes by the same few points.
+
 namespace wearwell::formula_model {
 namespace {
 
 // If items survive to this point more rarely, the rest is undetermined.
 constexpr double least_survival = 1e-3;
 
-constexpr std::size_t thinned_posterior = 2000;
+constexpr std::size_t thinned_posterior = 2000, points_of_next = 1000;
+
+// Components of all points together, to which the points are limited, but for the fewest that sum a posterior well.
+constexpr double most_components = 2e6;
+constexpr std::size_t fewest_points = 200;
+
+// Components of a predictive life; the others are too light to matter.
+bool is_kept(double weight) {
+  return weight >= 1e-9;
+}
 
 Eigen::Index heaviest(const WeightedDraws& draws) {
   Eigen::Index row = 0;
@@ -27,6 +39,27 @@ Eigen::Index heaviest(const WeightedDraws& draws) {
 
 std::size_t some(std::size_t most, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(most));
+}
+
+// Points of a posterior: at most `most`, and fewer where each has many components (most_components). Their number
+// depends on the point; it is averaged over a few.
+std::size_t affordable(std::size_t most, const WeightedDraws& draws,
+                       std::initializer_list<LifeAtPoint*> lives) {
+  constexpr std::size_t probes = 16;
+  double components = 0;
+  for (LifeAtPoint* const each : lives) {
+    if (!each->varies()) {
+      components += static_cast<double>(each->size());
+      continue;
+    }
+    const ThinnedPosterior few(draws, probes);
+    for (std::size_t i = 0; i < few.weights.size(); ++i) {
+      each->move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
+      components += few.weights[i] * static_cast<double>(each->size());
+    }
+  }
+  const auto within = static_cast<std::size_t>(most_components / std::max(components, 1.0));
+  return std::clamp(within, std::min(fewest_points, most), most);
 }
 
 }  // namespace
@@ -94,9 +127,12 @@ bool LifeDistribution::over_all() const {
 }
 
 void LifeDistribution::Next::add(const LifeAtPoint& at, double weight) {
+  double kept = 0;
+  for (std::size_t j = 0; j < at.size(); ++j)
+    if (is_kept(at.weight(j))) kept += at.weight(j);
   for (std::size_t j = 0; j < at.size(); ++j) {
-    if (at.weight(j) < 1e-9) continue;
-    weights_.push_back(weight * at.weight(j));
+    if (!is_kept(at.weight(j))) continue;
+    weights_.push_back(weight * at.weight(j) / kept);
     family_parameters_.insert(family_parameters_.end(), at.slots(j),
                               at.slots(j) + parameters_of(risks_));
   }
@@ -121,7 +157,9 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
     next.middle_ = at.middle();
     return next;
   }
-  const ThinnedPosterior few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
+  const ThinnedPosterior few(
+      draws,
+      at.size() == 1 ? 20'000 : some(affordable(points_of_next, draws, {&at}), share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.middle();
@@ -133,7 +171,8 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
 // If every point needs an equation solved, few are used.
 WeightedDraws LifeDistribution::points(const WeightedDraws& draws, double share_of_points) const {
   if (over_all()) return draws;
-  ThinnedPosterior few(draws, some(thinned_posterior, share_of_points));
+  LifeAtPoint at = at_point();
+  ThinnedPosterior few(draws, some(affordable(thinned_posterior, draws, {&at}), share_of_points));
   WeightedDraws result;
   result.values = std::move(few.values);
   result.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(),
@@ -148,9 +187,13 @@ LifeDistribution::Known LifeDistribution::undetermined(const WeightedDraws& draw
 // A quantity derived from the parameters; if it is expensive, it is evaluated at few points.
 template <class Value>
 LifeDistribution::Known LifeDistribution::over(const WeightedDraws& draws, const Value& value,
-                                               double share_of_points) const {
-  if (over_all()) return {{draws, value}};
-  const ThinnedPosterior few(draws, some(thinned_posterior, share_of_points));
+                                               double share_of_points,
+                                               const LifeDistribution* other) const {
+  if (over_all() && (!other || other->over_all())) return {{draws, value}};
+  LifeAtPoint here = at_point(), there = (other ? other : this)->at_point();
+  const std::size_t most = other ? affordable(thinned_posterior, draws, {&here, &there})
+                                 : affordable(thinned_posterior, draws, {&here});
+  const ThinnedPosterior few(draws, some(most, share_of_points));
   Points at_few(few.values.rows(), 1);
   for (Eigen::Index i = 0; i < at_few.rows(); ++i) at_few(i, 0) = value(few.values.row(i).data());
   if (share_of_points == 1) {
@@ -297,7 +340,7 @@ LifeDistribution::Known LifeDistribution::compared(const WeightedDraws& draws,
         there.move_to(x);
         return value(here, there);
       },
-      share_of_points);
+      share_of_points, &other);
 }
 
 LifeDistribution::Known LifeDistribution::ratio(const WeightedDraws& draws,

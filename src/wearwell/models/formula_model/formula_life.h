@@ -33,16 +33,18 @@ class LifeDistribution {
     double quantile(double p) const;
     /// The remaining life of an item that has survived to `from`: its p-quantile.
     double quantile(double p, double from) const;
+    std::size_t components() const { return weights_.size(); }
 
    private:
     friend class LifeDistribution;
-    void add(const LifeAtPoint& at, double weight);  // its components
+    void add(const LifeAtPoint& at, double weight);  // its components, without the lightest
     std::vector<Risk> risks_;
     std::vector<double> weights_, family_parameters_;  // of the components, risk by risk
     double middle_ = 1;
   };
-  /// Over all points of a posterior, or over few if items vary: then all functions below take a share of the
-  /// points below 1, to estimate the dependence on the points.
+  /// Over all points of a posterior, or over few if items vary, fewer the more components a life has (conditions that
+  /// differ between units): then all functions below take a share of the points below 1, to estimate the dependence on
+  /// the points. A value of two lives is over all points only if both are.
   bool over_all() const;
   Next next(const WeightedDraws& draws, double share_of_points = 1) const;
 
@@ -100,8 +102,10 @@ class LifeDistribution {
   template <class Value>
   Known compared(const WeightedDraws& draws, const LifeDistribution& other, const Value& value,
                  double share_of_points) const;
+  // `other`: the value depends on this life, too.
   template <class Value>
-  Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
+  Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1,
+             const LifeDistribution* other = nullptr) const;
 
   std::vector<Risk> risks_;
 };

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/models/formula_model/formula_process_lives.h"
 #include "wearwell/models/formula_model/limit_group.h"
@@ -57,13 +59,6 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
   const std::vector<std::string>& units = asked.model->units;
   const bool only = asked.predict.has("lives_of");
   const std::vector<std::string> reported = asked.predict.texts("lives_of");
-  if (!only && units.size() > most_units)
-    asked.predict.fail(
-        "limit",
-        fmt::format("the data have {} units of '{}', and the remaining useful life of each "
-                    "takes about 10 MB of memory; without a choice at most {} are computed: "
-                    "lives_of = [\"{}\"] chooses some, lives_of = [] only a new one",
-                    units.size(), asked.noun, most_units, units.front()));
   for (const std::string& each : reported) {
     if (std::find(units.begin(), units.end(), each) == units.end()) {
       asked.predict.fail("lives_of", fmt::format("the data have no {} '{}'{}", asked.noun, each,
@@ -77,12 +72,43 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
   if (!reported.empty()) path.next.reset();
 }
 
+// Why lives of all units, which nobody chose, are not computed; none for fewer.
+std::optional<InputError> too_many_units(const Asked& asked, const LimitedPath& path) {
+  if (asked.predict.has("lives_of") || path.seen.size() <= most_units) return {};
+  try {
+    asked.predict.fail(
+        "limit",
+        fmt::format("the data have {} units of '{}', and the remaining useful life of each "
+                    "takes about 10 MB of memory; without a choice at most {} are computed: "
+                    "lives_of = [\"{}\"] chooses some, lives_of = [] only a new one",
+                    path.seen.size(), asked.noun, most_units, asked.model->units.front()));
+  } catch (const InputError& error) {
+    return error;
+  }
+}
+
 using Lives = std::function<LimitedLives(const WeightedDraws&, double share_of_points)>;
 
 void request_lives(const Asked& asked, const std::string& name, const Quantity& limit,
                    const std::shared_ptr<const LimitedPath>& path, const LimitWishes& reported,
                    const Lives& lives_of, PosteriorStudy& study) {
   const auto rows = std::make_shared<const LimitGroup>(asked, name, limit, path, reported);
+  // An earlier result is read without a refusal, since it may be asked for one of its units. A fit is refused before it
+  // begins.
+  if (const auto refusal = too_many_units(asked, *path)) {
+    study.likelihood = [refusal](std::size_t) -> std::shared_ptr<const LogDensity> {
+      throw InputError(*refusal);
+    };
+    study.quantity_groups.push_back(
+        {rows->requests(),
+         [refusal](const WeightedDraws&) -> std::vector<QuantityQuantiles> {
+           throw InputError(*refusal);
+         },
+         [refusal](const WeightedDraws&) -> std::vector<PredictiveLife> {
+           throw InputError(*refusal);
+         }});
+    return;
+  }
   const auto coarse = [=](const LimitedLives& lives, const WeightedDraws& draws) {
     return lives.over_all ? std::nullopt : std::optional(lives_of(draws, fewer_points));
   };

@@ -106,23 +106,21 @@ class Predictions {
     const std::string given = predict_.has("given") ? "given" : "";
     const auto life = life_distribution(predict_, given, model_, common_);
     std::shared_ptr<const LifeDistribution> fast, other;
-    std::string fast_words, other_words;
+    Conditions under_fast, under_other;
     if (const auto compared = predict_.table("compared_with")) {
       if (measured.life.limited || measured.life.dead)
         predict_.fail(
             "compared_with",
             "is not possible with share_defective or share_dead_on_arrival, where lives have "
             "no ratio; compare two results by wearwell life --against");
-      const Conditions conditions = read_conditions(*compared, *model_);
-      other_words = conditions.words;
+      under_other = read_conditions(*compared, *model_);
       other = life_distribution(predict_, "compared_with", model_,
-                                common_conditions(*model_, conditions));
+                                common_conditions(*model_, under_other));
     }
     if (const auto accelerated = predict_.table("accelerated")) {
-      const Conditions conditions = read_conditions(*accelerated, *model_);
-      fast_words = conditions.words;
+      under_fast = read_conditions(*accelerated, *model_);
       fast = life_distribution(predict_, "accelerated", model_,
-                               common_conditions(*model_, conditions));
+                               common_conditions(*model_, under_fast));
     }
     QuantityGroup group;
     const std::string what = measured.form->positive ? "life" : measured.column;
@@ -155,7 +153,7 @@ class Predictions {
       bounded("survival to " + description(each), given_words_, Unit{"%", 0.01, 0});
     }
     if (other) {
-      const std::string against = fmt::format("{} against {}", given_words_, other_words);
+      const std::string against = fmt::format("{} against {}", given_words_, under_other.words);
       const Unit percent{"%", 0.01, 0};
       bounded("probability to outlive", against, percent);
       for (const double each : percents)
@@ -170,10 +168,14 @@ class Predictions {
     }
     if (fast) {
       group.requests.push_back(request("acceleration factor", noun_,
-                                       fmt::format("{} over {}", given_words_, fast_words),
+                                       fmt::format("{} over {}", given_words_, under_fast.words),
                                        Unit{"1", 1, 0}));
     }
-    add_use_check(model_, asked_.given, study_);
+    add_use_check(model_,
+                  {{"given", asked_.given, life},
+                   {"compared_with", under_other, other},
+                   {"accelerated", under_fast, fast}},
+                  study_);
     const AskedOfLife asked{life, fast, other, levels, mean, survived, survival, hazard};
     group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
     group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };

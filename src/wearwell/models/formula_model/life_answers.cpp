@@ -119,7 +119,8 @@ std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const Weig
 
 std::vector<QuantityQuantiles> life_answers(const AskedOfLife& asked, const WeightedDraws& draws) {
   std::vector<QuantityQuantiles> found = answers_from(asked, draws, 1);
-  if (!asked.life->over_all())
+  const auto few = [](const auto& life) { return life && !life->over_all(); };
+  if (few(asked.life) || few(asked.other) || few(asked.fast))
     estimate_numerical_errors(found, answers_from(asked, draws, fewer_points));
   return found;
 }

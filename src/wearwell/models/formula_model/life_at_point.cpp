@@ -2,6 +2,7 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/mean_beyond.h"
 
@@ -49,12 +50,14 @@ LifeAtPoint::LifeAtPoint(std::span<const Risk> risks)
 }
 
 void LifeAtPoint::move_to(const double* x) {
+  check_stop();
   if (!varied_) return fill(x);
   for (const ConditionNodes& rule : varied_->rules) {
     rule_ = &rule;
     family_parameters_.resize(stride_ * size());
     fill(x);
-    if (is_fine()) return;
+    resolved_ = is_fine();
+    if (resolved_) return;
   }
 }
 
@@ -98,7 +101,8 @@ double LifeAtPoint::weight(std::size_t i) const {
          new_units_.share(among / rule_->count());
 }
 
-// In the middle of the effects, along the last condition and then along the first.
+// In the middle of the effects, along the last condition and then along the first. Between values of a list there are
+// no units, so that their lives need not overlap.
 bool LifeAtPoint::is_fine() const {
   const std::size_t effects = nodes_.weight.size(), count = rule_->count();
   const auto own = [&](std::size_t condition, std::size_t r) {
@@ -118,10 +122,11 @@ bool LifeAtPoint::is_fine() const {
   const std::size_t columns = rule_->columns;
   for (std::size_t i = 0; i < count; ++i) {
     if (rule_->share[i] < least_deciding) continue;
-    if (i + 1 < count && (columns == 1 || rule_->at[i * columns] == rule_->at[(i + 1) * columns]) &&
+    if (rule_->drawn.back() && i + 1 < count &&
+        (columns == 1 || rule_->at[i * columns] == rule_->at[(i + 1) * columns]) &&
         !overlap(i, i + 1))
       return false;
-    if (columns == 1) continue;
+    if (columns == 1 || !rule_->drawn.front()) continue;
     const double* const at = &rule_->at[i * columns];
     for (std::size_t j = i + 1; j < count; ++j) {  // the next with the same last condition
       const double* const next = &rule_->at[j * columns];

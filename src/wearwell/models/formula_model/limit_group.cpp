@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "wearwell/study/numerical_error.h"
 
@@ -88,12 +89,13 @@ LimitGroup::LimitGroup(const Asked& asked, const std::string& name, const Quanti
   }
 }
 
-// The mean over new units has a posterior; that of one unit is averaged over it.
+// The mean over new units has a posterior; that of one unit is averaged over it, one number without an interval.
 void LimitGroup::add_mean(const QuantityRequest& life, bool next, const std::string& noun) {
   const QuantityRequest own = life;
   requests_.push_back(request("mean " + own.name, next ? noun : own.of, own.at, own.unit));
+  if (!next) return;
   requests_.back().safe_end = 0.05;
-  if (next) ask_bounds(wishes_.levels, requests_.back());
+  ask_bounds(wishes_.levels, requests_.back());
 }
 
 std::vector<LimitGroup::Remaining> LimitGroup::remaining(const LimitedLives& lives) const {
@@ -134,7 +136,9 @@ std::vector<QuantityQuantiles> LimitGroup::answers(const LimitedLives& lives) co
     if (!wishes_.mean) continue;
     const double mean = all[i].mean();
     if (!next) {
-      found.push_back({mean, mean, mean, 0, 0, 0});
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      found.push_back({none, none, none, 0, 0, 0});
+      found.back().mean = mean;
       continue;
     }
     found.push_back(b_life(Remaining{lives.mean, all[i].survival}, mean, wishes_.levels));

@@ -44,9 +44,9 @@ VariedCondition read_values(const TomlReader& table, const std::string& column,
 }
 
 ConditionNodes nodes_of(const VariedCondition& condition, double step) {
-  if (!condition.values.empty()) return {1, condition.values, condition.shares};
+  if (!condition.values.empty()) return {1, condition.values, condition.shares, {false}};
   const NormalNodes nodes(1, 6.5, step);
-  ConditionNodes found{1, {}, nodes.weight};
+  ConditionNodes found{1, {}, nodes.weight, {true}};
   for (const double z : nodes.z)
     found.at.push_back(
         quantile(condition.distribution.prior, cdf(StandardDistribution::normal, z)));
@@ -54,7 +54,8 @@ ConditionNodes nodes_of(const VariedCondition& condition, double step) {
 }
 
 ConditionNodes product(const ConditionNodes& one, const ConditionNodes& other) {
-  ConditionNodes found{one.columns + other.columns, {}, {}};
+  ConditionNodes found{one.columns + other.columns, {}, {}, one.drawn};
+  found.drawn.insert(found.drawn.end(), other.drawn.begin(), other.drawn.end());
   double sum = 0;
   for (std::size_t i = 0; i < one.count(); ++i) {
     for (std::size_t j = 0; j < other.count(); ++j) {

@@ -31,6 +31,8 @@ std::string description(const VariedCondition& condition);
 struct ConditionNodes {
   std::size_t columns = 0;
   std::vector<double> at, share;
+  std::vector<bool>
+      drawn;  ///< of each column: from a distribution, so that a finer rule has nodes between
   std::size_t count() const { return share.size(); }
 };
 
