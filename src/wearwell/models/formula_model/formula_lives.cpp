@@ -16,8 +16,7 @@
 namespace wearwell::formula_model {
 namespace {
 
-// Number of points of the posterior. If they are expensive, fewer for units with readings: lives of
-// new units depend on the tail of the population.
+// Points of the posterior: fewer for units with readings, as new ones depend on the population's tail.
 struct Most {
   std::size_t next = 4000, seen = 1000;
 };
