@@ -85,9 +85,11 @@ def test_events_of_a_unit_are_reported(url):
     monitor.report("M5", "failed", key=keys[2], use=1210.0, by="J. Doe")
     assert until(lambda: monitor.units().loc["M5", "service"] == "failed")
     with pytest.raises(ww.InputError, match="must be one of replaced, removed"):
-        monitor.report("M5", "repaired", key=1, by="x")
-    with pytest.raises(ww.InputError, match="has no stored reading with key 7"):
-        monitor.report("M5", "withdrawn", key=7, by="x")
+        monitor.report("M5", "repaired", key=keys[0], by="x")
+    with pytest.raises(ww.InputError, match="has no stored reading with key"):
+        monitor.report("M5", "withdrawn", key=keys[2] + 5, by="x")
+    with pytest.raises(ww.InputError, match="year 1970; it is a Unix time in milliseconds"):
+        monitor.report("M5", "withdrawn", key=keys[2] // 1000, by="x")
     with pytest.raises(ww.InputError, match="is not a unit"):
         monitor.report("M55", "withdrawn", key=7, by="x")
 

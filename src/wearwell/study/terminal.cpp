@@ -27,7 +27,6 @@
 namespace wearwell {
 namespace {
 
-// Formats numbers in texts of the program for reading.
 std::string shown(const std::string& words) {
   return numbers_text(words, Script::terminal);
 }

@@ -72,7 +72,7 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
   if (!reported.empty()) path.next.reset();
 }
 
-// Why lives of all units, which nobody chose, are not computed; none for fewer.
+// Why lives of all units, which no one chose, are not computed; none for fewer.
 std::optional<InputError> too_many_units(const Asked& asked, const LimitedPath& path) {
   if (asked.predict.has("lives_of") || path.seen.size() <= most_units) return {};
   try {

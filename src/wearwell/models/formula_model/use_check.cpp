@@ -1,7 +1,6 @@
 #include "wearwell/models/formula_model/use_check.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string>
@@ -74,14 +73,7 @@ void add_use_check(const std::shared_ptr<const FormulaModel>& model,
                    const std::vector<AskedUse>& uses, PosteriorStudy& study) {
   std::vector<AskedUse> varied;
   for (const AskedUse& each : uses) {
-    if (!each.life || !each.conditions.varied) continue;
-    varied.push_back(each);
-    std::vector<std::string> words;
-    for (const VariedCondition& one : each.conditions.varied->conditions)
-      words.push_back(description(one));
-    study.equation +=
-        fmt::format("; {} {} over the units, each of which keeps its own for life",
-                    each.key == "given" ? "in use" : "of " + each.key, fmt::join(words, ", "));
+    if (each.life && each.conditions.varied) varied.push_back(each);
   }
   if (varied.empty()) return;
   study.checks = [model, varied, own = study.checks](const Fit& fit) {

@@ -19,8 +19,8 @@ struct AskedUse {
 };
 
 /// Adds the check `use`: whether conditions that differ between units lie in the tested range, but for 1 % of the units
-/// at either end, and whether lives are summed over them finely enough (LifeAtPoint::resolved); and names these
-/// conditions in the study's equation. Nothing without such conditions.
+/// at either end, and whether lives are summed over them finely enough (LifeAtPoint::resolved). Nothing without such
+/// conditions.
 void add_use_check(const std::shared_ptr<const FormulaModel>& model,
                    const std::vector<AskedUse>& uses, PosteriorStudy& study);
 
