@@ -114,7 +114,7 @@ TEST_F(Door, SlipsInAStudy) {
       // keys that are misspelt, before what follows from that
       {"joint", "^limit", "limt",
        "predict.limt: unknown key; did you mean 'limit'? (possible: b_lives, credible_level, "
-       "cycles, limit, risk, "
+       "cycles, level, limit, risk, sides, "
        "work_per_cycle)"},
       {"joint", "\\[predict\\]", "[predct]", "predct: unknown key; did you mean 'predict'?"},
       {"joint", "data.columns", "data.coloumns",
@@ -205,9 +205,11 @@ TEST_F(Door, TwoSlipsAreOneMessage) {
   EXPECT_EQ(
       said.substr(0, said.find('\n')),
       "slip.toml:29:11: predict.xlimit: unknown key; did you mean 'limit'? (possible: b_lives, "
-      "credible_level, cycles, limit, risk, work_per_cycle); and 30:11: predict.xrisk: unknown "
+      "credible_level, cycles, level, limit, risk, sides, work_per_cycle); and 30:11: "
+      "predict.xrisk: unknown "
       "key; did you mean "
-      "'risk'? (possible: b_lives, credible_level, cycles, limit, risk, work_per_cycle)");
+      "'risk'? (possible: b_lives, credible_level, cycles, level, limit, risk, sides, "
+      "work_per_cycle)");
   EXPECT_THAT(said,
               AllOf(HasSubstr("\n    right: limit  = "), HasSubstr("\n    right: risk   = ")));
   EXPECT_THAT(
