@@ -93,12 +93,8 @@ void request_lives(const Asked& asked, const std::string& name, const Quantity& 
                    const std::shared_ptr<const LimitedPath>& path, const LimitWishes& reported,
                    const Lives& lives_of, PosteriorStudy& study) {
   const auto rows = std::make_shared<const LimitGroup>(asked, name, limit, path, reported);
-  // An earlier result is read without a refusal, since it may be asked for one of its units. A fit is refused before it
-  // begins.
+  // The study itself is read without a refusal: for one of its units, or with tests that are planned.
   if (const auto refusal = too_many_units(asked, *path)) {
-    study.likelihood = [refusal](std::size_t) -> std::shared_ptr<const LogDensity> {
-      throw InputError(*refusal);
-    };
     study.quantity_groups.push_back(
         {rows->requests(),
          [refusal](const WeightedDraws&) -> std::vector<QuantityQuantiles> {
