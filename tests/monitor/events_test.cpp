@@ -161,13 +161,13 @@ TEST_F(Events, APartIsOutOfServiceUntilItIsReplaced) {
   EXPECT_EQ(view("a").alarm, Alarm::act);
   report("a", "failed", R"("n": 10, "time": 510)");
   EXPECT_EQ(view("a").alarm, Alarm::unknown);
-  EXPECT_EQ(view("a").service, "failed");
+  EXPECT_EQ(view("a").service, Service::failed);
   deliver(message("a", 11, 10, 520));
   EXPECT_EQ(view("a").quality.refused, 1U);
   EXPECT_THAT(view("a").quality.last_problem, HasSubstr("out of service (failed)"));
   EXPECT_THAT(changes_.back(), HasSubstr("act -> unknown"));
   report("a", "replaced", R"("n": 11, "time": 510)");
-  EXPECT_EQ(view("a").service, "in service");
+  EXPECT_EQ(view("a").service, Service::in_service);
   EXPECT_EQ(view("a").alarm, Alarm::ok);
   EXPECT_EQ(view("a").quality.readings, 1U);
   deliver(message("b", 1, 50, 50));
@@ -187,7 +187,7 @@ TEST_F(Events, EndsOfAPart) {
   for (int n = 1; n <= 3; ++n) deliver(message("a", n, 50.0 * n, 50 * n));
   report("a", "removed", R"("n": 3)");
   report("a", "failed", R"("n": 3, "time": 160)");
-  EXPECT_EQ(view("a").service, "failed");
+  EXPECT_EQ(view("a").service, Service::failed);
   std::uint64_t count = 0;
   EXPECT_THAT(lives_as_csv(*store_, tracker_, count), HasSubstr("a,160,failed"));
   report("a", "replaced", R"("n": 4, "time": 200)");
@@ -211,7 +211,7 @@ TEST_F(Events, ThatCameBeforeAndDoNotHold) {
   EXPECT_THAT(report("a", "failed", R"("n": 1, "time": 10)").problem,
               HasSubstr("event 3 again, which is cancelled"));
   EXPECT_EQ(report("a", "failed", R"("n": 1, "time": 10, "note": "indeed")").events, 1U);
-  EXPECT_EQ(view("a").service, "failed");
+  EXPECT_EQ(view("a").service, Service::failed);
 }
 
 // What is shown of the past follows, too; and the largest key is known where not every reading is kept.

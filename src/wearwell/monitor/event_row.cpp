@@ -11,9 +11,10 @@ namespace {
 std::string text_in(const Fields& fields, const char* name, std::size_t most) {
   const Field* field = find_field(fields, name);
   if (!field || field->kind == Field::Kind::null) return {};
-  const bool written = field->kind == Field::Kind::text || field->whole;
-  const std::string text =
-      field->kind == Field::Kind::text ? field->text : fmt::format("{}", field->integer);
+  const bool written = field->kind == Field::Kind::text || field->whole || !field->text.empty();
+  const std::string text = field->kind == Field::Kind::text || !field->text.empty()
+                               ? field->text
+                               : fmt::format("{}", field->integer);
   if (!written || text.size() > most || printable(text) != text)
     throw InputError(fmt::format("{} must be a text of at most {} bytes without control characters",
                                  name, most));

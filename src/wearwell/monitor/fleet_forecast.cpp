@@ -37,7 +37,7 @@ void Fleet::forecast(Unit& unit) {
   view.doubt = watch.reason();
   view.beyond = watch.is_beyond();
   view.part = part.number;
-  view.service = name(part.service);
+  view.service = part.service;
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;

@@ -106,7 +106,7 @@ Json json_of(const UnitView& unit) {
           {"doubt", unit.doubt.empty() ? Json(nullptr) : Json(unit.doubt)},
           {"beyond", unit.beyond},
           {"part", unit.part},
-          {"service", unit.service},
+          {"service", name(unit.service)},
           {"quality",
            {{"readings", unit.quality.readings},
             {"repeated", unit.quality.repeated},

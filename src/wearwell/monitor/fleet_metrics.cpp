@@ -6,8 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "wearwell/monitor/unit_events.h"
-
 namespace wearwell::monitor {
 namespace {
 
@@ -142,7 +140,7 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
         "Whether the last reading measures a level beyond the failure threshold, 1 or 0.",
         [](const UnitView& unit) { return unit.beyond ? 1.0 : 0.0; });
   gauge("wearwell_unit_in_service", "1; 0 if the part has failed or is taken out.",
-        [](const UnitView& unit) { return unit.service == name(Service::in_service) ? 1.0 : 0.0; });
+        [](const UnitView& unit) { return unit.service == Service::in_service ? 1.0 : 0.0; });
   known("wearwell_unit_risk_ratio",
         "Probability that the failure threshold is reached within the horizon.",
         [](const UnitView& unit) { return unit.risk; });

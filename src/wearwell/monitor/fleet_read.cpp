@@ -68,7 +68,6 @@ FleetView Fleet::fleet() const {
 std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset, std::size_t count,
                                    std::uint64_t* matching) const {
   const std::string wanted = lower(search);
-  const std::string in_service = name(Service::in_service);
   std::vector<std::shared_ptr<const Seen>> found;
   {
     const std::lock_guard lock(lock_);
@@ -82,7 +81,7 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
   std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     const auto order = [&](const UnitView& view) {
       const double least = view.beyond ? 1 : view.doubt.empty() ? 0 : settings_.alarm.act;
-      return std::tuple(view.service != in_service || (!view.known && least == 0),
+      return std::tuple(view.service != Service::in_service || (!view.known && least == 0),
                         -std::max(view.risk, least), view.remaining.q05);
     };
     return order(a->view) < order(b->view);

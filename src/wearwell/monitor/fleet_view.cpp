@@ -1,7 +1,5 @@
 #include "wearwell/monitor/fleet_view.h"
 
-#include "wearwell/monitor/unit_events.h"
-
 namespace wearwell::monitor {
 
 const char* name(Alarm alarm) {
@@ -21,7 +19,7 @@ const char* name(Alarm alarm) {
 }
 
 std::string shown_state(const UnitView& unit) {
-  return unit.service == name(Service::in_service) ? name(unit.alarm) : unit.service;
+  return unit.service == Service::in_service ? name(unit.alarm) : name(unit.service);
 }
 
 }  // namespace wearwell::monitor

@@ -42,7 +42,7 @@ struct UnitView {
   std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
   bool beyond = false;         ///< the last reading measures a level beyond the threshold
   std::int64_t part = 1;       ///< which one it is: later ones are installed by `replaced`
-  std::string service = "in service";  ///< or "removed", "failed": then the alarm is unknown
+  Service service = Service::in_service;  ///< else the alarm is unknown
   Quality quality;
 };
 

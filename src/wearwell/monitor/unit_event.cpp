@@ -51,6 +51,12 @@ std::string event_names() {
   return names;
 }
 
+const char* name(Service service) {
+  return service == Service::removed  ? "removed"
+         : service == Service::failed ? "failed"
+                                      : "in service";
+}
+
 std::string content_of(const UnitEvent& event) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (!std::isnan(event.use)) json["use"] = event.use;

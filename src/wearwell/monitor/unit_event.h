@@ -28,6 +28,10 @@ EventKind stored_event(std::string_view name);
 /// "replaced, removed, ...", for messages.
 std::string event_names();
 
+/// Whether a part is in use, and if not, why.
+enum class Service { in_service, removed, failed };
+const char* name(Service service);
+
 /// A stored event of a unit. Events are never changed: a wrong one is cancelled by another.
 struct UnitEvent {
   std::int64_t number = 0;  ///< in the order of storage, from 1

@@ -7,12 +7,6 @@
 
 namespace wearwell::monitor {
 
-const char* name(Service service) {
-  return service == Service::removed  ? "removed"
-         : service == Service::failed ? "failed"
-                                      : "in service";
-}
-
 UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns)
     : columns_(columns), events_(std::move(events)) {
   for (const UnitEvent& each : events_) {

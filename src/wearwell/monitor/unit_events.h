@@ -14,10 +14,6 @@
 
 namespace wearwell::monitor {
 
-/// Whether a part is in use, and if not, why.
-enum class Service { in_service, removed, failed };
-const char* name(Service service);
-
 /// A part of a unit: from its installation to the next one.
 struct UnitPart {
   std::int64_t number = 1;
