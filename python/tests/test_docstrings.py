@@ -12,10 +12,10 @@ from public_names import docstrings, public_names, sections
 
 names = public_names()
 texts = docstrings()
-of_damage = {f"{name}.{each}" for name in ("Damage", "DesignCurves", "LoadSpectrum") for each in ("report", "write", "tables")}
+of_damage = {f"{name}.{each}" for name in ("Damage", "DesignCurves", "LivesAgainst", "LoadSpectrum") for each in ("report", "write", "tables")}
 return_nothing = {each for each in of_damage if not each.endswith("tables")} | {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Plan.report", "Plan.write", "Selection.report"}
 raise_nothing = {each for each in of_damage if each.endswith("tables")} | {"Damage", "Damage.damage", "Damage.life", "Damage.lives", "Damage.sources", "DesignCurves",
-                 "DesignCurves.curves", "DesignCurves.models", "LoadSpectrum", "UnitTracker.passed", "Backtest", "Backtest.coverage", "Backtest.forecasts", "Quantiles", "UnitTracker", "UnitTracker.doubt", "UnitTracker.level",
+                 "DesignCurves.curves", "DesignCurves.models", "LoadSpectrum", "LivesAgainst", "LivesAgainst.differences", "LivesAgainst.outlives", "UnitTracker.passed", "Backtest", "Backtest.coverage", "Backtest.forecasts", "Quantiles", "UnitTracker", "UnitTracker.doubt", "UnitTracker.level",
                  "UnitTracker.outcomes", "UnitTracker.path", "UnitTracker.rul", "UnitTracker.summary", "Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
                  "Selection", "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
 

@@ -8,6 +8,8 @@ One line for a table, with default priors that ``fit.study.toml`` states:
 ``sn``, ``staircase``   S-N curves with run-outs; fatigue limits of up-and-down tests
 ``joint``, ``bearing``  wear coefficients of joints and of journal bearings from inspections
 ``clutch``              the wear model of a dry clutch from a campaign
+``repairable``          failures of units that are repaired: power law, renewal, phases of a growth test
+``returns``             warranty returns: a returns triangle, or units with their dates
 ======================  ======================================================================================
 
 All lead to a ``Fit``: ``trusted`` and ``checks``, ``summary``, ``lives``, ``plot("life")``, ``predict``, ``percentile``,
@@ -32,6 +34,7 @@ from . import _errors
 from ._errors import CheckWarning, InputError, MachineError, MissingFileError, NotTrusted
 from . import _core
 from . import bearing, clutch, plan
+from ._against import LivesAgainst
 from ._arrow import ArrowTable, arrow
 from ._backtest import Backtest, backtest
 from ._bearing_study import bearing as _fit_bearings
@@ -51,6 +54,8 @@ from ._plan import Plan
 from ._plots import Plot
 from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
 from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
+from ._repairable_study import repairable
+from ._returns_study import returns
 from ._spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectrum
 from ._study import Study, fit
 from ._tools import Comparison, Selection, compare, rainflow, select
@@ -63,9 +68,9 @@ _make_callable(bearing.__name__, _fit_bearings)
 _make_callable(clutch.__name__, _fit_clutch)
 
 __all__ = [
-    "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
+    "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "repairable", "returns", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
     "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "export_c", "export_sql", "Monitor",
-    "select", "Selection", "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "decide", "plan", "Plan", "table", "arrow", "ArrowTable",
+    "select", "Selection", "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "decide", "plan", "Plan", "LivesAgainst", "table", "arrow", "ArrowTable",
     "flat", "uniform", "normal", "lognormal", "half_normal", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
     "jeffreys", "prior", "default",
     "InputError", "MissingFileError", "MachineError", "NotTrusted", "CheckWarning",

@@ -86,6 +86,9 @@ class Fit:
     def conditional(
         self, survived: _Quantity, b: _Percentages = ..., given: _Given = ..., confidence: float = ...
     ) -> pandas.DataFrame: ...
+    def against(
+        self, other: Fit | _Path, *, horizon: _Quantity | None = ..., confidence: float | str = ..., at: str | None = ...
+    ) -> LivesAgainst: ...
     def residuals(self, kind: Literal["score", "cox-snell"] = ...) -> pandas.DataFrame: ...
     def compare(self, *others: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
     def update(
@@ -442,6 +445,65 @@ def joint(
     report: bool = ...,
     progress: _Progress = ...,
 ) -> Fit: ...
+def repairable(
+    data: Any,
+    age: str,
+    *,
+    unit: str,
+    event: str | Mapping[str, Any],
+    start: str | None = ...,
+    process: Literal["power_law", "renewal", "phases"] = ...,
+    end: Literal["row", "last failure"] | None = ...,
+    rounding: _Quantity | None = ...,
+    phase_ends: _Quantity | Sequence[_Quantity] | None = ...,
+    reference_age: _Quantity | None = ...,
+    at: _Quantity | Sequence[_Quantity] | None = ...,
+    ahead: _Quantity | Sequence[_Quantity] | None = ...,
+    units: _Units = ...,
+    priors: _Priors = ...,
+    predict: Mapping[str, Any] | None = ...,
+    unused: str | Sequence[str] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
+def returns(
+    data: Any,
+    *,
+    sold: str | None = ...,
+    quantity: str | None = ...,
+    returned: str | None = ...,
+    until: str | None = ...,
+    period: Literal["month", "week"] | None = ...,
+    ages: Literal["middle", "start", "end", "whole"] = ...,
+    warranty: _Quantity | None = ...,
+    delay_to_use: Any = ...,
+    delay_of_report: Any = ...,
+    hold_out: _Quantity | None = ...,
+    family: Literal["weibull", "exponential", "lognormal", "loglogistic", "gamma", "inverse-gaussian", "birnbaum-saunders"] = ...,
+    ahead: _Quantity | None = ...,
+    cost_per_return: str | None = ...,
+    planned_sales: Any = ...,
+    survival_to: _Quantity | Sequence[_Quantity] | None = ...,
+    priors: _Priors | Literal["flat"] = ...,
+    b: _Percentages = ...,
+    predict: Mapping[str, Any] | None = ...,
+    title: str | None = ...,
+    seed: int | None = ...,
+    method: _Method = ...,
+    chains: int | None = ...,
+    warmup: int | None = ...,
+    draws: int | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+    progress: _Progress = ...,
+) -> Fit: ...
 def table(data: Any, *, units: Mapping[str, Any] | None = ..., name: str = ...) -> Any: ...
 
 class Selection:
@@ -590,6 +652,12 @@ class _Answer:
     def report(self, path: _Path) -> None: ...
     def write(self, folder: _Path) -> None: ...
     def _repr_html_(self) -> str: ...
+
+class LivesAgainst(_Answer):
+    @property
+    def outlives(self) -> float: ...
+    @property
+    def differences(self) -> pandas.DataFrame: ...
 
 class Damage(_Answer):
     @property

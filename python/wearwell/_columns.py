@@ -163,3 +163,22 @@ def status_of(columns, event):
             f"event={{'column': '{heading}', 'failure': 0}} reads 0 or False as failed",
             f"event={{'column': '{heading}', 'failure': 1}} reads 1 or True as failed"])
     return {"column": heading, "failure": 1}
+
+
+def repairs_of(columns, event):
+    """What [data.columns] says of the column of failures and ends of observation of units that are repaired."""
+    if isinstance(event, dict):
+        unknown = next((key for key in event if key not in ("column", "failure", "end")), None)
+        if unknown or "column" not in event:
+            raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'event', 'failure': 1}} "
+                             "or {'column': 'event', 'failure': 'repaired', 'end': ['today', 'retired']}")
+        return {**event, "column": columns.take(event["column"], "event")}
+    heading = columns.take(event, "event")
+    codes = {cell.lower() for cell in columns.kinds(heading)} & _truths
+    if not codes:
+        return heading
+    if _core.failure_code_of(heading) == 0:
+        raise _in_two_ways(heading, f"{', '.join(sorted(codes))}, and its name says that it marks what is no failure", [
+            f"event={{'column': '{heading}', 'failure': 0}} reads 0 or False as a failure",
+            f"event={{'column': '{heading}', 'failure': 1}} reads 1 or True as a failure"])
+    return {"column": heading, "failure": 1}

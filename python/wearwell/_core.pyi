@@ -82,11 +82,12 @@ def answer(
     arg0: str,
     arg1: str,
     arg2: Run | None,
-    arg3: ReadStudy | None,
-    arg4: str,
-    arg5: Sequence[tuple[str, Table]],
-    arg6: int,
-    arg7: Callable[[str, int, int, float], object] | None,
+    arg3: Run | None,
+    arg4: ReadStudy | None,
+    arg5: str,
+    arg6: Sequence[tuple[str, Table]],
+    arg7: int,
+    arg8: Callable[[str, int, int, float], object] | None,
 ) -> tuple[str, str, str, list[tuple[str, str]], str, bool]: ...
 def population_of(arg0: Run | None, arg1: str) -> Population: ...
 def update(

@@ -188,3 +188,47 @@ class FitLives:
         from ._tools import compare
 
         return compare(self, *others, names=names)
+
+    def against(self, other, *, horizon=None, confidence=0.9, at=None):
+        """Compare this life with that of another fit: which lasts longer, and by how much at least.
+
+        The posteriors are independent: the two fits have no data in common. The numbers are those of ``wearwell life --against``.
+
+        Parameters
+        ----------
+        other : Fit, str or path
+            The other fit, or the folder of its result.
+        horizon : str or pint quantity, optional
+            A use, "1000 h": adds the difference of survival to it.
+        confidence : float or str
+            Probability with which ``at_least`` is exceeded.
+        at : str, optional
+            Which life of [predict], where a study has several.
+
+        Returns
+        -------
+        LivesAgainst
+            Ratios of B-lives, the probability to outlive one of the other, and the difference of survival.
+
+        Raises
+        ------
+        InputError
+            If a study has no life of a new item, or their units cannot be compared.
+
+        Warns
+        -----
+        CheckWarning
+            If one of the fits is not trusted.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fits = [ww.life({"hours": hours}, "hours", units={"hours": "h"}, method="exact", draws=100, report=False)
+        ...         for hours in ([312, 480, 510, 640, 700], [150, 210, 260, 330, 420])]
+        >>> found = fits[0].against(fits[1], confidence=0.95)
+        >>> found.differences.loc["B10 ratio", ["at_least", "q50"]].round(1).tolist()
+        [0.9, 1.9]
+        """
+        from ._against import against
+
+        return against(self, other, horizon, confidence, at)

@@ -16,6 +16,7 @@ class Preset:
         self.model, self.data = model, data
         self.columns = Columns(data, units)
         self.rows, self.conditions, self.arguments = {}, {}, {}
+        self.choices, self.of_data = {}, {}  # further keys of the study, and of its [data]
 
     def column(self, key, argument, value):
         """A column that the study needs."""
@@ -48,8 +49,9 @@ class Preset:
             if not isinstance(prior, dict):
                 raise InputError(f"priors: {name} is {type(prior).__name__}; wearwell.lognormal(...) and its like make one")
         predict = {key: each for key, each in predict.items() if each is not None}
-        parts = [_toml.table("", {"title": title, "model": self.model}),
-                 _toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}), _toml.table("data.columns", self.rows)]
+        parts = [_toml.table("", {"title": title, "model": self.model, **self.choices}),
+                 _toml.table("data", {"file": "data", **({"unused": unused} if unused else {}), **self.of_data}),
+                 _toml.table("data.columns", self.rows)]
         if self.conditions:
             parts.append(_toml.table("conditions", self.conditions))
         parts += [_toml.table(name, entries) for name, entries in tables.items() if entries]
@@ -61,7 +63,7 @@ class Preset:
             parts.append(_toml.table("predict", predict))
         table, only = self.columns.table(unused)
         return Study._made("\n".join(parts), {"data": (table, self.data, only)}, {
-            **self.arguments, **{f"predict.{key}": {"b_lives": "b", "credible_level": "confidence"}.get(key, key) for key in predict}})
+            **self.arguments, **{f"predict.{key}": {"b_lives": "b", "credible_level": "confidence", "age": "at", "next": "ahead"}.get(key, key) for key in predict}})
 
 
 def quantities(values, name):

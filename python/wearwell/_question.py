@@ -66,9 +66,9 @@ def files_and_tables(data):
     return [e for e, path in zip(several, is_path) if path], [e for e, path in zip(several, is_path) if not path]
 
 
-def found(kind, arguments, about=None, name="", tables=None, threads=0, progress=None):
+def found(kind, arguments, about=None, name="", tables=None, threads=0, progress=None, other=None):
     """What the library answers: the arguments of an Answer. ``about``: what the argument called ``name`` holds. ``tables``: more data
-    frames, by argument."""
+    frames, by argument. ``other``: the run of a second fit."""
     if not isinstance(threads, int) or not 0 <= threads <= 1024:
         raise InputError(f"threads is {threads!r}; it is a whole number from 0 (all) to 1024")
     text = dumps({key: _written(value, key) for key, value in arguments.items() if value is not None})
@@ -76,4 +76,4 @@ def found(kind, arguments, about=None, name="", tables=None, threads=0, progress
     for key, data in (tables or {}).items():
         held += _tables(data, key)
     with reporter(progress) as report, missing_files():
-        return _core.answer(kind, text, run, study, path, held, threads, report)
+        return _core.answer(kind, text, run, other, study, path, held, threads, report)

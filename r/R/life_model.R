@@ -256,9 +256,10 @@ study_text <- function(title, columns, constants, likelihood, priors, own_priors
 
 finest <- function(random) names(random$columns)[which.max(vapply(random$columns, function(each) length(unique(each$values)), 0L))]
 
-columns_table <- function(columns) {
+# `entries`: what is said of single columns instead, by name.
+columns_table <- function(columns, entries = list()) {
   toml_table("data.columns", Map(function(each, name) {
-    if (each$unit == "") name else list(column = name, unit = each$unit)
+    if (!is.null(entries[[name]])) entries[[name]] else if (each$unit == "") name else list(column = name, unit = each$unit)
   }, columns, names(columns)))
 }
 
@@ -297,6 +298,7 @@ in_words_of_caller <- function(message) {
   message <- gsub("^data[.]columns[.]", "column ", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
   message <- gsub("needs predict\\.([a-z_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)
+  message <- gsub("\\bpredict\\.next\\b", "ahead", message, perl = TRUE)
   message <- gsub("\\bpredict\\.([a-z_]+)", "\\1", message, perl = TRUE)
   gsub("\\bconditions\\.([a-z_]+)", "\\1", message, perl = TRUE)
 }

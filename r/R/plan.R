@@ -41,11 +41,11 @@ plan_tables <- function(data, name) {
   stats::setNames(tables, rep(name, length(tables)))
 }
 
-# What the library answers. `run`, `study`, `path`: what the question is about. `tables`: by argument. `file`: name of its JSON file.
-answer_of <- function(kind, file, arguments, run = NULL, study = NULL, path = "", tables = list(), threads = 0, progress = FALSE) {
+# What the library answers. `run`, `study`, `path`: what the question is about, `other`: a second fit. `tables`: by argument. `file`: name of its JSON file.
+answer_of <- function(kind, file, arguments, run = NULL, other = NULL, study = NULL, path = "", tables = list(), threads = 0, progress = FALSE) {
   text <- json_arguments(arguments)
   threads <- whole(threads, "threads", 0, 1024)
-  found <- with_progress(progress, function(report) core(C_answer, kind, text, run, study, path, tables, threads, report))
+  found <- with_progress(progress, function(report) core(C_answer, kind, text, run, other, study, path, tables, threads, report))
   found$name <- file
   found$text <- in_arguments(found$text)
   found$csv <- found$tables

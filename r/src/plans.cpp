@@ -7,11 +7,13 @@
 namespace wearwell::r {
 namespace {
 
-// The answer to a question. `arguments` is a JSON object; `run` and `study` may be NULL.
-SEXP answered(const std::string& kind, const std::string& arguments, SEXP run, SEXP study,
-              const std::string& path, const Rcpp::List& tables, int threads, SEXP progress) {
+// The answer to a question. `arguments` is a JSON object; `run`, `other` and `study` may be NULL.
+SEXP answered(const std::string& kind, const std::string& arguments, SEXP run, SEXP other,
+              SEXP study, const std::string& path, const Rcpp::List& tables, int threads,
+              SEXP progress) {
   embed::Subject subject;
   if (!Rf_isNull(run)) subject.run = &held<embed::Run>(run);
+  if (!Rf_isNull(other)) subject.other = &held<embed::Run>(other);
   if (!Rf_isNull(study)) subject.study = &held<embed::ReadStudy>(study);
   subject.path = path;
   if (tables.size() > 0) {

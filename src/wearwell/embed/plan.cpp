@@ -21,6 +21,7 @@
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/lives_against_report.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
 #include "wearwell/prognosis/result_lives.h"
@@ -175,6 +176,26 @@ Work decide(PlanArguments& arguments, const Subject& subject, const Monitor&) {
   };
 }
 
+Work against(PlanArguments& arguments, const Subject& subject, const Monitor&) {
+  prognosis::LivesAgainstRequest request;
+  std::string path;
+  arguments.text("other", path);
+  arguments.text("at", request.unit);
+  arguments.text("horizon", request.horizon);
+  arguments.text("confidence", request.confidence);
+  arguments.call_option("--unit", "at");
+  arguments.call_option("--against", "other");
+  return [request, path, &subject] {
+    const Fitted fit{subject.run, subject.path}, other{subject.other, path};
+    const prognosis::LivesAgainstReport report = prognosis::lives_against_report(
+        request, {state_of(fit), fit.name()},
+        {state_of(other), subject.other ? std::string("other") : path}, all_models());
+    return plan::Answer{report.of + " against " + report.against, lives_against_text(report),
+                        lives_against_sections(report), lives_against_json(report),
+                        report.not_trusted.empty()};
+  };
+}
+
 bool is_clutch(const Subject& subject) {
   return subject.run ? subject.run->result->header.model == "clutch-wear"
                      : clutch::is_clutch_result(subject.path);
@@ -262,6 +283,7 @@ Reader plan_reader(const std::string& kind) {
   if (kind == "accelerate") return &accelerate;
   if (kind == "inspect") return &inspect;
   if (kind == "decide") return &decide;
+  if (kind == "against") return &against;
   return nullptr;
 }
 

@@ -1,0 +1,87 @@
+"""Units that are repaired, in one line: failures in the course of their age."""
+
+from . import _toml
+from ._columns import repairs_of
+from ._errors import InputError
+from ._fit_options import fits
+from ._preset_study import Preset, quantities
+
+_processes = ("power_law", "renewal", "phases")
+
+
+@fits
+def repairable(data, age, *, unit, event, start=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
+               at=None, ahead=None, units=None, priors=None, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
+               warmup=None, draws=None, threads=0, report=True, progress=None):
+    """Fit the failures of units that are repaired: minimal repair (Crow-AMSAA), renewal, or phases of a growth test.
+
+    Parameters
+    ----------
+    data : table
+        A row for each failure and one for the end of observation of each unit: whatever ``wearwell.table`` takes.
+    age : str
+        Column of the unit's age at the event: a time, a distance or cycles, with its unit.
+    unit : str
+        Column of the units.
+    event : str or dict
+        Column that says what happened: "failure" or "end", or True or 1 at a failure and False or 0 at the end of observation.
+        A dict says what codes and words mean: ``{"column": "event", "failure": "repaired", "end": "today"}``.
+    start : str, optional
+        Column of the age at which observation of the unit began; by default 0.
+    process : {"power_law", "renewal", "phases"}
+        ``power_law``: minimal repair, a unit is as bad as old. ``renewal``: as good as new. ``phases``: a growth test whose
+        intensity changes between phases.
+    end : {"row", "last failure"}, optional
+        Until when units without a row of their end were observed.
+    rounding : str or pint quantity, optional
+        Step to which ages are rounded, "1 day"; needed for two failures at one age.
+    phase_ends : sequence of str, optional
+        Of phases: the ages at which all phases but the last end.
+    reference_age : str or pint quantity, optional
+        Of a power law: age T of the parameter ``M_T``; by default the largest age.
+    at : str or sequence of str, optional
+        Of a power law: ages at which the mean time between failures is asked for, "600 day".
+    ahead : str or sequence of str, optional
+        Times from the end of observation on, "100 day": failures to come, of all units and of each.
+    units : dict, optional
+        Unit of columns: ``{"age": "day"}``. A heading may have it.
+    priors : dict of str to dict, optional
+        Priors by parameter. By default ``beta`` is lognormal with median 1 and log_sd 0.7, ``M_T`` lognormal with median 1 and
+        log_sd 3; ``eta`` (renewal) and ``MTBF_1``, ... (phases) are lognormal with log_sd 3 and a median from the size of the
+        ages.
+    predict : dict, optional
+        Further keys of ``[predict]`` of a repairable study.
+    unused : str or sequence of str, optional
+        Columns that look like a role and have none.
+    <what all fits share>
+
+    Examples
+    --------
+    >>> import wearwell as ww
+    >>> history = {"pump": ["A", "A", "A", "B", "B", "B", "B"], "age": [410, 980, 1500, 300, 720, 1010, 1200],
+    ...            "event": ["failure", "failure", "end", "failure", "failure", "failure", "end"]}
+    >>> fit = ww.repairable(history, "age", unit="pump", event="event", ahead="500 h", units={"age": "h"}, method="exact", report=False)
+    >>> list(fit.parameters.index)
+    ['beta', 'M_T']
+    >>> fit.results["repairable"]["failures"], len(fit.results["repairable"]["forecast"])
+    (5, 2)
+    """
+    if process not in _processes:
+        raise InputError(f"process is {process!r}; it is {', '.join(_processes)}")
+    study = Preset("repairable", data, units)
+    study.column("unit", "unit", unit)
+    study.column("age", "age", age)
+    study.rows["event"] = repairs_of(study.columns, event)
+    study.column("start", "start", start)
+    study.choices["process"] = process
+    for key, value in (("end", end), ("rounding", rounding)):
+        if value is not None:
+            study.of_data[key] = _toml.quantity(value, key)
+    for key, value in (("reference_age", reference_age), ("phase_ends", quantities(phase_ends, "phase_ends"))):
+        if value is not None:
+            study.conditions[key] = value if isinstance(value, list) else _toml.quantity(value, key)
+    study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "predict.age": "at", "predict.next": "ahead",
+                            "conditions.phase_ends": "phase_ends", "conditions.reference_age": "reference_age"})
+    asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **(predict or {})}
+    made = study.study(title or f"Failures along {age}", {}, priors, asked, unused)
+    return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

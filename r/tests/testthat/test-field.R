@@ -1,0 +1,62 @@
+# Units that are repaired, warranty returns, and lives of two fits against each other.
+
+test_that("repairs in one line are those of the study file", {
+  seats <- read.csv(example("repairable", "valve_seats.csv"))
+  repairs <- function(frame, event = "event", ...) {
+    quiet(ww_repairable(frame, age = "age", unit = "engine", event = event, units = c(age = "day"), rounding = "1 day", at = "600 day",
+                                   ahead = "100 day", ..., seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  }
+  fit <- repairs(seats)
+  file <- quiet(ww_fit(example("repairable", "study.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  expect_equal(fit$parameters[c("q05", "q50", "q95")], file$parameters[c("q05", "q50", "q95")], tolerance = 1e-12)
+  expect_identical(repairs(transform(seats, event = event == "failure"))$parameters, fit$parameters)
+  expect_identical(repairs(transform(seats, event = as.integer(event == "failure")))$parameters, fit$parameters)
+  words <- transform(seats, event = ifelse(event == "failure", "cambio", "hoy"))
+  expect_identical(repairs(words, list(column = "event", failure = "cambio", end = "hoy"))$parameters, fit$parameters)
+  refused(ww_repairable(seats, "age", "engin", "event"), "no column 'engin'")
+  refused(ww_repairable(seats, "age", "engine", list(column = "event", runout = 0)), "event is")
+  refused(ww_repairable(seats, "age", "engine", "event", process = "power"), "process is")
+  refused(ww_repairable(transform(seats, event = ifelse(event == "failure", 1, 2)), "age", "engine", "event", units = c(age = "day")), "two ways")
+  refused(ww_repairable(seats, "age", "engine", "event", agead = "3 day"), "did you mean 'ahead'")
+})
+
+test_that("returns in one line are those of the study file", {
+  triangle <- read.csv(example("warranty", "returns.csv"), check.names = FALSE)
+  planned <- read.csv(example("warranty", "planned_sales.csv"))
+  fit <- quiet(ww_returns(triangle, sold = "sold", quantity = "shipped", warranty = "36 month", cost_per_return = "180 EUR",
+                                     planned_sales = planned, survival_to = "36 month", priors = list(eta = ww_lognormal("200 month", log_sd = 2)),
+                                     seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  file <- quiet(ww_fit(example("warranty", "study.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  expect_equal(unname(fit$parameters$q50), unname(file$parameters$q50), tolerance = 1e-12)
+  expect_equal(fit$summary$returns$forecast, file$summary$returns$forecast, tolerance = 1e-12)
+  units <- head(read.csv(example("warranty", "units.csv"), check.names = FALSE), 2000)
+  days <- units
+  days[["sale date"]] <- as.Date(days[["sale date"]])
+  days[["failure date"]] <- as.Date(ifelse(days[["failure date"]] == "", NA, days[["failure date"]]))
+  text <- function(frame) ww_returns(frame, sold = "sale date", returned = "failure date", until = "2025-12", family = "exponential", fit = FALSE)$text
+  expect_identical(text(days), text(units))
+  expect_match(text(units), "median = \"500 month\"", fixed = TRUE)
+  delays <- data.frame("delay [month]" = c(0, 0.5, 2), share = c(0.6, 0.3, 0.1), check.names = FALSE)
+  expect_match(ww_returns(triangle, delay_of_report = delays, fit = FALSE)$text, "file = \"delay_of_report\"", fixed = TRUE)
+  refused(ww_returns(triangle, sold = "sale"), "no column 'sale'")
+  refused(ww_returns(triangle, family = "weibul"), "family is")
+  refused(ww_returns(units, returned = "failure date"), "sold is missing")
+})
+
+test_that("lives of two fits are compared as the program does", {
+  makes <- list(c(312, 480, 510, 640, 700, 820), c(150, 210, 260, 330, 420, 450))
+  fits <- lapply(makes, function(hours) {
+    quiet(ww_life(data.frame(hours = hours), "hours", units = c(hours = "h"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  })
+  found <- quiet(ww_against(fits[[1]], fits[[2]], horizon = "300 h", confidence = "95 %"))
+  expect_identical(rownames(found$differences), c("B1 ratio", "B10 ratio", "B50 ratio", "outlives", "survival difference"))
+  folder <- file.path(tempfile("against"), c("new", "old"))
+  dir.create(dirname(folder[1]))
+  for (i in 1:2) ww_write(fits[[i]], folder[i])
+  printed <- program("life", folder[1], "--against", folder[2], "--horizon", "300 h", "--confidence", "95 %")$out
+  table <- function(text) grep("life, as a|outlive|survival to", strsplit(text, "\n")[[1]], value = TRUE)
+  expect_identical(table(found$text), table(printed))
+  expect_identical(quiet(ww_against(folder[1], folder[2], horizon = "300 h", confidence = 0.95))$differences, found$differences)
+  refused(ww_against(fits[[1]], fits[[2]], horizon = "3 kg"), "horizon")
+  refused(ww_against(fits[[1]], makes), "other is")
+})
