@@ -109,5 +109,61 @@ TEST(CurveOfNodes, WhatNeverComesNeverComes) {
   EXPECT_TRUE(std::isnan(mixture.quantile(0.5)));
 }
 
+// Lives of 400 populations: medians and scatters that differ.
+CellMixture many_curves(double scatter, bool in_pieces) {
+  const Nodes nodes(0.4);
+  CellMixture all;
+  for (int k = 0; k < 400; ++k) {
+    const double median = std::exp(0.3 * std::sin(0.7 * k)), sd = scatter * (1 + 0.3 * std::cos(k));
+    std::vector<double> values = nodes.values(sd);
+    for (double& each : values) each *= median;
+    all.add_curve(1 + 0.5 * std::sin(1.3 * k), nodes.share, values);
+    if (in_pieces && k % 20 == 19) all.condense(1000);
+  }
+  return all;
+}
+
+TEST(CondensedMixture, KeepsQuantilesAndMeans) {
+  for (const double scatter : {0.05, 0.3, 1.0}) {
+    const CellMixture all = many_curves(scatter, false);
+    CellMixture condensed = all;
+    condensed.condense(1000);
+    const CellMixture& few = condensed;
+    EXPECT_GT(all.size(), 15000u);
+    EXPECT_LE(few.size(), 1002u);
+    const CellMixture pieces = many_curves(scatter, true);
+    EXPECT_LE(pieces.size(), 1002u);
+    for (const CellMixture* each : {&few, &pieces}) {
+      EXPECT_NEAR(each->mass() / all.mass(), 1, 1e-12);
+      EXPECT_NEAR(each->mean() / all.mean(), 1, 1e-5);
+      for (const double p : {1e-6, 1e-4, 0.001, 0.01, 0.1, 0.5, 0.9, 0.99, 0.9999}) {
+        const double life = all.quantile(p);
+        EXPECT_NEAR(each->cdf(life) / p, 1, p < 1e-4 ? 1e-3 : 1e-4) << scatter << ' ' << p;
+        EXPECT_NEAR((1 - each->cdf(life)) / (1 - p), 1, 5e-4) << scatter << ' ' << p;
+      }
+    }
+  }
+}
+
+TEST(CondensedMixture, KeepsPointsAndWhatNeverComes) {
+  CellMixture mixture;
+  for (int k = 0; k < 5000; ++k) {
+    mixture.add(1, k % 3, k % 3);  // points at 0, 1 and 2
+    mixture.add(1, 3, 4);
+    mixture.add(0.5, 5, std::numeric_limits<double>::infinity());
+  }
+  const double sixth = 5000.0 / 12500 / 3;
+  mixture.condense(100);
+  EXPECT_LE(mixture.size(), 102u);
+  EXPECT_NEAR(mixture.mass(), 12500, 1e-9);
+  EXPECT_NEAR(mixture.cdf(0.001), sixth, 1e-4);
+  EXPECT_NEAR(mixture.cdf(2), 3 * sixth, 1e-4);
+  EXPECT_NEAR(mixture.cdf(3.5), 0.6, 1e-9);
+  EXPECT_EQ(mixture.quantile(0.9), std::numeric_limits<double>::infinity());
+  mixture.add(1, std::nan(""), 1);
+  mixture.condense(2);
+  EXPECT_TRUE(std::isnan(mixture.quantile(0.5)));
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -30,6 +30,12 @@ class CellMixture {
   /// x.
   CellMixture beyond(double x) const;
 
+  std::size_t size() const { return cells_.size(); }
+  /// Replaces all cells by at most `most` + 2: the same cdf at their ends, which lie closer in the
+  /// tails (down to a share of 1e-9), and the same density there where it is smooth. Fewer cells
+  /// than that, and a mixture with a NaN, stay.
+  void condense(std::size_t most);
+
   double mass() const;  ///< the sum of the weights
   /// Infinite where mass is never reached; NaN without mass.
   double mean() const;

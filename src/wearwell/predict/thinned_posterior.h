@@ -34,7 +34,10 @@ auto sum_over(const ThinnedPosterior& few, const Make& make) {
     each[p] = std::move(part.found);
   });
   auto all = std::move(each[0]);
-  for (std::size_t p = 1; p < parts; ++p) all.add(each[p]);
+  for (std::size_t p = 1; p < parts; ++p) {
+    all.add(each[p]);
+    each[p] = {};
+  }
   return all;
 }
 

@@ -14,7 +14,7 @@ namespace wearwell::formula_model {
 namespace {
 
 constexpr std::size_t most_points = 400, most_points_of_next = 2000;
-constexpr double least_share = 1e-6;  // of a unit's posterior: smaller nodes are left out
+constexpr double least_share = 1e-6;  // of a unit's posterior: smaller shares are left out
 
 // State of a path that readings do not determine exactly: nodes of the normal distribution below
 // `highest`. The integrand changes with z over 1/`ratio`: if that is large, and nothing is cut off,
@@ -110,6 +110,7 @@ class Part {
       }
     }
     found.next.add(units);
+    LimitedLives::bound(found.next);
     if (limit_.path.mean) found.add_mean(limit_.path, units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
   }
@@ -140,6 +141,7 @@ class Part {
     place_.pop_back();
     for (double& each : place_) each -= start;
     to.add_curve(weight, ScoreTable::shares(), place_);
+    LimitedLives::bound(to);
   }
 
   void add_seen(const double* x, double weight) {
@@ -149,7 +151,7 @@ class Part {
     if (effects_ == 0) {
       const std::vector<Standing> all = units.standings({}, limit_.column);
       for (std::size_t u = 0; u < ahead_.size(); ++u)
-        add_unit(u, nullptr, all[limit_.path.seen[u].unit], weight);
+        add_unit(u, nullptr, all[limit_.path.seen[u].unit], weight, 1);
       return;
     }
     for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
@@ -162,12 +164,15 @@ class Part {
       for (std::size_t u = 0; u < ahead_.size(); ++u) {
         const std::size_t unit = seen[u].unit;
         if (!(sweep.weight[unit] > least_share)) continue;
-        add_unit(u, &sweep.z[unit * effects_], all[unit], weight * sweep.weight[unit]);
+        add_unit(u, &sweep.z[unit * effects_], all[unit], weight, sweep.weight[unit]);
       }
     }
   }
 
-  void add_unit(std::size_t u, const double* z, const Standing& stands, double weight) {
+  // `of_unit`: the share of these effects in the unit's posterior at a point of this weight.
+  void add_unit(std::size_t u, const double* z, const Standing& stands, double at_point,
+                double of_unit) {
+    const double weight = at_point * of_unit;
     const double mean = sign_ * stands.mean, now = limit_.path.seen[u].now;
     const double left = sign_ * (limit_.path.limit - stands.at);
     const double sd = std::sqrt(stands.variance);
@@ -180,7 +185,7 @@ class Part {
         const double share = weight * cell.share;
         found.passed[u] += share * (1 - below);
         const double distance = room + half * (1 - below);
-        if (!(below * cell.share > 1e-6 && distance > 0)) continue;
+        if (!(of_unit * below * cell.share > least_share && distance > 0)) continue;
         add_passage(ahead_[u], z, mean, distance, scale, share * below, true, found.remaining[u]);
       }
       return;
@@ -195,11 +200,11 @@ class Part {
     }
     const double below = normal_cdf(left / sd);  // it has not reached the threshold
     found.passed[u] += weight * (1 - below);
-    if (!(below > 1e-6)) return;
+    if (!(of_unit * below > least_share)) return;
     const Standings nodes(left / sd, sd / std::sqrt(scale * std::max(left, sd)));
     for (std::size_t k = 0; k < nodes.count; ++k) {
       const double distance = left - sd * nodes.z[k], share = below * nodes.weight[k];
-      if (!(distance > 0 && share > 1e-6)) continue;
+      if (!(distance > 0 && of_unit * share > least_share)) continue;
       add_passage(ahead_[u], z, mean, distance, scale, weight * share, true, found.remaining[u]);
     }
   }
