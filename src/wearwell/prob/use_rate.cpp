@@ -100,6 +100,11 @@ bool has_valid_parameters(const LifeAtRate& unit) {
          std::isfinite(first_step(unit));
 }
 
+bool is_lognormal(ResponseFamily family) {
+  return family == ResponseFamily::lognormal || family == ResponseFamily::lognormal_by_moments ||
+         family == ResponseFamily::log10_normal;
+}
+
 RateSum rate_sum(const LifeAtRate& unit, const Response& age, bool sloped) {
   constexpr int most_halvings = 4;
   const double middle = std::log(quantile(unit.rate, 0.5, unit.rate_parameters));
@@ -116,19 +121,20 @@ RateSum rate_sum(const LifeAtRate& unit, const Response& age, bool sloped) {
 }  // namespace
 
 bool can_be_life_at_rate(ResponseFamily family) {
-  return family == ResponseFamily::weibull || family == ResponseFamily::exponential ||
-         family == ResponseFamily::lognormal || family == ResponseFamily::loglogistic ||
+  return is_lognormal(family) || family == ResponseFamily::weibull ||
+         family == ResponseFamily::exponential || family == ResponseFamily::loglogistic ||
          family == ResponseFamily::gamma;
 }
 
 bool can_be_rate(ResponseFamily family) {
-  return family == ResponseFamily::lognormal || family == ResponseFamily::weibull ||
+  return is_lognormal(family) || family == ResponseFamily::weibull ||
          family == ResponseFamily::gamma;
 }
 
 double log_response(const LifeAtRate& unit, const Response& age, std::span<double> slope) {
   std::fill(slope.begin(), slope.end(), 0.0);
   if (!has_valid_parameters(unit)) return -infinity;
+  if (age.at == infinity) return age.seen == Censoring::left ? 0 : -infinity;
   const RateSum sum = rate_sum(unit, age, !slope.empty());
   if (!(sum.all() > 0)) return -infinity;
   for (const RateNode& node : sum.nodes) {
