@@ -194,8 +194,9 @@ StudyKeys staircase_keys() {
         "logarithm of the median fatigue limit"},
        {"prior.sigma_limit", "{ distribution = \"half-normal\", scale = 0.05 }",
         "scatter of the logarithm of the limit"},
-       {"predict.reliability", "[\"50 %\", \"90 %\"]", "adds the stress that this share survives"},
-       {"predict.credible_level", "0.9", "confidence of the lower bound"}});
+       {"predict.reliability", "[\"50 %\", \"90 %\"]",
+        "adds the stress that this share survives"}});
+  add_keys(keys, level_keys("the limits"));
   return keys;
 }
 
