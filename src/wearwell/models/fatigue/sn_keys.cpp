@@ -167,6 +167,7 @@ StudyKeys study_keys() {
   add_keys(keys,
            {{"predict.b_lives", "[1, 10]",
              "percentages failed; adds the lives at which 1 and 10 % have failed"},
+            {"predict.mean_life", "true", "adds the mean life (MTTF), without a random limit"},
             {"predict.survival_to", "\"5e5 cycles\"", "adds the share that outlasts this life"},
             needed_key("predict.required_life", "\"1e6 cycles\"",
                        "adds the allowable alternating stress for this life,", {},
