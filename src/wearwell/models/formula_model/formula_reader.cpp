@@ -168,6 +168,18 @@ class Reader {
     }
   }
 
+  // "best", or a list: who writes it wants a ranking.
+  void refuse_several_families(const TomlReader& table) const {
+    static const std::set<std::string> ranking = {"all", "auto", "best"};
+    const std::vector<std::string> keys = table.keys();
+    if (std::find(keys.begin(), keys.end(), "family") == keys.end()) return;
+    if (table.is_text("family") && !ranking.count(table.required_text("family"))) return;
+    table.fail(
+        "family",
+        "is one family. To rank several for the same data, write a study for each, fit them, "
+        "and compare the results: wearwell compare RESULT RESULT ...");
+  }
+
   WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
                                     const std::string& place) {
     std::vector<std::string> names;
@@ -177,6 +189,7 @@ class Reader {
     for (const ProcessForm& each : process_forms()) {
       if (names.back() != each.form.name) names.emplace_back(each.form.name);
     }
+    refuse_several_families(table);
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
     // Not by table.has, which would mark a key that the form does not have as used.
