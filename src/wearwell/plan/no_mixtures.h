@@ -16,6 +16,11 @@ inline void refuse_mixtures(const TomlReader& root, const std::string& command) 
       "is not possible with `{}`; plan with a study of one population in which every part can fail",
       command);
   if (root.has("subpopulations")) root.fail("subpopulations", why);
+  if (root.has("use_rate"))
+    root.fail("use_rate",
+              fmt::format("is not possible with `{}`: a test has a use, not an age; plan with a "
+                          "study of the life in use alone",
+                          command));
   const auto likelihoods = root.table("likelihood");
   for (const std::string& column : likelihoods ? likelihoods->keys() : std::vector<std::string>()) {
     const TomlReader own = likelihoods->required_table(column);

@@ -6,6 +6,7 @@
 
 #include "wearwell/math/constants.h"
 #include "wearwell/math/root.h"
+#include "wearwell/prob/use_rate.h"
 
 namespace wearwell {
 namespace {
@@ -17,20 +18,45 @@ void add_slopes(std::span<const double> from, double weight, std::span<double> t
   for (std::size_t s = 0; s < to.size(); ++s) to[s] += weight * from[s];
 }
 
+LifeAtRate at_rate(const LifeMixture& mixture, std::size_t k, const double* x) {
+  return {mixture.families[k], *mixture.rate, x + k * most_response_parameters,
+          x + mixture.of_rate()};
+}
+
+// One observation of subpopulation k, with derivatives by its parameters and then by those of the rate.
+struct SubpopulationTerm {
+  double value = 0;
+  std::array<double, 2 * most_response_parameters> slope = {};
+};
+
+SubpopulationTerm term_of(const LifeMixture& mixture, std::size_t k, const Response& y,
+                          const double* x, bool sloped) {
+  SubpopulationTerm term;
+  if (mixture.rate) {
+    term.value = log_response(at_rate(mixture, k, x), y,
+                              sloped ? std::span<double>(term.slope) : std::span<double>());
+    return term;
+  }
+  const double* const own = x + k * most_response_parameters;
+  if (!sloped) {
+    term.value = log_response_value(mixture.families[k], y, own);
+    return term;
+  }
+  const ResponseTerm plain = log_response(mixture.families[k], y, own);
+  term.value = plain.value;
+  std::copy(std::begin(plain.slope), std::end(plain.slope), term.slope.begin());
+  return term;
+}
+
 // log of the sum over subpopulations of share times term, without p, d and entry.
 double log_of_subpopulations(const LifeMixture& mixture, Response y, const double* x,
                              std::span<double> slope) {
   y.entry = -infinity;
   const std::size_t count = mixture.families.size();
-  std::array<ResponseTerm, LifeMixture::most> term;
+  std::array<SubpopulationTerm, LifeMixture::most> term;
   double most = -infinity;
   for (std::size_t k = 0; k < count; ++k) {
-    const double* const own = x + k * most_response_parameters;
-    if (slope.empty()) {
-      term[k].value = log_response_value(mixture.families[k], y, own);
-    } else {
-      term[k] = log_response(mixture.families[k], y, own);
-    }
+    term[k] = term_of(mixture, k, y, x, !slope.empty());
     if (mixture.share_of(k, x) > 0) most = std::max(most, term[k].value);
   }
   std::fill(slope.begin(), slope.end(), 0.0);
@@ -44,6 +70,8 @@ double log_of_subpopulations(const LifeMixture& mixture, Response y, const doubl
     const double part = mixture.share_of(k, x) * relative;
     for (std::size_t s = 0; s < most_response_parameters && part > 0; ++s)
       slope[k * most_response_parameters + s] = part * term[k].slope[s];
+    for (std::size_t s = 0; mixture.rate && s < most_response_parameters && part > 0; ++s)
+      slope[mixture.of_rate() + s] += part * term[k].slope[most_response_parameters + s];
     if (count == 1) break;
     for (std::size_t j = 0; j < count; ++j) {
       if (j == mixture.rest) continue;
@@ -190,15 +218,24 @@ double LifeMixture::quantile(double p, const double* x) const {
   const double among = (p - shares.dead) / ((1 - shares.dead) * shares.defective);
   if (among <= 0) return 0;
   if (among >= 1) return infinity;
-  if (families.size() == 1) return wearwell::quantile(families.front(), among, x);
-  // The root lies between the quantiles of the subpopulations.
+  if (families.size() == 1 && !rate) return wearwell::quantile(families.front(), among, x);
+  // The root lies between the quantiles of the subpopulations. An age T = U/R has failed with a probability of at most
+  // `among` where U is below a quantile of half of it and R above that of the other half; the same beyond.
   double low = infinity, high = 0;
   for (std::size_t k = 0; k < families.size(); ++k) {
     if (!(share_of(k, x) > 0)) continue;
-    const double each = wearwell::quantile(families[k], among, x + k * most_response_parameters);
-    if (std::isnan(each)) return each;
-    low = std::min(low, each);
-    high = std::max(high, each);
+    const double* const own = x + k * most_response_parameters;
+    double least = wearwell::quantile(families[k], rate ? 0.5 * among : among, own),
+           greatest = least;
+    if (rate) {
+      const double* const of = x + of_rate();
+      greatest = wearwell::quantile(families[k], 0.5 * (1 + among), own) /
+                 wearwell::quantile(*rate, 0.5 * (1 - among), of);
+      least /= wearwell::quantile(*rate, 1 - 0.5 * among, of);
+    }
+    if (std::isnan(least) || std::isnan(greatest)) return std::nan("");
+    low = std::min(low, least);
+    high = std::max(high, greatest);
   }
   if (!(low > 0) || !std::isfinite(high)) return std::nan("");
   // From the smaller tail, to keep all digits.
@@ -222,11 +259,18 @@ double LifeMixture::middle(const double* x) const {
   return quantile(dead_now + 0.5 * (failing(x) - dead_now), x);
 }
 
+double LifeMixture::failing_within(double age, double use, const double* x) const {
+  if (!allowed(x)) return std::nan("");
+  const Shares shares(*this, x);
+  double sum = 0;
+  for (std::size_t k = 0; k < families.size(); ++k)
+    sum += share_of(k, x) * wearwell::failing_within(at_rate(*this, k, x), age, use);
+  return shares.dead + (1 - shares.dead) * shares.defective * sum;
+}
+
 double LifeMixture::share_among_survivors(std::size_t k, double life, const double* x) const {
   const Response lasts{.seen = Censoring::right, .at = life};
-  const auto left = [&](std::size_t j) {
-    return log_response_value(families[j], lasts, x + j * most_response_parameters);
-  };
+  const auto left = [&](std::size_t j) { return term_of(*this, j, lasts, x, false).value; };
   double most = -infinity, sum = 0;
   for (std::size_t j = 0; j < families.size(); ++j)
     if (share_of(j, x) > 0) most = std::max(most, left(j));

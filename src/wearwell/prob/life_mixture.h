@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,24 +20,29 @@ namespace wearwell {
 ///
 /// Parameters stand in one row of `parameters()` numbers, SI: those of subpopulation k from k `most_response_parameters` on,
 /// then, where it is not plain, the shares of the subpopulations (that of `rest` is not read: it has what the others leave),
-/// then p and d.
+/// then p and d, then those of the rate of use.
+///
+/// With a rate of use the life is an age: lives F_k are in use, and each unit is used at its own rate (use_rate.h).
 struct LifeMixture {
   static constexpr std::size_t most = 4;  ///< subpopulations
-  static constexpr std::size_t most_parameters = most * (most_response_parameters + 1) + 2;
+  static constexpr std::size_t most_parameters =
+      most * (most_response_parameters + 1) + 2 + most_response_parameters;
 
   std::vector<ResponseFamily>
       families;          ///< of the subpopulations, at least one; all of positive values
   std::size_t rest = 0;  ///< the subpopulation whose share is what the others leave
   bool limited = false;  ///< p is a parameter; else 1
   bool dead = false;     ///< d is a parameter; else 0
+  std::optional<ResponseFamily> rate = {};  ///< of use; set if the life is an age
 
-  bool plain() const { return families.size() == 1 && !limited && !dead; }
+  bool plain() const { return families.size() == 1 && !limited && !dead && !rate; }
   std::size_t parameters() const {
-    return plain() ? most_response_parameters : share(families.size()) + 2;
+    return plain() ? most_response_parameters : of_rate() + (rate ? most_response_parameters : 0);
   }
   std::size_t share(std::size_t k) const { return families.size() * most_response_parameters + k; }
   std::size_t share_defective() const { return share(families.size()); }
   std::size_t share_dead() const { return share_defective() + 1; }
+  std::size_t of_rate() const { return share_dead() + 1; }
 
   /// Whether all shares are probabilities; always of a plain one.
   bool allowed(const double* parameters) const;
@@ -57,6 +63,8 @@ struct LifeMixture {
   double quantile(double share, const double* parameters) const;
   /// The median of the parts that can fail and are not dead on arrival.
   double middle(const double* parameters) const;
+  /// With a rate of use: the share that fails before both an age and a use (use_rate.h).
+  double failing_within(double age, double use, const double* parameters) const;
   /// The share of subpopulation k among those that have survived to a life.
   double share_among_survivors(std::size_t k, double life, const double* parameters) const;
 };

@@ -70,6 +70,7 @@ StudyKeys study_keys() {
         "risk of reaching the threshold; adds the inspection time of a new bearing"},
        {"predict.b_lives", "[1, 10]",
         "percentages failed; adds the lives at which 1 and 10 % have reached the threshold"},
+       {"predict.mean_life", "true", "adds the mean life (MTTF) to the threshold"},
        {"predict.required_revolutions", "\"1 Mrev\"",
         "adds the pressure at which the threshold is reached after this use"},
        {"predict.required_time", "\"200 h\"", "the same, at a speed"},

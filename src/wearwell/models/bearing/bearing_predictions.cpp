@@ -45,6 +45,7 @@ class Predictions {
     speed_ = ahead.speed;
     force_ = ahead.force;
     pressure_ = ahead.pressure;
+    mean_life_ = predict.boolean("mean_life").value_or(false);
   }
 
   PredictedBearing read() {
@@ -67,12 +68,14 @@ class Predictions {
         predict_.fail("life_of", "needs predict.limit: the failure threshold of the depth");
       life_of_seen(*name, *limit);
     }
-    for (const char* key : {"b_lives", "level", "credible_level", "sides"}) {
+    for (const char* key : {"b_lives", "mean_life", "level", "credible_level", "sides"}) {
       if (!predict_.has(key) || study_.life) continue;
-      predict_.fail(
-          key,
-          "needs predict.limit and predict.pressure: B-lives are lives to the failure threshold");
+      predict_.fail(key,
+                    "needs predict.limit and predict.pressure: B-lives and mean lives are lives to "
+                    "the failure threshold");
     }
+    if (mean_life_ && !pressure_)
+      predict_.fail("mean_life", "is of a new bearing, whose load predict.pressure states");
     if (predict_.has("risk") && !study_.life) {
       predict_.fail("risk",
                     "needs predict.limit and predict.pressure: it is the risk of reaching the "
@@ -151,8 +154,31 @@ class Predictions {
     study_.quantities.push_back(request);
   }
 
+  // For the bearing of the last requested life: the mean over bearings, whose rates are lognormal, so that a life, in
+  // proportion to 1/rate, has the mean of its median times exp(s^2/2). Without a predictive value: over the
+  // posterior a mean of means need not exist.
+  void mean_life(const LifeLevels& levels) {
+    if (!mean_life_) return;
+    const QuantityRequest& life = study_.quantities.back();
+    QuantityGroup group;
+    group.requests.push_back({"mean life", "bearing", life.at, life.unit, true, false, {}, {}, {}});
+    ask_bounds(levels, group.requests.back());
+    group.requests.back().safe_end = 0.05;
+    group.from_draws = [levels, life](const WeightedDraws& draws) {
+      const QuantityDistribution mean(draws, [&](const double* x) {
+        const double s = life.scatter ? life.scatter(x) : 0;
+        return life.value(life.driver(x)) * std::exp(0.5 * s * s);
+      });
+      QuantityQuantiles q{mean.quantile(0.05), mean.quantile(0.5), mean.quantile(0.95), 0, 0, 0};
+      add_bounds(mean, levels, q);
+      return std::vector<QuantityQuantiles>{q};
+    };
+    study_.quantity_groups.push_back(std::move(group));
+  }
+
   // For the bearing of the last requested life.
   void b_lives(const LifeLevels& levels) {
+    mean_life(levels);
     if (levels.percents.empty()) return;
     study_.quantity_groups.push_back(b_lives_of_items(study_.quantities.back(), "bearing", levels));
   }
@@ -344,7 +370,7 @@ class Predictions {
   double k_;
   PosteriorStudy& study_;
   Contact contact_;
-  bool has_contact_ = false;
+  bool has_contact_ = false, mean_life_ = false;
   std::optional<Quantity> radius_, clearance_, pressure_, speed_, force_;
   std::string required_key_, required_words_;
   Unit time_unit_ = read_unit("h", "s");

@@ -167,6 +167,7 @@ StudyKeys study_keys() {
   add_keys(keys,
            {{"predict.b_lives", "[1, 10]",
              "percentages failed; adds the lives at which 1 and 10 % have failed"},
+            {"predict.mean_life", "true", "adds the mean life (MTTF), without a random limit"},
             {"predict.survival_to", "\"5e5 cycles\"", "adds the share that outlasts this life"},
             needed_key("predict.required_life", "\"1e6 cycles\"",
                        "adds the allowable alternating stress for this life,", {},
@@ -194,8 +195,9 @@ StudyKeys staircase_keys() {
         "logarithm of the median fatigue limit"},
        {"prior.sigma_limit", "{ distribution = \"half-normal\", scale = 0.05 }",
         "scatter of the logarithm of the limit"},
-       {"predict.reliability", "[\"50 %\", \"90 %\"]", "adds the stress that this share survives"},
-       {"predict.credible_level", "0.9", "confidence of the lower bound"}});
+       {"predict.reliability", "[\"50 %\", \"90 %\"]",
+        "adds the stress that this share survives"}});
+  add_keys(keys, level_keys("the limits"));
   return keys;
 }
 

@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/math/root.h"
+#include "wearwell/models/fatigue/mean_life.h"
 #include "wearwell/models/fatigue/reversed_at.h"
 #include "wearwell/study/life_levels.h"
 
@@ -129,6 +130,22 @@ class LivesAt {
     return {draws_, [z](const double* x) { return x[0] + z * x[1]; }};
   }
 
+  // Without a random limit, where it is infinite.
+  QuantityDistribution mean() const {
+    return {draws_, [family = law_.family](const double* x) {
+              return fatigue::mean_life(family, x[0], x[1]);
+            }};
+  }
+
+  // The mean over the posterior.
+  double share_of_mean_beyond(double life) const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < draws_.values.rows(); ++i)
+      sum += draws_.cell_weight(i) * fatigue::share_of_mean_beyond(law_.family, draws_.values(i, 0),
+                                                                   draws_.values(i, 1), life);
+    return sum;
+  }
+
   QuantityDistribution survival(double life) const {
     if (law_.limit) {
       return {draws_, [&](const double* x) { return fatigue::survival(law_, x, stress_, life); }};
@@ -166,6 +183,12 @@ std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& d
       double quantile(double p) const { return cycles(law, of.quantile(p)); }
     };
     all.push_back(b_life(Cycles{law, at}, of_next(percent_failed / 100), predictions.levels));
+  }
+  if (predictions.mean) {
+    // Without a predictive value: over the posterior a mean of means need not exist.
+    const QuantityDistribution mean = lives.mean();
+    all.push_back({mean.quantile(0.05), mean.quantile(0.5), mean.quantile(0.95), 0, 0, 0});
+    add_bounds(mean, predictions.levels, all.back());
   }
   for (const Quantity& to : predictions.survival_to) {
     const QuantityDistribution share = lives.survival(to.si());
@@ -334,6 +357,39 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
   return findings.result(fmt::format("{}, and nothing below it is requested", supported));
 }
 
+// The longest life that was seen under a stress; of all, where there is no test.
+double longest_life(const SnData& data, const Stress& stress) {
+  double there = 0;
+  for (const LifeTest& test : data.tests) {
+    if (!same(test.stress, stress)) continue;
+    there = std::max({there, test.life, test.outcome == Outcome::interval ? test.until : 0.0});
+  }
+  return there > 0 ? there : Tested(data).life.high;
+}
+
+// How much of a mean life comes from lives that no test has reached.
+Check tail_of_means(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
+                    const Fit& fit) {
+  constexpr double dominating = 0.5;
+  Findings findings("mean-life");
+  double most = 0;
+  for (const StressPoint& point : predictions.points) {
+    const double longest = longest_life(data, point.stress);
+    const double share = LivesAt(law, fit.pooled, point.stress).share_of_mean_beyond(longest);
+    most = std::max(most, share);
+    if (share > dominating)
+      findings.add(Verdict::warn,
+                   fmt::format("{:.2g} % of the mean life of {} comes from lives beyond {:.4g} {}, "
+                               "the longest that was seen",
+                               100 * share, point.name, from_si(data.life_unit, longest),
+                               data.life_unit.text),
+                   "This mean rests on the upper tail of the distribution of scatter, not on data. "
+                   "Read the median (B50), or test until more items fail.");
+  }
+  return findings.result(fmt::format(
+      "at most {:.2g} % of a mean life comes from lives beyond those seen", 100 * most));
+}
+
 }  // namespace
 
 std::string description(const SnLaw& law, const SnData& data, const Stress& stress) {
@@ -424,9 +480,15 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
     }
     return quantity.si();
   };
+  result.mean = predict.boolean("mean_life").value_or(false);
+  if (result.mean && law.limit)
+    predict.fail(
+        "mean_life",
+        "does not exist with law.fatigue_limit: items whose own limit is not reached never "
+        "fail, so that the mean life is infinite; read B-lives, or survival_to");
   result.survival_to = read_lives(predict, "survival_to");
   if (result.points.empty()) {
-    for (const char* key : {"b_lives", "survival_to"}) {
+    for (const char* key : {"b_lives", "mean_life", "survival_to"}) {
       if (predict.has(key)) {
         predict.fail(key, "needs stresses: predict.types = \"all\", or [predict.stress]");
       }
@@ -506,6 +568,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                                 life_by_likelihood(law, point.stress, percent_failed / 100),
                                 [=](double life) { return cycles(law, life); }});
     }
+    if (predictions.mean) group.requests.push_back(request("mean life", of, at, data.life_unit));
     for (const Quantity& to : predictions.survival_to) {
       group.requests.push_back(request("survival to " + description(to), of, at, percent()));
     }
@@ -588,6 +651,8 @@ std::vector<Check> sn_checks(const SnLaw& law, const SnData& data, const SnPredi
   if (!predictions.percents.empty() || !predictions.allowed.empty()) {
     checks.push_back(few_tests(data, predictions));
   }
+  if (predictions.mean && !predictions.points.empty())
+    checks.push_back(tail_of_means(law, data, predictions, fit));
   return checks;
 }
 

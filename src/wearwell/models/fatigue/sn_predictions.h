@@ -29,6 +29,7 @@ struct AllowedStress {
 struct SnPredictions {
   std::vector<StressPoint> points;
   std::vector<double> percents;  ///< of the B-lives
+  bool mean = false;             ///< the mean lives
   LifeLevels levels;             ///< of the bounds
   std::vector<Quantity> survival_to;
   std::vector<AllowedStress> allowed;

@@ -19,6 +19,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell {
@@ -32,7 +33,13 @@ struct StairData {
   Unit unit;
   StandardDistribution limit = StandardDistribution::normal;
   std::vector<double> reliabilities = {0.5, 0.9};
-  double credible_level = 0.9;
+  LifeLevels levels;  // of the bounds of the limits
+};
+
+// A stress whose logarithm has a posterior.
+struct StressQuantiles {
+  const QuantityDistribution& log10;
+  double quantile(double p) const { return std::pow(10, log10.quantile(p)); }
 };
 
 void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& study,
@@ -84,8 +91,11 @@ void read_wishes(const TomlReader& root, StairData& data) {
   if (predict->has("reliability")) data.reliabilities.clear();
   for (const Quantity& each : predict->quantities("reliability", "1"))
     data.reliabilities.push_back(share("reliability", each));
-  if (const auto level = predict->quantity("credible_level", "1"))
-    data.credible_level = share("credible_level", *level);
+  if (predict->has("b_lives"))
+    predict->fail("b_lives",
+                  "are of lives, but a staircase measures a fatigue limit: write reliability, the "
+                  "share that survives");
+  data.levels = read_life_levels(*predict);
 }
 
 double log10_limit(const StairData& data, const double* x, double reliability) {
@@ -113,17 +123,17 @@ void add_limits(const StairData& data, PosteriorStudy& study) {
     request.of = "specimen";
     request.at = fmt::format("for {:.6g} % to survive", 100 * reliability);
     request.unit = data.unit;
-    request.credible_level = data.credible_level;
+    ask_bounds(data.levels, request);
     request.safe_end = 0.05;
     request.headline = reliability == most;
     study.quantity_groups.push_back(
         {{request}, [=](const WeightedDraws& draws) {
            const QuantityDistribution limit(
                draws, [&](const double* x) { return log10_limit(data, x, reliability); });
-           const auto at = [&](double p) { return std::pow(10, limit.quantile(p)); };
-           QuantityQuantiles q{at(0.05), at(0.5), at(0.95), 0, 0, 0};
+           const StressQuantiles at{limit};
+           QuantityQuantiles q{at.quantile(0.05), at.quantile(0.5), at.quantile(0.95), 0, 0, 0};
            q.predictive = next_limit(data, draws, reliability);
-           q.bound = at(1 - data.credible_level);
+           add_bounds(at, data.levels, q);
            return std::vector<QuantityQuantiles>{q};
          }});
   }
@@ -183,10 +193,12 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
   const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
   const QuantityDistribution limit(draws,
                                    [&](const double* x) { return log10_limit(data, x, most); });
-  const double bound = std::pow(10, limit.quantile(1 - data.credible_level));
+  const bool lower = has_lower(data.levels.sides);
+  const double bound =
+      StressQuantiles{limit}.quantile(lower ? data.levels.below() : 1 - data.levels.below());
   const double low =
       std::min(0.95 * levels.begin()->first, std::max(bound, 0.5 * levels.begin()->first) / 1.03);
-  const double high = 1.05 * levels.rbegin()->first;
+  const double high = std::max(1.05 * levels.rbegin()->first, lower ? 0 : 1.03 * bound);
   std::vector<double> x, low_share, middle, high_share, at, share, tests;
   for (int i = 0; i <= points; ++i) {
     const double stress = std::lerp(low, high, static_cast<double>(i) / points);
@@ -204,8 +216,9 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
     tests.push_back(counts.first);
   }
   const std::string unit = html::unit(data.unit.text);
-  const std::string bound_name = fmt::format("{:.6g} % survive, at least with {:.6g} %", 100 * most,
-                                             100 * data.credible_level);
+  const std::string bound_name =
+      fmt::format("{:.6g} % survive, at {} with {:.6g} %", 100 * most, lower ? "least" : "most",
+                  100 * (1 - data.levels.below()));
   return {
       "failure-probability", "Failure probability against stress",
       "The line is the posterior median with its 90 % band. Points are the shares of failed tests "

@@ -284,6 +284,11 @@ void refuse_unsupported(const FormulaModel& model, const std::string& what) {
         fmt::format("a study with subpopulations, share_defective or share_dead_on_arrival cannot "
                     "be {}; fit it, and read the lives of the result",
                     what));
+  if (model.use_rate)
+    throw InputError(
+        fmt::format("a study with [use_rate] cannot be {}: units differ in their rates of use; fit "
+                    "it, and read the lives of the result",
+                    what));
   if (model.drawn.empty()) return;
   throw InputError(fmt::format(
       "the random effects of {} are drawn, not integrated out ({} of each {}): units "

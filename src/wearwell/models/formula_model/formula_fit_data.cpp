@@ -9,6 +9,7 @@
 #include "wearwell/base/rng.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/mode_fit_data.h"
+#include "wearwell/models/formula_model/use_rate_fit_data.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -274,6 +275,7 @@ Remedies remedies_of(const FormulaModel& model) {
 std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();
   if (model.modes) return mode_fit_data(rows);
+  if (model.use_rate) return use_rate_fit_data(rows);
   FitData data;
   for (const Measured& measured : model.measured) {
     for (const Response& each : measured.observed.responses) {

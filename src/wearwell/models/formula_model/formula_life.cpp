@@ -157,9 +157,11 @@ LifeDistribution::Next LifeDistribution::next(const WeightedDraws& draws,
     next.middle_ = at.middle();
     return next;
   }
+  // Each age is an integral over rates of use.
+  const std::size_t most_of_one = risks_.front().life.rate ? 4'000 : 20'000;
   const ThinnedPosterior few(
-      draws,
-      at.size() == 1 ? 20'000 : some(affordable(points_of_next, draws, {&at}), share_of_points));
+      draws, at.size() == 1 ? most_of_one
+                            : some(affordable(points_of_next, draws, {&at}), share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.middle();
@@ -310,6 +312,18 @@ LifeDistribution::Known LifeDistribution::failing(const WeightedDraws& draws,
       [&](const double* x) {
         at.move_to(x);
         return at.failing();
+      },
+      share_of_points);
+}
+
+LifeDistribution::Known LifeDistribution::failing_within(const WeightedDraws& draws, double age,
+                                                         double use, double share_of_points) const {
+  LifeAtPoint at = at_point();
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.failing_within(age, use);
       },
       share_of_points);
 }

@@ -71,6 +71,9 @@ class LifeDistribution {
                   double share_of_points = 1) const;
   /// The share that fails at all.
   Known failing(const WeightedDraws& draws, double share_of_points = 1) const;
+  /// With a rate of use: the share that fails before both an age and a use.
+  Known failing_within(const WeightedDraws& draws, double age, double use,
+                       double share_of_points = 1) const;
   /// The share of subpopulation k among the survivors of a life.
   Known share_among_survivors(const WeightedDraws& draws, std::size_t k, double life,
                               double share_of_points = 1) const;

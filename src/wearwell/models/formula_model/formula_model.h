@@ -60,6 +60,17 @@ struct Measured {
   std::optional<ReportingDelay> reporting = {};
 };
 
+/// Lives in use of units of which each is used at its own rate (use_rate_model.h): measured[0] is the life in use and
+/// measured[1] the rate, both of rows with a known use; measured[2], if there are such rows, the age where the use is unknown.
+struct UseRate {
+  static constexpr const char* name =
+      "use_rate";  ///< the table of the study, and the column of rates
+
+  std::string age;  ///< the column of ages
+  Measured
+      in_time;  ///< the life in calendar time, with the observations of rows with an unknown use
+};
+
 /// A formula study, read and compiled; data in SI.
 struct FormulaModel {
   std::vector<formula::Line> written;  ///< lines of [formula], for functions of the parameters
@@ -84,6 +95,8 @@ struct FormulaModel {
 
   /// The life is a mixture of these.
   std::optional<Subpopulations> subpopulations;
+
+  std::optional<UseRate> use_rate;
 
   /// With failure modes measured[k] is the life of mode k.
   std::optional<FailureModes> modes;

@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/idle_status.h"
+#include "wearwell/models/formula_model/use_rate_model.h"
 
 namespace wearwell::formula_model {
 
@@ -98,6 +99,7 @@ bool has_failure(const Measured& measured) {
 }  // namespace
 
 void require_failures(const FormulaModel& model) {
+  if (model.use_rate && failures_of_use(model) > 0) return;
   for (const Measured& each : model.measured) {
     if (each.form->counted || has_failure(each)) continue;
     for (const Parameter& parameter : model.parameters) {
@@ -135,7 +137,7 @@ void require_status(const FormulaModel& model, const TomlReader& root) {
   if (model.along || model.data.status) return;
   if (model.modes) {  // whose cells can mark run-outs
     if (std::ranges::count(model.modes->possible, 0U) > 0) return;
-  } else if (model.measured.size() != 1) {
+  } else if (model.measured.size() != 1 && !model.use_rate) {
     return;
   }
   const Measured& measured = model.measured.front();

@@ -19,6 +19,7 @@
 #include "wearwell/models/formula_model/mode_answers.h"
 #include "wearwell/models/formula_model/subpopulation_answers.h"
 #include "wearwell/models/formula_model/use_check.h"
+#include "wearwell/models/formula_model/use_rate_answers.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::formula_model {
@@ -78,6 +79,11 @@ class Predictions {
 
   void read_life() {
     const Measured& measured = model_->measured.front();
+    if (!model_->use_rate) {
+      for (const char* key : {"calendar", "warranty"})
+        if (predict_.has(key))
+          predict_.fail(key, "is for lives in use of units with an age, which needs [use_rate]");
+    }
     LifeLevels levels = read_life_levels(predict_);
     if (levels.percents.empty()) levels.percents = {1, 10};
     const std::vector<double>& percents = levels.percents;
@@ -187,6 +193,8 @@ class Predictions {
       refuse_varied(common_, predict_, "classical", "predict.classical");
       add_classical_estimates({predict_, model_, common_, given_words_, noun_, asked}, study_);
     }
+    if (model_->use_rate)
+      add_use_rate_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
     if (!measured.life.plain())
       add_mixture_answers({predict_, model_, common_, given_words_, noun_, asked}, study_);
   }

@@ -20,6 +20,7 @@
 #include "wearwell/models/formula_model/linear_form.h"
 #include "wearwell/models/formula_model/lines_by_level.h"
 #include "wearwell/models/formula_model/step_stress.h"
+#include "wearwell/models/formula_model/use_rate_model.h"
 #include "wearwell/models/formula_model/written_mixture.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of earlier
@@ -88,7 +89,9 @@ class Reader {
 
   std::shared_ptr<FormulaModel> read() {
     read_texts();
+    if (use_rate_) refuse_with_use_rate(root_, written_, *use_rate_);
     model_->data = read_own_data(root_, source_, label_names());
+    read_use_rate();
     read_steps();
     read_modes();
     read_mixture();
@@ -143,6 +146,8 @@ class Reader {
                                           written_.front().column, "failure_modes." + mode));
       of_modes_.back().mode = mode;
     }
+    if (const auto rate = root_.table(UseRate::name))
+      use_rate_ = read_likelihood(*rate, UseRate::name, UseRate::name);
     read_texts_of_subpopulations();
     if (written_.empty()) {
       root_.fail("likelihood", "is empty; give one table for each measured column");
@@ -163,6 +168,18 @@ class Reader {
     }
   }
 
+  // "best", or a list: who writes it wants a ranking.
+  void refuse_several_families(const TomlReader& table) const {
+    static const std::set<std::string> ranking = {"all", "auto", "best"};
+    const std::vector<std::string> keys = table.keys();
+    if (std::find(keys.begin(), keys.end(), "family") == keys.end()) return;
+    if (table.is_text("family") && !ranking.count(table.required_text("family"))) return;
+    table.fail(
+        "family",
+        "is one family. To rank several for the same data, write a study for each, fit them, "
+        "and compare the results: wearwell compare RESULT RESULT ...");
+  }
+
   WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
                                     const std::string& place) {
     std::vector<std::string> names;
@@ -172,6 +189,7 @@ class Reader {
     for (const ProcessForm& each : process_forms()) {
       if (names.back() != each.form.name) names.emplace_back(each.form.name);
     }
+    refuse_several_families(table);
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
     // Not by table.has, which would mark a key that the form does not have as used.
@@ -238,6 +256,31 @@ class Reader {
       table.fail("steps", "must name the column of the specimens under data.columns");
     if (!model_->data.number(life.column)) fail_without_column(life);
     add_durations(*model_->steps, life.column, model_->data);
+  }
+
+  void read_use_rate() {
+    if (!use_rate_) return;
+    if (!model_->data.number(written_.front().column)) fail_without_column(written_.front());
+    add_use_rates(root_, written_.front().column, model_->data);
+    written_.push_back(*use_rate_);
+  }
+
+  // The table of a likelihood.
+  TomlReader table_of(const WrittenLikelihood& written) const {
+    const std::size_t dot = written.place.find('.');
+    const TomlReader table = root_.required_table(written.place.substr(0, dot));
+    return dot == std::string::npos ? table : table.required_table(written.place.substr(dot + 1));
+  }
+
+  // After the life in use and the rate.
+  void add_life_in_time() {
+    model_->use_rate = life_in_time(root_, model_->measured[0], model_->measured[1], model_->data);
+    Measured& in_time = model_->use_rate->in_time;
+    if (model_->measured[0].program.has_paths() || model_->measured[1].program.has_paths())
+      root_.fail(UseRate::name,
+                 "is not possible with expressions that depend on earlier rows (cum, or a state)");
+    in_time.program = formula::compile(model_->lines, in_time.wanted, model_->row_symbols);
+    if (!in_time.observed.rows.empty()) model_->measured.push_back(in_time);
   }
 
   void read_shares(const TomlReader& table, WrittenLikelihood& written) {
@@ -533,12 +576,17 @@ class Reader {
                        [&](const auto& each) { return each.column == name; });
   }
 
+  bool is_age(const std::string& name) const {
+    return use_rate_ && root_.required_table(UseRate::name).required_text("age") == name;
+  }
+
   void read_symbols() {
     for (const NumberColumn& column : model_->data.numbers) {
       const bool special =
           std::find(special_names.begin(), special_names.end(), column.name) != special_names.end();
       model_->symbols.columns.push_back(
-          {column.name, column.unit.powers, special || is_measured(column.name)});
+          {column.name, column.unit.powers,
+           special || is_measured(column.name) || is_age(column.name)});
     }
     for (const LabelColumn& label : model_->data.labels) {
       if (label.name != "status") model_->symbols.labels.push_back({label.name, label.levels});
@@ -789,7 +837,7 @@ class Reader {
                                process->form->name));
       }
     }
-    if (!model_->modes && written_.size() > 1 &&
+    if (!model_->modes && !use_rate_ && written_.size() > 1 &&
         (special.status || special.lower || special.upper || special.entry)) {
       const TomlReader columns = root_.required_table("data").required_table("columns");
       columns.fail(special.status  ? "status"
@@ -804,9 +852,7 @@ class Reader {
   void compile_measured() {
     const SpecialColumns special = allowed_special_columns();
     for (const WrittenLikelihood& written : written_) {
-      const std::size_t dot = written.place.find('.');
-      const TomlReader table = root_.required_table(written.place.substr(0, dot))
-                                   .required_table(written.place.substr(dot + 1));
+      const TomlReader table = table_of(written);
       const NumberColumn* column = measured_column(written, special);
       if (!column) fail_without_column(written);
       Measured measured{written.column,
@@ -837,8 +883,10 @@ class Reader {
       }
       if (written.process) model_->data.require_values(*column);
       const bool may_lack = written_.size() > 1;
-      measured.observed = model_->modes
-                              ? std::move(observed_of_modes_[model_->measured.size()])
+      const bool is_rate = use_rate_ && !model_->measured.empty();
+      measured.observed = model_->modes ? std::move(observed_of_modes_[model_->measured.size()])
+                          : is_rate
+                              ? observed_rates(model_->data, model_->measured[0].observed)
                               : read_observed(model_->data, written.column, *written.form, special,
                                               written.trials, may_lack, measured.life.dead);
       if (model_->steps)
@@ -853,6 +901,7 @@ class Reader {
       measured.reporting = model_->data.reporting;
       model_->measured.push_back(std::move(measured));
     }
+    if (use_rate_) add_life_in_time();
     if (subpopulations_)
       model_->subpopulations->exchangeable = are_exchangeable(
           written_.front(), *model_->subpopulations, model_->written, model_->parameters);
@@ -893,6 +942,7 @@ class Reader {
   std::vector<WrittenLikelihood> of_modes_;  // of the modes with a table
   std::vector<WrittenLikelihood> of_subpopulations_;
   bool subpopulations_ = false;
+  std::optional<WrittenLikelihood> use_rate_;
   std::vector<Observed> observed_of_modes_;
   std::vector<WrittenEffects> varies_;
   std::vector<WrittenEffect> effects_;  // of the units, which are integrated out

@@ -22,6 +22,7 @@
 #include "wearwell/models/formula_model/life_paper.h"
 #include "wearwell/models/formula_model/returns_report.h"
 #include "wearwell/models/formula_model/subpopulation_order.h"
+#include "wearwell/models/formula_model/use_rate_model.h"
 #include "wearwell/prognosis/plural.h"
 
 // Longer than others: one study, with its description, notes, checks and columns.
@@ -33,6 +34,7 @@ using formula_model::FormulaModel;
 using formula_model::FormulaRows;
 using formula_model::Measured;
 using formula_model::Observed;
+using formula_model::UseRate;
 
 // "weibull with scale = eta['early'], shape = beta['early']".
 std::string description_of_family(const Measured& measured, std::size_t k) {
@@ -82,6 +84,12 @@ std::string description(const FormulaModel& model) {
   if (!model.measured.front().life.plain()) return description_of_mixture(model);
   std::vector<std::string> parts;
   for (const Measured& each : model.measured) {
+    if (each.life.rate) {
+      parts.push_back(fmt::format("{} where {} is unknown is {} over {}", each.column,
+                                  model.measured.front().column, model.measured.front().column,
+                                  UseRate::name));
+      continue;
+    }
     std::vector<std::string> family_parameters;
     const std::size_t written = each.wanted.size() - (model.steps ? 1 : 0);
     for (std::size_t o = 0; o < written; ++o) {
@@ -208,11 +216,21 @@ std::vector<std::string> notes(const FormulaModel& model) {
     if (truncated > 0) note += fmt::format("; {} with delayed entry", truncated);
     if (dead > 0) note += fmt::format("; {} dead on arrival (a life of 0)", dead);
     all.push_back(note);
-    if (!each.form->counted && each.observed.failures == 0) {
+    if (!each.form->counted && each.observed.failures == 0 && !model.use_rate) {
       all.push_back(fmt::format(
           "no row of {} is a failure: the priors alone determine the upper end of a life",
           each.column));
     }
+  }
+  if (model.use_rate) {
+    const Observed& unknown = model.use_rate->in_time.observed;
+    const long long units = std::accumulate(unknown.counts.begin(), unknown.counts.end(), 0LL);
+    all.push_back(
+        fmt::format("{} of {} unit{} is unknown; each unit is used at a constant rate of its own, "
+                    "independent of its life: these data cannot test it",
+                    model.measured.front().column, units, units == 1 ? "" : "s"));
+    if (formula_model::failures_of_use(model) == 0)
+      all.emplace_back("no row is a failure: the priors alone determine the upper end of a life");
   }
   if (model.steps)
     all.push_back(fmt::format("steps of {} {}: the last row of each is its observation",
@@ -247,7 +265,10 @@ NothingSeen nothing_seen(const FormulaModel& model) {
   const std::string give_prior =
       "State what you know of the parameters; until a failure or wear is observed, read every "
       "upper end as a statement of the prior.";
-  if (!model.along && all([](const Measured& each) { return each.observed.failures == 0; })) {
+  const bool none_failed =
+      model.use_rate ? formula_model::failures_of_use(model) == 0
+                     : all([](const Measured& each) { return each.observed.failures == 0; });
+  if (!model.along && none_failed) {
     return {"no-failures",
             fmt::format("no failure was observed among {} observation{} of {}: the data only "
                         "exclude short lives, and the upper end of every life rests on the prior",

@@ -262,6 +262,13 @@ double LifeAtPoint::share_among_survivors(std::size_t k, double life) const {
   return of_k / all;
 }
 
+double LifeAtPoint::failing_within(double age, double use) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    sum += weight(i) * risks_.front().life.failing_within(age, use, slots(i));
+  return sum;
+}
+
 double LifeAtPoint::mean_beyond(double from) const {
   if (failing() < 1 - 1e-12) return infinity;
   // Of those that are not dead on arrival; these count as lives of 0.

@@ -65,6 +65,8 @@ class LifeAtPoint {
   std::optional<double> undefined_condition() const;
   /// The share of subpopulation k among the survivors of a life.
   double share_among_survivors(std::size_t k, double life) const;
+  /// With a rate of use: the share that fails before both an age and a use.
+  double failing_within(double age, double use) const;
   /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
   double mean_beyond(double from) const;
   /// The probability that an item outlives one of `other`: the integral of this survival function

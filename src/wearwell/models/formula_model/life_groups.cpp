@@ -157,6 +157,16 @@ std::shared_ptr<const LifeDistribution> life_distribution(
   return std::make_shared<const LifeDistribution>(std::move(risks));
 }
 
+std::shared_ptr<const LifeDistribution> life_in_calendar_time(
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions) {
+  const Measured& in_time = model->use_rate->in_time;
+  std::vector<Risk> risks = {
+      risk_of(make_path(model, table, key, in_time.wanted, false, conditions), in_time)};
+  require_values(table, key, *model, risks);
+  return std::make_shared<const LifeDistribution>(std::move(risks));
+}
+
 std::shared_ptr<const LifeDistribution> life_of_subpopulation(
     const TomlReader& table, const std::string& key,
     const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions, std::size_t k) {

@@ -33,6 +33,11 @@ std::shared_ptr<const LifeDistribution> life_distribution(
     const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions,
     std::uint32_t modes = ~std::uint32_t{0});
 
+/// With [use_rate] the life in calendar time.
+std::shared_ptr<const LifeDistribution> life_in_calendar_time(
+    const TomlReader& table, const std::string& key,
+    const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions);
+
 /// The same of one subpopulation of a mixture alone.
 std::shared_ptr<const LifeDistribution> life_of_subpopulation(
     const TomlReader& table, const std::string& key,

@@ -90,13 +90,6 @@ class Drawing {
   Rng& rng_;
 };
 
-// A drawn value is no measurement: tests that need exact ones leave it out.
-NormalScore as_drawn(const NormalScore& score) {
-  constexpr double width = 1e-9;
-  if (!score.exact() || !std::isfinite(score.low)) return score;
-  return {score.low, score.low + width * (1 + std::abs(score.low))};
-}
-
 class ModeScores {
  public:
   explicit ModeScores(std::shared_ptr<const FormulaRows> rows) : rows_(std::move(rows)) {}
@@ -188,6 +181,12 @@ MeasuredValues exact_lives(std::shared_ptr<const FormulaRows> rows) {
 }
 
 }  // namespace
+
+NormalScore as_drawn(const NormalScore& score) {
+  constexpr double width = 1e-9;
+  if (!score.exact() || !std::isfinite(score.low)) return score;
+  return {score.low, score.low + width * (1 + std::abs(score.low))};
+}
 
 FitData mode_fit_data(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();

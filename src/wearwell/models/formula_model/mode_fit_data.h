@@ -12,4 +12,7 @@ namespace wearwell::formula_model {
 /// they can be under the same parameters, so that residuals stay standard normal under a correct model.
 FitData mode_fit_data(std::shared_ptr<const FormulaRows> rows);
 
+/// A score of a drawn value: it is no measurement, so that tests that need exact ones leave it out.
+NormalScore as_drawn(const NormalScore& score);
+
 }  // namespace wearwell::formula_model
