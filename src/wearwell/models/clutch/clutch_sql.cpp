@@ -201,11 +201,14 @@ std::string SqlWriter::ordered() const {
 
 std::string SqlWriter::powers() const {
   SqlColumns columns;
-  columns.add(fmt::format("fixed_energy * {}", number(units_.energy)), "energy");
-  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.volume)),
-              "half_energy");
-  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.fine)),
-              "half_fine");
+  // PostgreSQL would multiply a bigint with a literal as numeric, and convert the product to a double
+  // by its text wherever it is used.
+  const auto energy = [&](double unit, const char* name) {
+    columns.add(fmt::format("{} * {}", fleet::real(dialect_, "fixed_energy"), number(unit)), name);
+  };
+  energy(units_.energy, "energy");
+  energy(0.5 * units_.energy / units_.volume, "half_energy");
+  energy(0.5 * units_.energy / units_.fine, "half_fine");
   columns.add(fmt::format("{} * {}", fleet::real(dialect_, "before"), number(units_.energy)),
               "running");
   for (std::size_t p = 0; p < parameters_.pairs.size(); ++p) {

@@ -9,7 +9,7 @@
 #include "wearwell/fleet/engine.h"
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_counts.h"
-#include "wearwell/present/block.h"
+#include "wearwell/present/table.h"
 #include "wearwell/study/result.h"
 
 namespace wearwell::clutch {
@@ -30,8 +30,8 @@ struct LeftOut {
   bool asked = false;
   double rows = 0;
   std::array<double, reasons> count{}, units{};  ///< rows and units by reason
-  std::vector<Row> first;                        ///< at most `most_listed` of each database
-  std::map<std::string, double> by_unit;         ///< rows of each unit with a name
+  std::vector<Row> first = {};                   ///< at most `most_listed` of each database
+  std::map<std::string, double> by_unit = {};    ///< rows of each unit with a name
 
   /// Adds the rows of a database, within its transaction.
   void read(fleet::Engine& engine, const ClutchSql& sql);
