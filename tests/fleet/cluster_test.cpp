@@ -86,15 +86,16 @@ TEST_F(Cluster, PostgresNeedsTheRightToReadAlone) {
   const PostgresServer server(folder() / "postgres");
   ASSERT_EQ(server.sql(create).exit_code, 0);
   load(server, shuffled(cycles_, 3));
-  ASSERT_EQ(server
-                .sql("revoke all on schema public from public; revoke all on database postgres from "
-                     "public; create role reader login; grant connect on database postgres to "
-                     "reader; grant usage on schema public to reader; create view shown as select * "
-                     "from cycles; grant select on shown to reader")
-                .exit_code,
-            0);
-  const std::string reader = "postgresql://reader@127.0.0.1:" + std::to_string(server.port()) +
-                             "/postgres";
+  ASSERT_EQ(
+      server
+          .sql("revoke all on schema public from public; revoke all on database postgres from "
+               "public; create role reader login; grant connect on database postgres to "
+               "reader; grant usage on schema public to reader; create view shown as select * "
+               "from cycles; grant select on shown to reader")
+          .exit_code,
+      0);
+  const std::string reader =
+      "postgresql://reader@127.0.0.1:" + std::to_string(server.port()) + "/postgres";
   const std::string arguments =
       model_ + " --engine " + reader + " --table shown" + output() + columns;
   const CommandResult refused = run_wearwell("fleet " + arguments);
@@ -123,12 +124,13 @@ TEST_F(Cluster, PostgresLeavesBadRowsOut) {
   const std::string arguments =
       model_ + " --engine " + server.url() + " --table cycles" + output() + columns;
   const json good = fleet_summary(arguments + " --read-only");
-  ASSERT_EQ(server
-                .sql("insert into cycles values ('unit 1', 3, 100, -1, 100, 2, 10), ('unit 2', "
-                     "null, 100, 10, 100, 2, 10), (null, 4, 100, 10, 100, 2, 10), ('unit 1', 90001, "
-                     "100, 10, 100, 2, 'NaN')")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      server
+          .sql("insert into cycles values ('unit 1', 3, 100, -1, 100, 2, 10), ('unit 2', "
+               "null, 100, 10, 100, 2, 10), (null, 4, 100, 10, 100, 2, 10), ('unit 1', 90001, "
+               "100, 10, 100, 2, 'NaN')")
+          .exit_code,
+      0);
   EXPECT_EQ(run_wearwell("fleet " + arguments).exit_code, 2);
   for (const char* way : {" --read-only", "", ""}) {
     const json fleet = fleet_summary(arguments + " --skip-bad" + way);

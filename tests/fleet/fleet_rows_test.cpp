@@ -44,11 +44,10 @@ json with_exit_code(const std::string& arguments, int exit_code) {
 /// The CSV with bad rows added: of each kind one, of units that have others.
 std::string with_bad_rows(const std::vector<FleetCycle>& cycles) {
   std::string text = fleet_csv(cycles);
-  for (const char* row :
-       {"unit 1,90001,100,50,150,two,9000", "unit 1,90002,100,-50,150,2,9000",
-        "unit 1,90003,-1,-50,150,2,9000", "unit 2,2.5,100,50,150,2,9000",
-        "unit 2,90004,100,50,-300,2,9000", "unit 2,90005,100,50,150,2,", ",90006,100,50,150,2,9000",
-        "unit 3,90007,100,50"})
+  for (const char* row : {"unit 1,90001,100,50,150,two,9000", "unit 1,90002,100,-50,150,2,9000",
+                          "unit 1,90003,-1,-50,150,2,9000", "unit 2,2.5,100,50,150,2,9000",
+                          "unit 2,90004,100,50,-300,2,9000", "unit 2,90005,100,50,150,2,",
+                          ",90006,100,50,150,2,9000", "unit 3,90007,100,50"})
     text += std::string(row) + "\n";
   return text;
 }
@@ -58,8 +57,9 @@ TEST_F(FleetRows, LeftOutAreCountedAndChangeNothingElse) {
   const auto cycles = fleet_cycles(3000, 4, 31);
   const std::string name = model();
   write("bad.csv", with_bad_rows(cycles));
-  const json good = fleet_summary(name + " " + file("good.csv", cycles) + output());
+  file("good.csv", cycles);
   for (const char* way : {"", " --statements"}) {
+    const json good = fleet_summary(name + " " + path("good.csv") + output() + way);
     const json fleet = fleet_summary(name + " " + path("bad.csv") + output() + " --skip-bad" + way);
     EXPECT_EQ(fleet["worst"].dump(), good["worst"].dump()) << way;
     EXPECT_EQ(fleet["levels"].dump(), good["levels"].dump()) << way;
@@ -85,11 +85,14 @@ TEST_F(FleetRows, LeftOutAreCountedAndChangeNothingElse) {
         volume += at->second * unit["volume"].get<double>() / unit["cycles"].get<double>();
     }
     EXPECT_NEAR(left_out["volume"].get<double>() / volume, 1, 1e-12);
-    for (const json& check : fleet["checks"])
-      if (check["name"] == "left-out") EXPECT_EQ(check["verdict"], "warn");
+    for (const json& check : fleet["checks"]) {
+      if (check["name"] == "left-out") {
+        EXPECT_EQ(check["verdict"], "warn");
+      }
+    }
   }
-  EXPECT_EQ(with_exit_code(name + " " + path("good.csv") + output() + " --skip-bad", 0)["left_out"]
-                          ["rows"],
+  EXPECT_EQ(with_exit_code(name + " " + path("good.csv") + output() + " --skip-bad",
+                           0)["left_out"]["rows"],
             0);
 }
 
@@ -164,8 +167,7 @@ TEST_F(FleetRows, OfOtherCountriesAreTheSame) {
           .dump(),
       expected["worst"].dump());
   write("skipped.csv", text + "unit 1;9000;100;1.234;150;2,5;9000\n");
-  const json skipped =
-      fleet_summary(name + " " + path("skipped.csv") + output() + " --skip-bad");
+  const json skipped = fleet_summary(name + " " + path("skipped.csv") + output() + " --skip-bad");
   EXPECT_EQ(skipped["worst"].dump(), expected["worst"].dump());
   EXPECT_EQ(skipped["left_out"]["rows"], 1);
 }
@@ -175,10 +177,9 @@ TEST_F(FleetRows, WithoutTheirColumnsNameTheOptions) {
   write("a.csv", "vin,cycle,n,torque [N m],m,t,e\na,1,1,1,1,1,1\n");
   const CommandResult run = run_wearwell("fleet " + name + " " + path("a.csv") + output());
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err,
-              AllOf(HasSubstr("--columns unit=COLUMN slip_speed=COLUMN:rad/s"),
-                    HasSubstr("energy=COLUMN:J"), HasSubstr("'vin', 'cycle', 'n'"),
-                    Not(HasSubstr("torque=COLUMN")), Not(HasSubstr("rename"))));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("--columns unit=COLUMN slip_speed=COLUMN:rad/s"),
+                             HasSubstr("energy=COLUMN:J"), HasSubstr("'vin', 'cycle', 'n'"),
+                             Not(HasSubstr("torque=COLUMN")), Not(HasSubstr("rename"))));
   write("b.csv",
         "plate,cycle,slip_speed,torque [N m],temperature [degC],closing_time [s],energy [J]\n"
         "a,1,1,1,1,1,1\n");

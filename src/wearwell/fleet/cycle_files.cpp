@@ -80,12 +80,10 @@ class Survey {
       for (std::size_t i = some; i < files_.names.size(); ++i) look(i);
       for (std::size_t i = 0; i < files_.names.size(); ++i) files_.paths.push_back(standard(i));
     }
-    const auto other = std::find_if(marks_.begin(), marks_.end(), [](const auto& each) {
-      return !each || *each != Marks{};
-    });
+    const auto other = std::find_if(marks_.begin(), marks_.end(),
+                                    [](const auto& each) { return !each || *each != Marks{}; });
     if (other != marks_.end())
-      files_.layout =
-          description(layouts_[static_cast<std::size_t>(other - marks_.begin())], "");
+      files_.layout = description(layouts_[static_cast<std::size_t>(other - marks_.begin())], "");
   }
 
  private:
@@ -114,10 +112,11 @@ class Survey {
     const std::string& name = files_.names[i];
     TextLayout layout = layouts_[i];
     if (static_cast<double>(std::filesystem::file_size(name)) > most_bytes_)
-      throw InputError(fmt::format(
-          "{} ({}) is too large to be rewritten in memory (--memory): save it as Parquet, or as CSV "
-          "in UTF-8 with headings in line 1 and no thousands marks",
-          printable(name), description(layout, "")));
+      throw InputError(
+          fmt::format("{} ({}) is too large to be rewritten in memory (--memory): save it as "
+                      "Parquet, or as CSV "
+                      "in UTF-8 with headings in line 1 and no thousands marks",
+                      printable(name), description(layout, "")));
     for (TextColumn& each : layout.columns)
       if (!each.unit.empty()) each.name += fmt::format(" [{}]", each.unit);
     std::vector<std::size_t> lines;
@@ -183,10 +182,11 @@ std::string reader_of(const CycleFiles& files, const std::string& unit) {
   const std::string cells =
       files.all_text
           ? "null_padding = true, all_varchar = true"
-          : fmt::format("null_padding = false, decimal_separator = '{}', auto_type_candidates = "
-                        "['DOUBLE', 'VARCHAR']{}",
-                        files.decimal,
-                        types.empty() ? "" : fmt::format(", types = {{{}}}", fmt::join(types, ", ")));
+          : fmt::format(
+                "null_padding = false, decimal_separator = '{}', auto_type_candidates = "
+                "['DOUBLE', 'VARCHAR']{}",
+                files.decimal,
+                types.empty() ? "" : fmt::format(", types = {{{}}}", fmt::join(types, ", ")));
   return fmt::format(
       "read_csv([{}], header = true, delim = {}, quote = '\"', escape = '\"', strict_mode = true, "
       "ignore_errors = false, hive_partitioning = false, {})",

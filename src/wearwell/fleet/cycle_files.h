@@ -12,11 +12,11 @@ namespace wearwell::fleet {
 struct CycleFiles {
   bool csv = false;
   char delimiter = ',', decimal = '.';
-  bool all_text = false;            ///< every column of CSV is read as text
-  std::vector<std::string> names;   ///< as given, absolute
-  std::vector<std::string> paths;   ///< that DuckDB reads, beside `names`
-  std::string layout;               ///< "semicolons, decimal comma"; empty for standard CSV
-  std::vector<std::string> numbers; ///< columns of numbers, if DuckDB is not to detect them
+  bool all_text = false;             ///< every column of CSV is read as text
+  std::vector<std::string> names;    ///< as given, absolute
+  std::vector<std::string> paths;    ///< that DuckDB reads, beside `names`
+  std::string layout;                ///< "semicolons, decimal comma"; empty for standard CSV
+  std::vector<std::string> numbers;  ///< columns of numbers, if DuckDB is not to detect them
   /// Files in memory: standard CSV of those that DuckDB cannot read as they are.
   std::vector<std::unique_ptr<TableFile>> rewritten;
 };

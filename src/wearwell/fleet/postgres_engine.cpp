@@ -34,9 +34,7 @@ constexpr unsigned dates[] = {1082}, times[] = {1114, 1184};
 class PostgresEngine : public Engine {
  public:
   PostgresEngine(const std::string& address, const std::string& table, bool read_only)
-      : name_(table),
-        table_(table_identifier(Dialect::postgresql, table)),
-        read_only_(read_only) {
+      : name_(table), table_(table_identifier(Dialect::postgresql, table)), read_only_(read_only) {
     try {
       connection_ = std::make_unique<pqxx::connection>(address);
       // JIT compilation of a thousand expressions takes longer than running them.

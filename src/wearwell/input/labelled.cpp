@@ -41,13 +41,11 @@ ColumnChoice find_labelled(const Table& table, std::string_view name, std::strin
     names.push_back(read_heading(column.name, si).name);
     if (column.name != name && names.back() != name) continue;
     if (found)
-      throw InputError(
-          fmt::format("{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): {}",
-                      table.source, name, found->name, found - table.columns.data() + 1,
-                      column.name, names.size(),
-                      option.empty() ? "rename or remove one of them"
-                                     : fmt::format("choose one by {} '{}=COLUMN:{}'", option, name,
-                                                   si)));
+      throw InputError(fmt::format(
+          "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): {}", table.source,
+          name, found->name, found - table.columns.data() + 1, column.name, names.size(),
+          option.empty() ? "rename or remove one of them"
+                         : fmt::format("choose one by {} '{}=COLUMN:{}'", option, name, si)));
     found = &column;
   }
   if (found) return labelled(table, *found, name, si, option);

@@ -30,7 +30,8 @@ struct FleetOptions {
   std::vector<double> levels = {25, 50, 75, 100}, horizons, days;
   int threads = 0;
   long memory = 0;
-  bool scatter_only = false, statements = false, read_only = false, skip_bad = false, json = false, quiet = false;
+  bool scatter_only = false, statements = false, read_only = false, skip_bad = false, json = false,
+       quiet = false;
 };
 
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
@@ -48,10 +49,11 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
           "itself");
     if (options.read_only && !name.starts_with("postgres"))
       throw InputError(
-          duckdb ? "--read-only is for databases; files are never changed, and sums are stored by "
-                   "--state alone"
-                 : "--read-only works with PostgreSQL alone; in ClickHouse the user needs the right "
-                   "to create tables");
+          duckdb
+              ? "--read-only is for databases; files are never changed, and sums are stored by "
+                "--state alone"
+              : "--read-only works with PostgreSQL alone; in ClickHouse the user needs the right "
+                "to create tables");
     if (duckdb) {
       engines.push_back(fleet::duckdb_engine({.files = options.files,
                                               .unit = unit_column(options.columns),

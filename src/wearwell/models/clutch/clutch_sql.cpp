@@ -6,6 +6,7 @@
 #include "wearwell/models/clutch/sql_writer.h"
 #include "wearwell/models/clutch/sums_key.h"
 
+// Longer than others: the parts of one statement in their order.
 namespace wearwell::clutch {
 using fleet::number;
 
@@ -182,8 +183,8 @@ std::string SqlWriter::checked() const {
   add(fleet::whole(dialect_, "raw_energy * " + number(1 / units_.energy)), "0", "fixed_energy");
   std::string where;
   if (source_.skip_invalid)
-    where = fmt::format("\nwhere {} and {}", clickhouse() ? "unit <> ''" : "unit is not null",
-                        valid());
+    where =
+        fmt::format("\nwhere {} and {}", clickhouse() ? "unit <> ''" : "unit is not null", valid());
   return fmt::format("select\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}{}",
                      columns.text(), si(true), where, fence());
 }
@@ -333,8 +334,8 @@ std::string SqlWriter::query() const {
       "-- replicates v1 .. (with run-in) and s1 .. (without) 2^{} m^3.\n"
       "insert into {}{} ({})\n{}{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
-      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(),
-      sums(), adding());
+      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(), sums(),
+      adding());
 }
 
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,

@@ -88,10 +88,9 @@ std::string SqlWriter::reasons() const {
       fmt::format("case when {} then 1", clickhouse() ? "unit = ''" : "unit is null");
   int reason = 1;
   for (const std::string& each : conditions())
-    text += fmt::format(
-        fmt::runtime(clickhouse() ? " when not ({}) then {}"
-                                  : " when not coalesce({}, false) then {}"),
-        each, ++reason);
+    text += fmt::format(fmt::runtime(clickhouse() ? " when not ({}) then {}"
+                                                  : " when not coalesce({}, false) then {}"),
+                        each, ++reason);
   return fmt::format("select *, {} else 0 end as reason from (\n{}\n) as si", text, si(false));
 }
 
@@ -117,9 +116,8 @@ std::string SqlWriter::left_out_rows() const {
 }
 
 std::string SqlWriter::left_out_units() const {
-  return fmt::format(
-      "select {}, {} from (\n{}\n) as rows_left_out where reason > 1 group by unit",
-      fleet::text(dialect_, "unit"), fleet::real(dialect_, "count(*)"), reasons());
+  return fmt::format("select {}, {} from (\n{}\n) as rows_left_out where reason > 1 group by unit",
+                     fleet::text(dialect_, "unit"), fleet::real(dialect_, "count(*)"), reasons());
 }
 
 }  // namespace wearwell::clutch

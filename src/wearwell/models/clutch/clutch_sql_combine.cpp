@@ -3,7 +3,6 @@
 
 #include "wearwell/models/clutch/sql_writer.h"
 
-// Longer than others: the parts of one statement in their order.
 namespace wearwell::clutch {
 
 using fleet::number;
@@ -74,9 +73,9 @@ std::string SqlWriter::wear() const {
   duty.add(fmt::format("({}) / {}", squares,
                        number(static_cast<double>(std::max<std::size_t>(replicates_, 1)))),
            "model_variance");
-  std::string text = fmt::format(
-      "select sums.*,{}\n  {}\nfrom (\n{}\n) as sums{}\nwhere cycles > 0{}", parameter_columns(),
-      duty.text(), unit_sums(), with_parameters(), fence());
+  std::string text =
+      fmt::format("select sums.*,{}\n  {}\nfrom (\n{}\n) as sums{}\nwhere cycles > 0{}",
+                  parameter_columns(), duty.text(), unit_sums(), with_parameters(), fence());
 
   SqlColumns left;
   for (std::size_t b = 0; b <= replicates_; ++b) {

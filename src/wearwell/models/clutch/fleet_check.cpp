@@ -88,12 +88,11 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
     throw InputError(
         fmt::format("{}: {:.0f} rows have no unit{}", engine.source(), nameless, advice));
   if (refused > 0)
-    throw InputError(
-        fmt::format("{}: {:.0f} rows of {:.0f} have a missing or impossible value ({}, in SI and "
-                    "degC): cycles are integers of at least 1, temperatures above absolute zero, "
-                    "all else positive (these are: {}){}",
-                    engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges,
-                    advice));
+    throw InputError(fmt::format(
+        "{}: {:.0f} rows of {:.0f} have a missing or impossible value ({}, in SI and "
+        "degC): cycles are integers of at least 1, temperatures above absolute zero, "
+        "all else positive (these are: {}){}",
+        engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges, advice));
   check.outliers = outliers_of(engine, sql, outliers);
   return check;
 }

@@ -65,8 +65,7 @@ void require_given(const std::map<std::string, std::string>& given,
     });
     if (found) return;
     missing.push_back(si ? fmt::format("'{} [{}]'", heading, si) : fmt::format("'{}'", heading));
-    const std::string option =
-        fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", si) : "");
+    const std::string option = fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", si) : "");
     options.push_back(option.find(' ') == option.npos ? option : "'" + option + "'");
   };
   look("unit", "plate", nullptr);

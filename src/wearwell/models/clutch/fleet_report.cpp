@@ -14,6 +14,7 @@
 #include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
 
+// Longer than others: the tables of one report in their order.
 namespace wearwell::clutch {
 namespace {
 
@@ -296,8 +297,7 @@ void add_left_out(const FleetFindings& found, const FleetCounts& counts, Section
                   Section& fleet) {
   if (found.left_out.rows == 0) return;
   const std::vector<MissingWear> wear = missing_wear(found.left_out, found.units);
-  levels.add(
-      Prose{left_out_sentence(found.left_out, wear, found.rows, counts.volume()), false});
+  levels.add(Prose{left_out_sentence(found.left_out, wear, found.rows, counts.volume()), false});
   for (Table& each : left_out_tables(found.left_out, wear, found.rows)) fleet.add(std::move(each));
 }
 

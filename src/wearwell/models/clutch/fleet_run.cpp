@@ -69,13 +69,12 @@ fleet::ColumnEngine* columns_of(fleet::Engine& engine, const FleetRequest& reque
 /// With the built-in loop: it checks all rows while it sums.
 void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
                        const FleetRequest& request, bool full, const Monitor& monitor) {
-  const LoopFindings found =
-      sum_by_loop(shard.engine, columns, shard.sql, model.model,
-                  {.replicates = full,
-                   .first = request.first,
-                   .skip_bad = request.skip_bad,
-                   .units_in_memory = request.units_in_memory},
-                  monitor);
+  const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model,
+                                         {.replicates = full,
+                                          .first = request.first,
+                                          .skip_bad = request.skip_bad,
+                                          .units_in_memory = request.units_in_memory},
+                                         monitor);
   shard.rows = found.rows;
   shard.outliers = found.outliers;
   const double bad = found.refused + found.nameless;

@@ -16,6 +16,7 @@ namespace {
 
 using present::digits;
 using present::fixed;
+using present::given;
 using present::Table;
 
 constexpr std::size_t units_shown = 100;
@@ -58,9 +59,9 @@ void LeftOut::read(fleet::Engine& engine, const ClutchSql& sql) {
   engine.rows(sql.left_out_rows, 1, [&](const fleet::Row& row) {
     const auto reason = static_cast<Reason>(row.numbers[0]);
     const auto column = static_cast<std::size_t>(reason) - 1;
-    first.push_back({row.texts[0], reason, row.numbers[1],
-                     reason == unit ? std::numeric_limits<double>::quiet_NaN()
-                                    : row.numbers.at(column)});
+    first.push_back(
+        {row.texts[0], reason, row.numbers[1],
+         reason == unit ? std::numeric_limits<double>::quiet_NaN() : row.numbers.at(column)});
   });
   engine.rows(sql.left_out_units, 1,
               [&](const fleet::Row& row) { by_unit[row.texts[0]] += row.numbers[0]; });
@@ -115,8 +116,8 @@ Check left_out_check(const LeftOut& left_out, const std::vector<MissingWear>& we
                                    [](const MissingWear& each) { return each.is_large(); });
   const auto unknown = std::count_if(wear.begin(), wear.end(),
                                      [](const MissingWear& each) { return each.cycles == 0; });
-  std::string text = fmt::format("{:.0f} of {:.0f} rows were left out (--skip-bad)", left_out.rows,
-                                 rows);
+  std::string text =
+      fmt::format("{:.0f} of {:.0f} rows were left out (--skip-bad)", left_out.rows, rows);
   if (left_out.rows == 0) return {"left-out", Verdict::pass, text, ""};
   if (unknown > 0)
     text += fmt::format("; {} units have no other row and are missing from the fleet (unit {})",
@@ -142,16 +143,14 @@ Check left_out_check(const LeftOut& left_out, const std::vector<MissingWear>& we
 std::vector<Table> left_out_tables(const LeftOut& left_out, const std::vector<MissingWear>& wear,
                                    double rows) {
   if (left_out.rows == 0) return {};
-  Table reasons{"left-out-reasons",
-                "Rows left out, by the first reason",
-                {{"Reason"},
-                 {"Rows", "1", fixed(0)},
-                 {"Share", "%", digits(3)},
-                 {"Units", "1", fixed(0)}}};
+  Table reasons{
+      "left-out-reasons",
+      "Rows left out, by the first reason",
+      {{"Reason"}, {"Rows", "1", fixed(0)}, {"Share", "%", digits(3)}, {"Units", "1", fixed(0)}}};
   for (std::size_t r = 1; r < LeftOut::reasons; ++r) {
     if (left_out.count[r] == 0) continue;
-    reasons.rows.push_back({reason_texts[r].text, left_out.count[r],
-                            100 * left_out.count[r] / rows, left_out.units[r]});
+    reasons.rows.push_back({reason_texts[r].text, left_out.count[r], 100 * left_out.count[r] / rows,
+                            left_out.units[r]});
   }
   Table units{"left-out-units",
               "How much the rows left out might matter: as many cycles at the unit's mean wear",
@@ -173,10 +172,7 @@ std::vector<Table> left_out_tables(const LeftOut& left_out, const std::vector<Mi
              left_out.rows > static_cast<double>(left_out.first.size())
                  ? fmt::format("The first {} rows left out", left_out.first.size())
                  : std::string("Rows left out"),
-             {{"Unit"},
-              {"Cycle", "1", digits(9)},
-              {"Reason"},
-              {"Value (SI, degC)", "1", digits(6)}}};
+             {{"Unit"}, {"Cycle", "1", given}, {"Reason"}, {"Value (SI, degC)", "1", given}}};
   for (const LeftOut::Row& each : left_out.first) {
     list.rows.push_back({each.unit});
     const auto add = [&](double x) {

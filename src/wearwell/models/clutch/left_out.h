@@ -55,7 +55,6 @@ std::string left_out_sentence(const LeftOut& left_out, const std::vector<Missing
                               double rows, double fleet_volume);
 std::vector<present::Table> left_out_tables(const LeftOut& left_out,
                                             const std::vector<MissingWear>& wear, double rows);
-nlohmann::ordered_json left_out_json(const LeftOut& left_out,
-                                     const std::vector<MissingWear>& wear);
+nlohmann::ordered_json left_out_json(const LeftOut& left_out, const std::vector<MissingWear>& wear);
 
 }  // namespace wearwell::clutch
