@@ -80,6 +80,71 @@ TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
                 duckdb["levels"][i]["units"].get<double>(), 1e-8);
 }
 
+// A user with the right to SELECT and nothing else: the same numbers as with stored sums, and nothing new in the database. The same
+// where a transaction of a standby would be: read only.
+TEST_F(Cluster, PostgresNeedsTheRightToReadAlone) {
+  const PostgresServer server(folder() / "postgres");
+  ASSERT_EQ(server.sql(create).exit_code, 0);
+  load(server, shuffled(cycles_, 3));
+  ASSERT_EQ(
+      server
+          .sql("revoke all on schema public from public; revoke all on database postgres from "
+               "public; create role reader login; grant connect on database postgres to "
+               "reader; grant usage on schema public to reader; create view shown as select * "
+               "from cycles; grant select on shown to reader")
+          .exit_code,
+      0);
+  const std::string reader =
+      "postgresql://reader@127.0.0.1:" + std::to_string(server.port()) + "/postgres";
+  const std::string arguments =
+      model_ + " --engine " + reader + " --table shown" + output() + columns;
+  const CommandResult refused = run_wearwell("fleet " + arguments);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("permission denied"), HasSubstr("--read-only")));
+  const std::string tables = "select count(*) from pg_class where relname like 'wearwell%'";
+  const json read = fleet_summary(arguments + " --read-only --horizon 0,1000");
+  EXPECT_EQ(server.sql(tables).out, "0\n");
+  EXPECT_LT(difference(read, predicted()), 1e-9);
+  const json stored = fleet_summary(model_ + " --engine " + server.url() + " --table cycles" +
+                                    output() + columns + " --horizon 0,1000");
+  EXPECT_EQ(read["worst"].dump(), stored["worst"].dump());
+  EXPECT_EQ(read["levels"].dump(), stored["levels"].dump());
+  // By itself it chooses horizons from the same number of cycles.
+  EXPECT_EQ(fleet_summary(arguments + " --read-only")["levels"].dump(),
+            fleet_summary(model_ + " --engine " + server.url() + " --table cycles" + output() +
+                          columns)["levels"]
+                .dump());
+}
+
+// Rows left out in a server: as in files, and they do not look late.
+TEST_F(Cluster, PostgresLeavesBadRowsOut) {
+  const PostgresServer server(folder() / "postgres");
+  ASSERT_EQ(server
+                .sql(create + ";alter table cycles alter column vin drop not null, alter column "
+                              "cycle drop not null")
+                .exit_code,
+            0);
+  load(server, cycles_);
+  const std::string arguments =
+      model_ + " --engine " + server.url() + " --table cycles" + output() + columns;
+  const json good = fleet_summary(arguments + " --read-only");
+  ASSERT_EQ(
+      server
+          .sql("insert into cycles values ('unit 1', 3, 100, -1, 100, 2, 10), ('unit 2', "
+               "null, 100, 10, 100, 2, 10), (null, 4, 100, 10, 100, 2, 10), ('unit 1', 90001, "
+               "100, 10, 100, 2, 'NaN')")
+          .exit_code,
+      0);
+  EXPECT_EQ(run_wearwell("fleet " + arguments).exit_code, 2);
+  for (const char* way : {" --read-only", "", ""}) {
+    const json fleet = fleet_summary(arguments + " --skip-bad" + way);
+    EXPECT_EQ(fleet["worst"].dump(), good["worst"].dump()) << way;
+    EXPECT_EQ(fleet["left_out"]["rows"], 4);
+    EXPECT_EQ(fleet["left_out"]["without_unit"], 1);
+    EXPECT_EQ(fleet["left_out"]["reasons"].size(), 4u);
+  }
+}
+
 // The three statements as a user runs them, by any client.
 TEST_F(Cluster, PrintedStatementsRunInPsql) {
   const PostgresServer server(folder() / "postgres");

@@ -127,6 +127,22 @@ TEST(FleetCounts, WithoutDoubtHaveNoInterval) {
   }
 }
 
+// The model counts more units than any of its replicates.
+TEST(FleetCounts, OfTheModelLieWithinTheirInterval) {
+  WearModel model = long_lived();
+  UnitSums sums = after(model, 3000);
+  for (double& each : sums.volumes) each = 0.5 * sums.volume;
+  sums.variance = 0;
+  model.plate_sd = 0;
+  model.worn_out = 0.9 * sums.volume;
+  FleetCounts counts(model, true, {1}, {0});
+  for (int i = 0; i < 15; ++i) counts.add(sums);
+  const UnitCount n = counts.reached(0, 0);
+  EXPECT_EQ(n.expected, 15);
+  EXPECT_LT(n.low, 1e-6);
+  EXPECT_EQ(n.high, 15);
+}
+
 // 1/2 x torque x slip speed x closing time of 250 rad/s, 40 N m, 2 s is 10 kJ.
 TEST(FleetCounts, EnergyIsHeldAgainstTorqueSlipAndTime) {
   const WearModel model = long_lived();

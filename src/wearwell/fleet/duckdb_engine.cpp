@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -14,6 +15,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/scratch_folder.h"
+#include "wearwell/fleet/cycle_files.h"
 #include "wearwell/fleet/duckdb_columns.h"
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
@@ -49,6 +51,7 @@ class DuckdbEngine : public Engine, public ColumnEngine {
   }
   std::string table() const override { return "cycles"; }
   std::string source() const override { return source_; }
+  std::string layout() const override { return files_.layout; }
   std::vector<EngineColumn> columns() override;
   void begin() override { execute("begin transaction"); }
   void commit() override { execute("commit"); }
@@ -72,14 +75,13 @@ class DuckdbEngine : public Engine, public ColumnEngine {
     execute(statements, answer);
   }
   std::vector<std::string> expand(const std::vector<std::string>& patterns);
-  std::string view_of(const std::vector<std::string>& files, const std::string& unit);
   void refuse_repeated_headings(const std::string& file);
   [[noreturn]] void fail(const std::string& message) const;
 
   ScratchFolder spill_;
   long memory_;
   std::string source_, view_;
-  bool csv_ = false;
+  CycleFiles files_;
   duckdb_database database_ = nullptr;
   /// The second connection scans, while the first keeps the results.
   duckdb_connection connection_ = nullptr, scanning_ = nullptr;
@@ -102,9 +104,10 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
     if (duckdb_connect(database_, &connection_) != DuckDBSuccess)
       throw MachineError("cannot start DuckDB");
     execute("set autoinstall_known_extensions = false; set autoload_known_extensions = false");
-    const std::vector<std::string> files = expand(settings.files);
+    const double quarter = 0x1p20 * static_cast<double>(memory_) / 4;
+    files_ = cycle_files(expand(settings.files), source_, settings.skip_bad, quarter);
     std::vector<std::string> allowed;
-    for (const std::string& file : files) allowed.push_back(quoted(file, '\''));
+    for (const std::string& file : files_.paths) allowed.push_back(quoted(file, '\''));
     if (settings.threads > 0) execute(fmt::format("set threads = {}", settings.threads));
     execute(
         fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
@@ -115,16 +118,16 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
                     "lock_configuration = true",
                     memory_, quoted((spill_.path() / "spill").string(), '\''), settings.progress,
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
-    view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
+    view_ = "create or replace temp view cycles as select * from " + reader_of(files_, "");
     execute(view_);
-    for (const std::string& file : files) refuse_repeated_headings(file);
+    for (const std::string& file : files_.paths) refuse_repeated_headings(file);
     bool has_rows = false;
     rows("select 1e0 from cycles limit 1", 0, [&](const Row&) { has_rows = true; });
     if (!has_rows) throw InputError(fmt::format("{} has no rows", source_));
     for (const EngineColumn& each : columns()) {
-      if (each.name != settings.unit || !each.is_number || !csv_) continue;
+      if (each.name != settings.unit || !each.is_number || !files_.csv) continue;
       view_ =
-          "create or replace temp view cycles as select * from " + view_of(files, settings.unit);
+          "create or replace temp view cycles as select * from " + reader_of(files_, settings.unit);
       execute(view_);
     }
   } catch (...) {
@@ -151,7 +154,11 @@ void DuckdbEngine::fail(const std::string& message) const {
   if (has("No space left"))
     throw MachineError(fmt::format("no space left in {} for data that do not fit into memory",
                                    spill_.path().parent_path().parent_path().string()));
-  throw InputError(fmt::format("{}: {}", source_, printable(duckdb_sentence(message))));
+  std::string said = duckdb_sentence(message);
+  for (std::size_t i = 0; i < files_.paths.size() && i < files_.names.size(); ++i)
+    if (files_.paths[i] != files_.names[i])
+      boost::algorithm::replace_all(said, files_.paths[i], files_.names[i]);
+  throw InputError(fmt::format("{}: {}", source_, printable(said)));
 }
 
 void DuckdbEngine::execute(const std::string& statements, Answer& answer) {
@@ -164,6 +171,7 @@ std::vector<std::string> DuckdbEngine::expand(const std::vector<std::string>& pa
   std::vector<std::string> files;
   for (const std::string& pattern : patterns) {
     std::error_code ignored;
+    refuse_remote(pattern);
     // Special characters in a file name are literal.
     if (fs::is_regular_file(pattern, ignored)) {
       files.push_back(fs::absolute(pattern).string());
@@ -178,35 +186,6 @@ std::vector<std::string> DuckdbEngine::expand(const std::vector<std::string>& pa
   return files;
 }
 
-std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const std::string& unit) {
-  const auto ends = [](const std::string& file, const char* end) {
-    return boost::algorithm::iends_with(file, end);
-  };
-  bool parquet = true, csv = true;
-  std::vector<std::string> names;
-  for (const std::string& file : files) {
-    if (file.find_first_of("*?[") != std::string::npos)
-      throw InputError(
-          fmt::format("DuckDB takes the name {} for a pattern: rename the file", printable(file)));
-    parquet = parquet && (ends(file, ".parquet") || ends(file, ".pq"));
-    csv = csv && (ends(file, ".csv") || ends(file, ".csv.gz"));
-    names.push_back(quoted(file, '\''));
-  }
-  if (!parquet && !csv)
-    throw InputError(fmt::format(
-        "{}: a fleet's cycles must be Parquet files or CSV files, all of one kind", source_));
-  csv_ = csv;
-  if (parquet)
-    return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
-  // Without BIGINT: if the first thousands of cells are integers, 2.5 would be read as 3.
-  return fmt::format(
-      "read_csv([{}], header = true, delim = ',', quote = '\"', escape = '\"', strict_mode = true, "
-      "null_padding = false, ignore_errors = false, hive_partitioning = false, "
-      "auto_type_candidates = ['DOUBLE', 'VARCHAR']{})",
-      fmt::join(names, ", "),
-      unit.empty() ? "" : fmt::format(", types = {{{}: 'VARCHAR'}}", quoted(unit, '\'')));
-}
-
 // DuckDB renames the second of two columns with the same name, and ignores case.
 void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
   Answer answer;
@@ -216,11 +195,11 @@ void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
     names.push_back(printable(value ? value : ""));
     duckdb_free(value);
   };
-  if (csv_) {
+  if (files_.csv) {
     execute(
-        fmt::format("select * from read_csv({}, header = false, all_varchar = true, delim = ',', "
+        fmt::format("select * from read_csv({}, header = false, all_varchar = true, delim = {}, "
                     "quote = '\"', escape = '\"', ignore_errors = true) limit 1",
-                    quoted(file, '\'')),
+                    quoted(file, '\''), quoted(std::string(1, files_.delimiter), '\'')),
         answer);
     if (duckdb_row_count(&answer.result) == 0) return;
     for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) text(c, 0);
@@ -247,6 +226,7 @@ std::vector<EngineColumn> DuckdbEngine::columns() {
          type == DUCKDB_TYPE_TIMESTAMP || type == DUCKDB_TYPE_TIMESTAMP_S ||
              type == DUCKDB_TYPE_TIMESTAMP_MS || type == DUCKDB_TYPE_TIMESTAMP_NS ||
              type == DUCKDB_TYPE_TIMESTAMP_TZ});
+    if (files_.all_text) found.back().text_decimal = files_.decimal;
   }
   return found;
 }
@@ -309,7 +289,7 @@ void DuckdbEngine::rows(const std::string& query, std::size_t texts,
 
 long long DuckdbEngine::known_rows() {
   double count = 0;
-  if (!csv_)
+  if (!files_.csv)
     rows("select cast(count(*) as double) from cycles", 0,
          [&](const Row& row) { count = row.numbers[0]; });
   return static_cast<long long>(count);

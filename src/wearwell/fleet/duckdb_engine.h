@@ -18,6 +18,7 @@ struct DuckdbSettings {
   std::filesystem::path spill = {};  ///< parent of the temporary folder
   int threads = 0;                   ///< 0: all
   long memory = 0;                   ///< MB; 0: half of the machine's
+  bool skip_bad = false;  ///< cells of CSV that are not numbers are missing values, not errors
   /// whether to report progress of statements, which costs a little time
   bool progress = false;
 };

@@ -22,6 +22,8 @@ struct EngineColumn {
   bool is_number = false;
   bool is_real = false;                   ///< may have a fraction
   bool is_date = false, is_time = false;  ///< a date; a timestamp
+  /// Of numbers that are read as text, in a table with invalid cells: their decimal mark. 0: typed.
+  char text_decimal = 0;
 };
 
 /// A server, or one behind it, was lost during the work. After another `begin` all of it may be
@@ -41,6 +43,8 @@ class Engine {
   virtual std::string table() const = 0;
   /// Its name in messages.
   virtual std::string source() const = 0;
+  /// The layout of its text files ("semicolons, decimal comma"); empty if it needs no mention.
+  virtual std::string layout() const { return ""; }
   virtual std::vector<EngineColumn> columns() = 0;
   /// The following work is atomic and sees the table as it is now; without `commit` it is undone.
   /// ClickHouse has no transactions: there, uncommitted data belongs into temporary tables, which

@@ -33,12 +33,15 @@ constexpr unsigned dates[] = {1082}, times[] = {1114, 1184};
 
 class PostgresEngine : public Engine {
  public:
-  PostgresEngine(const std::string& address, const std::string& table)
-      : name_(table), table_(table_identifier(Dialect::postgresql, table)) {
+  PostgresEngine(const std::string& address, const std::string& table, bool read_only)
+      : name_(table), table_(table_identifier(Dialect::postgresql, table)), read_only_(read_only) {
     try {
       connection_ = std::make_unique<pqxx::connection>(address);
       // JIT compilation of a thousand expressions takes longer than running them.
-      execute("set jit = off; set client_min_messages = error; set datestyle = iso");
+      // All rows of a cursor are fetched: a plan for the first ones is not wanted.
+      execute(
+          "set jit = off; set client_min_messages = error; set datestyle = iso; set "
+          "cursor_tuple_fraction = 1");
     } catch (const pqxx::broken_connection& error) {
       throw InputError(fmt::format("PostgreSQL cannot be reached: {}", sentence(error.what())));
     }
@@ -57,7 +60,10 @@ class PostgresEngine : public Engine {
   }
 
   std::vector<EngineColumn> columns() override;
-  void begin() override { execute("begin transaction isolation level repeatable read"); }
+  void begin() override {
+    execute(fmt::format("begin transaction isolation level repeatable read{}",
+                        read_only_ ? " read only" : ""));
+  }
   void commit() override { execute("commit"); }
   void run(const std::string& statements, const Monitor& monitor, const std::string& what,
            long long total) override;
@@ -68,6 +74,7 @@ class PostgresEngine : public Engine {
   pqxx::result execute(const std::string& statements);
 
   std::string name_, table_;
+  bool read_only_;
   std::unique_ptr<pqxx::connection> connection_;
 };
 
@@ -82,7 +89,12 @@ pqxx::result PostgresEngine::execute(const std::string& statements) {
     if (said.find("user request") != std::string::npos) throw Cancelled();
     if (error.sqlstate().starts_with("53"))  // insufficient resources
       throw MachineError(fmt::format("{}: {}", source(), said));
-    throw InputError(fmt::format("{}: {}", source(), said));
+    // The right to create is missing: in the schema, or since the server is a standby.
+    const bool cannot_create = !read_only_ && (said.find("for schema") != std::string::npos ||
+                                               error.sqlstate() == "25006");
+    throw InputError(fmt::format(
+        "{}: {}{}", source(), said,
+        cannot_create ? "; --read-only creates no tables and sums all cycles in one query" : ""));
   }
 }
 
@@ -142,8 +154,9 @@ void PostgresEngine::rows(const std::string& query, std::size_t texts,
 
 }  // namespace
 
-std::unique_ptr<Engine> postgres_engine(const std::string& address, const std::string& table) {
-  return std::make_unique<PostgresEngine>(address, table);
+std::unique_ptr<Engine> postgres_engine(const std::string& address, const std::string& table,
+                                        bool read_only) {
+  return std::make_unique<PostgresEngine>(address, table, read_only);
 }
 
 }  // namespace wearwell::fleet

@@ -30,7 +30,8 @@ struct FleetOptions {
   std::vector<double> levels = {25, 50, 75, 100}, horizons, days;
   int threads = 0;
   long memory = 0;
-  bool scatter_only = false, statements = false, json = false, quiet = false;
+  bool scatter_only = false, statements = false, read_only = false, skip_bad = false, json = false,
+       quiet = false;
 };
 
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
@@ -46,6 +47,13 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
       throw InputError(
           "a database needs --table, and takes neither files nor --state: it stores its sums "
           "itself");
+    if (options.read_only && !name.starts_with("postgres"))
+      throw InputError(
+          duckdb
+              ? "--read-only is for databases; files are never changed, and sums are stored by "
+                "--state alone"
+              : "--read-only works with PostgreSQL alone; in ClickHouse the user needs the right "
+                "to create tables");
     if (duckdb) {
       engines.push_back(fleet::duckdb_engine({.files = options.files,
                                               .unit = unit_column(options.columns),
@@ -53,9 +61,10 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
                                               .spill = folder.path().parent_path(),
                                               .threads = options.threads,
                                               .memory = options.memory,
+                                              .skip_bad = options.skip_bad,
                                               .progress = options.statements}));
     } else if (name.starts_with("postgresql://") || name.starts_with("postgres://")) {
-      engines.push_back(fleet::postgres_engine(name, options.table));
+      engines.push_back(fleet::postgres_engine(name, options.table, options.read_only));
     } else if (fleet::is_clickhouse(name)) {
       engines.push_back(fleet::clickhouse_engine(name, options.table));
     } else {
@@ -86,6 +95,8 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
                        .files = options.files,
                        .prefix = options.prefix,
                        .first = first,
+                       .read_only = options.read_only,
+                       .skip_bad = options.skip_bad,
                        .replicates = !options.scatter_only,
                        .statements = options.statements,
                        .levels = options.levels,
@@ -138,6 +149,12 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME=COLUMN:UNIT");
   command->add_option("--state", options->state,
                       "DuckDB database: continue from its sums and store the new sums in it");
+  command->add_flag("--read-only", options->read_only,
+                    "Create nothing in PostgreSQL: sum all cycles in one query, for a user who may "
+                    "only read");
+  command->add_flag("--skip-bad", options->skip_bad,
+                    "Leave out rows without a unit or with impossible values, and report them and "
+                    "how much they matter");
   command->add_option("--level", options->levels, "Wear levels in % of the worn-out volume")
       ->delimiter(',')
       ->check(number_between(1e-6, 1e6))

@@ -6,6 +6,7 @@
 #include "wearwell/models/clutch/sql_writer.h"
 #include "wearwell/models/clutch/sums_key.h"
 
+// Longer than others: the parts of one statement in their order.
 namespace wearwell::clutch {
 using fleet::number;
 
@@ -20,7 +21,7 @@ SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Diale
       source_(source),
       table_key_(dialect == fleet::Dialect::duckdb ? "" : table_key(id, source)),
       id_(fleet::literal(dialect, table_key_.empty() ? id : table_key_ + columns_key(source))),
-      parameters_(sql_parameters(model, replicates)),
+      parameters_(sql_parameters(model, replicates, source.inlined)),
       units_(fixed_units(model)),
       types_(fleet::types(dialect)),
       replicates_(replicates ? model.replicates.size() : 0),
@@ -108,8 +109,21 @@ std::string SqlWriter::parameters() const {
                      model_table_, id_, all);
 }
 
+std::string SqlWriter::with_parameters() const {
+  return source_.inlined ? "" : " cross join\n" + parameters();
+}
+
+std::string SqlWriter::cell(const std::string& column) const {
+  const std::string name = "t." + fleet::identifier(dialect_, column);
+  if (source_.text_decimal == 0) return name;
+  if (source_.text_decimal == '.') return fmt::format("try_cast({} as double)", name);
+  // A point would be one of thousands, or of another country.
+  return fmt::format(
+      "case when not contains({0}, '.') then try_cast(replace({0}, ',', '.') as double) end", name);
+}
+
 std::string SqlWriter::in_si(const SqlColumn& column) const {
-  std::string text = fleet::real(dialect_, "t." + fleet::identifier(dialect_, column.name));
+  std::string text = fleet::real(dialect_, cell(column.name));
   if (clickhouse()) text = fmt::format("ifNull({}, nan)", text);
   if (column.scale != 1) text += " * " + number(column.scale);
   if (column.offset != 0) text += " + " + number(column.offset);
@@ -123,18 +137,9 @@ std::string SqlWriter::unit() const {
   return fmt::format("case when {0} = floor({0}) then cast({0} as bigint) end", name);
 }
 
-/// The conditions of `wearwell clutch predict` on a row. NaN exceeds every number, or no comparison
-/// with it is true.
-std::string SqlWriter::valid() const {
-  std::string text = "cycle >= 1 and cycle <= 9e15 and cycle = floor(cycle)";
-  for (const char* each : {"slip_speed", "torque", "closing_time", "energy"})
-    text += fmt::format(" and raw_{0} > 0 and raw_{0} < 1e300", each);
-  return text + " and raw_temperature >= -273.15e0 and raw_temperature < 1e300";
-}
-
 std::string SqlWriter::si(bool fresh) const {
   const std::string unit = this->unit();
-  const std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
+  const std::string cycle = cell(source_.cycle.name);
   SqlColumns columns;
   // In ClickHouse arrays leave out null.
   columns.add(clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : unit,
@@ -176,8 +181,12 @@ std::string SqlWriter::checked() const {
   };
   for (const char* each : input_columns) add(std::string("raw_") + each, "1e0", each);
   add(fleet::whole(dialect_, "raw_energy * " + number(1 / units_.energy)), "0", "fixed_energy");
-  return fmt::format("select\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}",
-                     columns.text(), si(true), fence());
+  std::string where;
+  if (source_.skip_invalid)
+    where =
+        fmt::format("\nwhere {} and {}", clickhouse() ? "unit <> ''" : "unit is not null", valid());
+  return fmt::format("select\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}{}",
+                     columns.text(), si(true), where, fence());
 }
 
 std::string SqlWriter::ordered() const {
@@ -193,11 +202,14 @@ std::string SqlWriter::ordered() const {
 
 std::string SqlWriter::powers() const {
   SqlColumns columns;
-  columns.add(fmt::format("fixed_energy * {}", number(units_.energy)), "energy");
-  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.volume)),
-              "half_energy");
-  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.fine)),
-              "half_fine");
+  // PostgreSQL would multiply a bigint with a literal as numeric, and convert the product to a double
+  // by its text wherever it is used.
+  const auto energy = [&](double unit, const char* name) {
+    columns.add(fmt::format("{} * {}", fleet::real(dialect_, "fixed_energy"), number(unit)), name);
+  };
+  energy(units_.energy, "energy");
+  energy(0.5 * units_.energy / units_.volume, "half_energy");
+  energy(0.5 * units_.energy / units_.fine, "half_fine");
   columns.add(fmt::format("{} * {}", fleet::real(dialect_, "before"), number(units_.energy)),
               "running");
   for (std::size_t p = 0; p < parameters_.pairs.size(); ++p) {
@@ -207,12 +219,11 @@ std::string SqlWriter::powers() const {
         fmt::format("ds{}", p));
   }
   return fmt::format(
-      "select ordered.*, k.*,\n  {}\nfrom (\n"
+      "select ordered.*,{}\n  {}\nfrom (\n"
       "-- energy of the cycles before each, in whole units; a row with invalid values counts only "
       "as refused\n"
-      "{}\n) as ordered cross join\n"
-      "{}{}",
-      columns.text(), ordered(), parameters(), fence());
+      "{}\n) as ordered{}{}",
+      parameter_columns(), columns.text(), ordered(), with_parameters(), fence());
 }
 
 std::string SqlWriter::run_in(std::size_t b, const std::string& energy) const {
@@ -268,29 +279,30 @@ std::string SqlWriter::worn() const {
       columns.text(), rates(), fence());
 }
 
-std::string SqlWriter::query() const {
-  SqlColumns columns;
-  columns.keep(id_);
-  columns.keep(fleet::text(dialect_, "unit"));
-  columns.keep("max(after_cycle)");
-  columns.keep(clickhouse() ? "max(cycle)" : "coalesce(max(cycle), max(after_cycle))");
+std::string SqlWriter::sums() const {
+  std::vector<std::string> all;
+  const auto keep = [&](const std::string& expression) { all.push_back(expression); };
+  keep(id_);
+  keep(fleet::text(dialect_, "unit"));
+  keep("max(after_cycle)");
+  keep(clickhouse() ? "max(cycle)" : "coalesce(max(cycle), max(after_cycle))");
   const char* refused = clickhouse() ? "valid = 0" : "not coalesce(valid, false)";
   for (const char* condition :
        {clickhouse() ? "valid = 1" : "valid", refused, "cycle = cycle_before"})
-    columns.keep(count_if(condition));
+    keep(count_if(condition));
   std::string any;
   for (const char* each : input_columns) {
     const std::string out = fmt::format("{0} < {1} or {0} > {2}", each,
                                         parameters_.column(0, std::string(each) + "_from"),
                                         parameters_.column(0, std::string(each) + "_to"));
-    columns.keep(count_if(counted(out)));
+    keep(count_if(counted(out)));
     any += (any.empty() ? "" : " or ") + out;
   }
-  columns.keep(count_if(counted(any)));
-  columns.keep(count_if(counted("w0 < 0")));
+  keep(count_if(counted(any)));
+  keep(count_if(counted("w0 < 0")));
   const auto sum = [&](const std::string& fixed) {
     const std::string total = fleet::sum_of(dialect_, fixed);
-    columns.keep(clickhouse() ? total : fmt::format("coalesce({}, 0)", total));
+    keep(clickhouse() ? total : fmt::format("coalesce({}, 0)", total));
   };
   sum("fixed_energy");
   sum(fleet::wide(dialect_, "settled0 * " + run_in(0, "running")));
@@ -304,18 +316,26 @@ std::string SqlWriter::query() const {
     sum(fleet::whole(dialect_, fmt::format("settled{} * {}", b, run_in(b, "running"))));
   for (std::size_t b = 1; b <= replicates_; ++b)
     sum(fleet::whole(dialect_, fmt::format("settled{}", b)));
+  // ClickHouse would take a new name for the column within a sum.
+  const std::vector<std::string> names = sums_columns();
+  for (std::size_t i = 0; source_.read_only && i < all.size(); ++i) all[i] += " as " + names[i];
+  return fmt::format(
+      "select\n  {}\nfrom (\n-- volumes of a run-in plate, and scatter\n{}\n) as worn\n"
+      "group by unit",
+      fmt::join(all, ",\n  "), worn());
+}
+
+std::string SqlWriter::query() const {
   return fmt::format(
       "-- 2. Query: adds the sums of all cycles after the last counted one of each unit. May be "
       "run again, and then adds nothing.\n"
       "-- Integers, so that the order of rows does not change a bit. Units: energy 2^{} J, volume "
       "and settled 2^{} m^3, variance 2^{} m^6,\n"
       "-- replicates v1 .. (with run-in) and s1 .. (without) 2^{} m^3.\n"
-      "insert into {}{} ({})\n"
-      "select\n  {}\nfrom (\n-- volumes of a run-in plate, and scatter\n{}\n) as worn\n"
-      "group by unit{};\n",
+      "insert into {}{} ({})\n{}{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
-      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(),
-      columns.text(), worn(), adding());
+      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(), sums(),
+      adding());
 }
 
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
@@ -332,6 +352,9 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.keep = writer.keep();
   sql.check = writer.check();
   sql.invalid_row = writer.invalid_row();
+  sql.left_out = writer.left_out();
+  sql.left_out_rows = writer.left_out_rows();
+  sql.left_out_units = writer.left_out_units();
   sql.outlier = writer.outlier();
   sql.stream = writer.stream();
   sql.sorted = sql.stream + "\norder by unit, cycle";

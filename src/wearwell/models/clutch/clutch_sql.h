@@ -29,6 +29,15 @@ struct SqlSource {
   bool is_date = false;             ///< dates without time
   std::string prefix = "wearwell";  ///< of the tables that the statements create
   bool first = false;               ///< nothing was counted before: all rows are new
+  /// The parameters are literals of the query, not rows of a table.
+  bool inlined = false;
+  /// No table is created: `totals` contains the whole query. Implies `first` and `inlined`.
+  bool read_only = false;
+  /// Rows that cannot be summed are left out, in place of an error.
+  bool skip_invalid = false;
+  /// If all columns are text (a CSV file with invalid cells, in DuckDB): the decimal mark of its
+  /// numbers. 0: the columns have types.
+  char text_decimal = 0;
   /// ClickHouse has no transactions: new sums go to a temporary table until `keep`.
   bool staged = false;
   int portion = 0,
@@ -74,6 +83,9 @@ struct ClutchSql {
   std::string check;
   /// SELECT: a row with invalid values: unit, cycle, the four inputs, energy.
   std::string invalid_row;
+  /// SELECTs of rows that cannot be summed, by the first reason (LeftOut::Reason): reason, rows,
+  /// units; the first rows with unit, reason, cycle, the four inputs, energy; unit and its rows.
+  std::string left_out, left_out_rows, left_out_units;
   /// SELECT: the row with the highest energy relative to its closing: unit, cycle, energy and the
   /// ratio.
   std::string outlier;

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/sql_writer.h"
 
-// Longer than others: the parts of one statement in their order.
 namespace wearwell::clutch {
 
 using fleet::number;
@@ -42,6 +40,7 @@ std::string SqlWriter::unit_sums() const {
 }
 
 std::string SqlWriter::known_sums() const {
+  if (source_.read_only) return fmt::format("(\n{}\n) as all_sums", sums());
   if (!source_.staged) return sums_table_;
   return fmt::format("(select {0} from {1} union all select {0} from {2}) as known", kept_names(),
                      sums_table_, fresh_table_);
@@ -74,9 +73,9 @@ std::string SqlWriter::wear() const {
   duty.add(fmt::format("({}) / {}", squares,
                        number(static_cast<double>(std::max<std::size_t>(replicates_, 1)))),
            "model_variance");
-  std::string text = fmt::format(
-      "select sums.*, k.*,\n  {}\nfrom (\n{}\n) as sums cross join\n{}\nwhere cycles > 0{}",
-      duty.text(), unit_sums(), parameters(), fence());
+  std::string text =
+      fmt::format("select sums.*,{}\n  {}\nfrom (\n{}\n) as sums{}\nwhere cycles > 0{}",
+                  parameter_columns(), duty.text(), unit_sums(), with_parameters(), fence());
 
   SqlColumns left;
   for (std::size_t b = 0; b <= replicates_; ++b) {
@@ -177,6 +176,11 @@ std::string SqlWriter::combine() const {
 }
 
 std::string SqlWriter::size() const {
+  // All rows are new: their sums are not needed for their number.
+  if (source_.read_only)
+    return fmt::format("select {}, {} from (\n{}\n) as si where unit is not null and {}",
+                       fleet::real(dialect_, "count(distinct unit)"),
+                       fleet::real(dialect_, "count(*)"), si(false), valid());
   return fmt::format(
       "select {}, {} from (select unit, sum(cycles) as cycles from {} where model = {} group by "
       "unit) "
@@ -186,9 +190,14 @@ std::string SqlWriter::size() const {
 
 std::string SqlWriter::late() const {
   std::string table = source_.table, unit = fleet::text(dialect_, this->unit());
-  std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
+  std::string cycle = cell(source_.cycle.name);
   const char* join = "inner";
-  if (clickhouse()) {
+  if (source_.skip_invalid) {
+    table = fmt::format("(select * from (\n{}\n) as si where {})", si(false), valid());
+    unit = clickhouse() ? "t.unit" : fleet::text(dialect_, "t.unit");
+    cycle = "t.cycle";
+    join = clickhouse() ? "left" : "inner";
+  } else if (clickhouse()) {
     // ClickHouse 18.16 loses a joined table's name across shards, and fails if the right side of an
     // inner join is empty; a left join gives 0 there, and no cycle has the number 0.
     table = fmt::format("(select {} as unit, {} as cycle from {} as t)", unit, cycle, table);
@@ -221,62 +230,6 @@ std::string SqlWriter::adding() const {
       fmt::join(sets, ",\n  "));
 }
 
-/// Whether the values of a row are invalid. ClickHouse has no null boolean.
-std::string SqlWriter::refused() const {
-  return fmt::format(fmt::runtime(clickhouse() ? "not ({})" : "not coalesce({}, false)"), valid());
-}
-
-namespace {
-
-/// The energy of a row over that of its closing, 0 if a value is so extreme that the product
-/// overflows.
-std::string closing_ratio() {
-  std::string can_be = "raw_energy > 0 and raw_energy < 1e300";
-  for (const char* each : {"slip_speed", "torque", "closing_time"})
-    can_be += fmt::format(" and raw_{0} > 1e-60 and raw_{0} < 1e60", each);
-  return fmt::format(
-      "case when {} then raw_energy / (0.5e0 * raw_torque * raw_slip_speed * raw_closing_time) "
-      "else 0e0 end",
-      can_be);
-}
-
-}  // namespace
-
-std::string SqlWriter::check() const {
-  SqlColumns columns;
-  columns.keep(fleet::real(dialect_, "count(*)"));
-  columns.keep(fleet::real(dialect_, count_if(refused())));
-  columns.keep(fleet::real(dialect_, count_if(clickhouse() ? "unit = ''" : "unit is null")));
-  for (const char* each : input_columns) {
-    columns.keep(fmt::format("min(raw_{})", each));
-    columns.keep(fmt::format("max(raw_{})", each));
-  }
-  columns.keep("max(raw_energy)");
-  columns.keep(fleet::real(
-      dialect_, count_if(fmt::format("({}) > {}", closing_ratio(), number(EnergyOutliers::most)))));
-  return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
-}
-
-std::string SqlWriter::outlier() const {
-  SqlColumns columns;
-  columns.add(fleet::text(dialect_, "unit"), "name");
-  columns.add(fleet::real(dialect_, "cycle"), "number");
-  columns.keep("raw_energy");
-  columns.add(closing_ratio(), "ratio");
-  return fmt::format("select\n  {}\nfrom (\n{}\n) as si order by ratio desc, name, number limit 1",
-                     columns.text(), si(false));
-}
-
-std::string SqlWriter::invalid_row() const {
-  SqlColumns columns;
-  columns.keep(fleet::text(dialect_, "unit"));
-  columns.keep(fleet::real(dialect_, "cycle"));
-  for (const char* each : input_columns) columns.keep(std::string("raw_") + each);
-  columns.keep("raw_energy");
-  return fmt::format("select\n  {}\nfrom (\n{}\n) as si where {} order by unit, cycle limit 1",
-                     columns.text(), si(false), refused());
-}
-
 std::string SqlWriter::times() const {
   if (source_.time.empty() && source_.per_day.empty()) return "";
   const std::string unit = this->unit();
@@ -291,7 +244,8 @@ std::string SqlWriter::times() const {
   } else {
     const bool duckdb = dialect_ == fleet::Dialect::duckdb;
     std::string time = "t." + fleet::identifier(dialect_, source_.time);
-    if (duckdb) time = fmt::format("cast({} as timestamp)", time);
+    if (duckdb)
+      time = fmt::format("{}({} as timestamp)", source_.text_decimal ? "try_cast" : "cast", time);
     columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
     columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
     columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
@@ -301,8 +255,7 @@ std::string SqlWriter::times() const {
   }
   columns.add(source_.per_day.empty()
                   ? nothing
-                  : fleet::real(dialect_, fmt::format("avg(t.{})", fleet::identifier(
-                                                                       dialect_, source_.per_day))),
+                  : fleet::real(dialect_, fmt::format("avg({})", cell(source_.per_day))),
               "per_day");
   return fmt::format("select\n  {}\nfrom {} as t group by {}", columns.text(), source_.table,
                      clickhouse() ? "wearwell_unit" : unit);
@@ -311,8 +264,7 @@ std::string SqlWriter::times() const {
 std::string SqlWriter::stream() const {
   SqlColumns columns;
   columns.add(unit(), "unit");
-  columns.add(fleet::real(dialect_, "t." + fleet::identifier(dialect_, source_.cycle.name)),
-              "cycle");
+  columns.add(fleet::real(dialect_, cell(source_.cycle.name)), "cycle");
   for (std::size_t i = 0; i < 4; ++i) columns.add(in_si(source_.inputs[i]), input_columns[i]);
   columns.add(in_si(source_.energy), "energy");
   return fmt::format("select\n  {}\nfrom {} as t", columns.text(), source_.table);

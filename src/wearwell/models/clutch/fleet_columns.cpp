@@ -47,9 +47,39 @@ void require_known(const std::vector<fleet::EngineColumn>& known, const std::str
   if (at == all.end())
     throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", table, printable(column),
                                  printable(nearest_name(column, all))));
-  if (is_number && !known[static_cast<std::size_t>(at - all.begin())].is_number)
+  const fleet::EngineColumn& found = known[static_cast<std::size_t>(at - all.begin())];
+  if (is_number && !found.is_number && found.text_decimal == 0)
     throw InputError(
         fmt::format("{}: column '{}' does not hold numbers", table, printable(column)));
+}
+
+/// All columns that neither the options nor the table's names give, in one message.
+void require_given(const std::map<std::string, std::string>& given,
+                   const std::vector<std::string>& headings, const std::string& table) {
+  if (headings.empty()) return;
+  std::vector<std::string> missing, options, shown;
+  const auto look = [&](const char* name, const char* heading, const char* si) {
+    if (given.contains(name)) return;
+    const bool found = std::any_of(headings.begin(), headings.end(), [&](const std::string& each) {
+      return each == heading || (si && read_heading(each, si).name == heading);
+    });
+    if (found) return;
+    missing.push_back(si ? fmt::format("'{} [{}]'", heading, si) : fmt::format("'{}'", heading));
+    const std::string option = fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", si) : "");
+    options.push_back(option.find(' ') == option.npos ? option : "'" + option + "'");
+  };
+  look("unit", "plate", nullptr);
+  look("cycle", "cycle", nullptr);
+  for (const Input& input : inputs) look(input.name, input.name, input.si);
+  look("energy", "energy", "J");
+  if (missing.empty()) return;
+  constexpr std::size_t most_shown = 30;
+  for (std::size_t i = 0; i < std::min(headings.size(), most_shown); ++i)
+    shown.push_back("'" + printable(shortened(headings[i])) + "'");
+  if (headings.size() > most_shown) shown.emplace_back("...");
+  throw InputError(fmt::format("{} has no column {}; it has {}. State the columns: --columns {}",
+                               table, fmt::join(missing, ", "), fmt::join(shown, ", "),
+                               fmt::join(options, " ")));
 }
 
 /// "M:N m", "torque [N m]".
@@ -86,7 +116,11 @@ void read_fleet_columns(const std::vector<std::string>& options,
                         SqlSource& source) {
   const std::map<std::string, std::string> given = split(options);
   std::vector<std::string> headings;
-  for (const auto& each : known) headings.push_back(each.name);
+  for (const auto& each : known) {
+    headings.push_back(each.name);
+    if (each.text_decimal != 0) source.text_decimal = each.text_decimal;
+  }
+  require_given(given, headings, table);
   const auto plain = [&](const char* name, const char* otherwise, bool is_number) {
     const auto at = given.find(name);
     SqlColumn column{at == given.end() ? otherwise : at->second};
@@ -103,7 +137,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
       throw InputError(fmt::format(
           "--columns needs the column of '{0}', and its unit: '{0}=COLUMN:{1}'", name, si));
     } else {
-      const ColumnChoice found = find_labelled(headings, name, si, table);
+      const ColumnChoice found = find_labelled(headings, name, si, table, "--columns");
       column = {found.column, found.unit.scale, found.unit.offset, false, found.unit.text};
     }
     require_known(known, column.name, table, true);

@@ -141,8 +141,10 @@ UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
     return low <= count.expected && count.expected <= high ? count.expected : 0.5 * (low + high);
   };
   constexpr double tail = 0.025;
-  count.low = quantile(tail);
-  count.high = quantile(1 - tail);
+  // The model itself is not one of its replicates: where its count lies beyond theirs, the interval
+  // reaches to it.
+  count.low = std::min(quantile(tail), count.expected);
+  count.high = std::max(quantile(1 - tail), count.expected);
   return count;
 }
 

@@ -12,7 +12,7 @@
 
 namespace wearwell::clutch {
 
-/// A number of units with its 95 % interval.
+/// A number of units with an interval of at least 95 %, which contains it.
 struct UnitCount {
   double expected = 0, low = 0, high = 0;
 };
@@ -50,6 +50,8 @@ class FleetCounts {
   const std::vector<double>& days() const { return days_; }
   std::size_t units() const { return units_; }
   /// Units that have reached the level after that horizon; horizons in days follow those in cycles.
+  /// The interval has the quantiles of 2.5 and 97.5 % of the mixture, widened to the model's own
+  /// count if that lies outside.
   UnitCount reached(std::size_t level, std::size_t horizon) const;
 
   /// Means over the cycles of each unit, for quantiles over units: slip speed, torque, temperature, closing

@@ -296,18 +296,19 @@ std::map<std::string, KnownUnit> known_units(fleet::Engine& engine, const Clutch
 }  // namespace
 
 LoopFindings sum_by_loop(fleet::Engine& engine, fleet::ColumnEngine& columns, const ClutchSql& sql,
-                         const WearModel& model, bool replicates, bool first,
-                         std::size_t units_in_memory, const Monitor& monitor) {
+                         const WearModel& model, const LoopSettings& settings,
+                         const Monitor& monitor) {
   const std::map<std::string, KnownUnit> known =
-      first ? std::map<std::string, KnownUnit>() : known_units(engine, sql);
+      settings.first ? std::map<std::string, KnownUnit>() : known_units(engine, sql);
   const long long total = columns.known_rows();
   for (const bool sorted : {false, true}) {
     engine.run(sql.fresh, {}, "", 0);
     const auto appender = columns.append(fresh_table);
-    Loop loop(columns, model, replicates, known, total, units_in_memory, monitor);
+    Loop loop(columns, model, settings.replicates, known, total, settings.units_in_memory, monitor);
     if (!loop.run(sorted ? sql.sorted : sql.stream, sorted, *appender)) continue;
     appender->finish();
-    if (loop.found.refused + loop.found.nameless == 0) engine.run(sql.gather, monitor, "units", 0);
+    if (settings.skip_bad || loop.found.refused + loop.found.nameless == 0)
+      engine.run(sql.gather, monitor, "units", 0);
     return loop.found;
   }
   throw InputError("the cycles cannot be sorted");

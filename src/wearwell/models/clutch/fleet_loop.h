@@ -7,10 +7,17 @@
 
 namespace wearwell::clutch {
 
+struct LoopSettings {
+  bool replicates = true;
+  bool first = false;     ///< nothing was counted before
+  bool skip_bad = false;  ///< rows that cannot be summed are counted, and left out
+  std::size_t units_in_memory = 0;
+};
+
 /// The outcome of one scan of the rows.
 struct LoopFindings {
   double rows = 0;
-  double refused = 0, nameless = 0;  ///< nothing is summed then
+  double refused = 0, nameless = 0;  ///< nothing is summed then, without skip_bad
   FleetOutliers outliers;
 };
 
@@ -22,7 +29,7 @@ struct LoopFindings {
 /// same object. Throws InputError ("out of range") if wear exceeds the range of the sums;
 /// Cancelled.
 LoopFindings sum_by_loop(fleet::Engine& engine, fleet::ColumnEngine& columns, const ClutchSql& sql,
-                         const WearModel& model, bool replicates, bool first,
-                         std::size_t units_in_memory, const Monitor& monitor);
+                         const WearModel& model, const LoopSettings& settings,
+                         const Monitor& monitor);
 
 }  // namespace wearwell::clutch

@@ -14,6 +14,7 @@
 #include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
 
+// Longer than others: the tables of one report in their order.
 namespace wearwell::clutch {
 namespace {
 
@@ -198,6 +199,9 @@ nlohmann::ordered_json body_of(const WearModel& model, const FleetCounts& counts
                                    {"replicates", found.replicates ? model.replicates.size() : 0}}},
                                  {"levels", std::move(levels)},
                                  {"worst", std::move(worst)}};
+  if (!found.layout.empty()) body["fleet"]["layout"] = found.layout;
+  if (found.left_out.asked)
+    body["left_out"] = left_out_json(found.left_out, missing_wear(found.left_out, found.units));
   if (!found.days.known) return body;
   add_days(body, counts, found.days);
   return body;
@@ -282,7 +286,19 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
                         ? "the full interval includes map, run-in, plates and scatter"
                         : "without replicates the full interval includes plates and scatter only",
                     ""});
+  if (found.left_out.asked)
+    checks.push_back(
+        left_out_check(found.left_out, missing_wear(found.left_out, found.units), found.rows));
   return checks;
+}
+
+/// The rows left out: in a sentence above the counts that lack them.
+void add_left_out(const FleetFindings& found, const FleetCounts& counts, Section& levels,
+                  Section& fleet) {
+  if (found.left_out.rows == 0) return;
+  const std::vector<MissingWear> wear = missing_wear(found.left_out, found.units);
+  levels.add(Prose{left_out_sentence(found.left_out, wear, found.rows, counts.volume()), false});
+  for (Table& each : left_out_tables(found.left_out, wear, found.rows)) fleet.add(std::move(each));
 }
 
 }  // namespace
@@ -319,6 +335,8 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
                   html::given(static_cast<double>(counts.units())), now.expected, now.low, now.high,
                   100 * counts.levels()[last]),
       true});
+  Section fleet{"fleet", "Fleet"};
+  add_left_out(found, counts, levels, fleet);
   levels.add(level_table(counts));
   if (found.days.known) levels.add(day_table(counts, found.days));
   levels.add(when_table(found));
@@ -327,13 +345,14 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
   worst.add(worst_table(found));
   if (found.days.known)
     worst.add(worst_day_table(found, std::min(worst_shown, found.units.size())));
-  Section fleet{"fleet", "Fleet"};
   fleet.add(spread_table(counts));
   fleet.add(outside_table(model, counts));
   Section how{"how", "How"};
-  how.add(present::Facts{{{"engine", found.engine},
-                          {"cycles read", fmt::format("{:.0f}", found.rows)},
-                          {"model", found.model_id}}});
+  present::Facts facts{{{"engine", found.engine},
+                        {"cycles read", fmt::format("{:.0f}", found.rows)},
+                        {"model", found.model_id}}};
+  if (!found.layout.empty()) facts.facts.push_back({"layout of the files", found.layout});
+  how.add(std::move(facts));
   how.add(present::Details{"The statements", {{present::Verbatim{found.statements}}}});
   result.sections = {std::move(levels), std::move(worst), std::move(fleet), std::move(how)};
   return result;

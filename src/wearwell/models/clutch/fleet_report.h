@@ -7,6 +7,7 @@
 #include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/fleet_counts.h"
 #include "wearwell/models/clutch/fleet_days.h"
+#include "wearwell/models/clutch/left_out.h"
 #include "wearwell/study/result.h"
 
 namespace wearwell::clutch {
@@ -17,6 +18,8 @@ struct FleetFindings {
   std::vector<std::string> files;
   double rows = 0;         ///< read in this run
   FleetOutliers outliers;  ///< among them
+  std::string layout;      ///< of text files, if it needs mention
+  LeftOut left_out;        ///< with --skip-bad
   bool replicates = true;
   std::vector<UnitRow> units;  ///< worst first
   FleetDays days;

@@ -9,6 +9,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/workers.h"
 #include "wearwell/models/clutch/clutch_sql.h"
+#include "wearwell/models/clutch/fleet_check.h"
 #include "wearwell/models/clutch/fleet_columns.h"
 #include "wearwell/models/clutch/fleet_days.h"
 #include "wearwell/models/clutch/fleet_loop.h"
@@ -16,89 +17,6 @@
 
 namespace wearwell::clutch {
 namespace {
-
-/// Results of a scan of all rows before they are summed.
-struct FleetCheck {
-  double rows = 0;
-  std::string ranges;  ///< minimum and maximum of each input, as text
-  FleetOutliers outliers;
-};
-
-/// "unit 7, cycle 4: torque is -1", of one row that cannot be summed.
-std::string invalid_row(fleet::Engine& engine, const ClutchSql& sql) {
-  std::string found;
-  engine.rows(sql.invalid_row, 1, [&](const fleet::Row& row) {
-    constexpr const char* names[] = {"cycle",       "slip_speed",   "torque",
-                                     "temperature", "closing_time", "energy"};
-    found = fmt::format("unit {}, cycle {}:", printable(row.texts.front()), row.numbers[0]);
-    for (std::size_t i = 0; i < std::size(names); ++i) {
-      const double x = row.numbers[i];
-      const bool temperature = std::string_view(names[i]) == "temperature";
-      const bool good = i == 0 ? x >= 1 && x <= 9e15 && x == std::floor(x)
-                               : (temperature ? x >= -273.15 : x > 0) && x < 1e300;
-      if (good) continue;
-      found += fmt::format(" {} is {},", names[i],
-                           std::isnan(x) ? "not a number" : fmt::format("{:.6g}", x));
-    }
-    found.pop_back();
-  });
-  return found;
-}
-
-/// "torque 20 .. 31 N m" in the table's own unit; databases sort NaN as the largest number.
-std::string range_text(const char* name, const SqlColumn& column, double low, double high) {
-  const auto end = [&](double x) {
-    return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
-                            : "not a number";
-  };
-  return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
-}
-
-/// The cycles with impossible energy, by the largest one.
-FleetOutliers outliers_of(fleet::Engine& engine, const ClutchSql& sql, double count) {
-  FleetOutliers found;
-  if (!(count > 0)) return found;
-  engine.rows(sql.outlier, 1, [&](const fleet::Row& row) {
-    found.unit = row.texts.front();
-    found.all = {static_cast<long long>(count), static_cast<long long>(row.numbers[0]),
-                 row.numbers[1], row.numbers[2]};
-  });
-  return found;
-}
-
-/// Throws InputError for rows that cannot be summed.
-FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
-  FleetCheck check;
-  double refused = 0, outliers = 0;
-  engine.rows(sql.check, 0, [&](const fleet::Row& row) {
-    check.rows = row.numbers[0];
-    refused = row.numbers[1];
-    outliers = row.numbers[4 + 2 * inputs.size()];
-    const double nameless = row.numbers[2];
-    if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
-    check.ranges.clear();
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      check.ranges += range_text(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
-                                 row.numbers[4 + 2 * i]) +
-                      ", ";
-    const double energy = row.numbers[3 + 2 * inputs.size()];
-    check.ranges +=
-        std::isfinite(energy)
-            ? fmt::format("energy up to {:.6g} {}",
-                          (energy - source.energy.offset) / source.energy.scale, source.energy.unit)
-            : "energy not a number";
-    if (nameless > 0)
-      throw InputError(fmt::format("{}: {:.0f} rows have no unit", engine.source(), nameless));
-  });
-  if (refused > 0)
-    throw InputError(
-        fmt::format("{}: {:.0f} rows of {:.0f} have a missing or impossible value ({}, in SI and "
-                    "degC): cycles are integers of at least 1, temperatures above absolute zero, "
-                    "all else positive (these are: {})",
-                    engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges));
-  check.outliers = outliers_of(engine, sql, outliers);
-  return check;
-}
 
 void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
   if (sums.repeated > 0)
@@ -125,6 +43,7 @@ struct Shard {
   double rows = 0;
   std::string ranges = {};
   FleetOutliers outliers = {};
+  LeftOut left_out = {};
 };
 
 /// A summand that does not fit its column.
@@ -132,7 +51,10 @@ struct Shard {
   const std::string_view said = error.what();
   // rethrown unchanged: it may be a Lost
   if (said.find("out of range") == std::string_view::npos) throw;
-  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
+  if (shard.ranges.empty()) {
+    LeftOut again{.asked = shard.left_out.asked};
+    shard.ranges = check_rows(shard.engine, shard.sql, shard.source, again).ranges;
+  }
   throw InputError(
       fmt::format("{}: the wear of a cycle exceeds the range of the sums, or is not a number; "
                   "check the readings. They are: {} ({})",
@@ -147,12 +69,18 @@ fleet::ColumnEngine* columns_of(fleet::Engine& engine, const FleetRequest& reque
 /// With the built-in loop: it checks all rows while it sums.
 void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
                        const FleetRequest& request, bool full, const Monitor& monitor) {
-  const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model, full,
-                                         request.first, request.units_in_memory, monitor);
+  const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model,
+                                         {.replicates = full,
+                                          .first = request.first,
+                                          .skip_bad = request.skip_bad,
+                                          .units_in_memory = request.units_in_memory},
+                                         monitor);
   shard.rows = found.rows;
   shard.outliers = found.outliers;
-  if (found.rows == 0 || found.refused + found.nameless > 0) {
-    check_rows(shard.engine, shard.sql, shard.source);
+  const double bad = found.refused + found.nameless;
+  if (found.rows == 0 || bad > 0) {
+    check_rows(shard.engine, shard.sql, shard.source, shard.left_out);
+    if (found.rows > 0 && shard.left_out.rows == bad) return;
     throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
   }
 }
@@ -177,7 +105,11 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   fleet::Engine& engine = shard.engine;
   SqlSource source;
   source.table = engine.table();
-  source.first = request.first;
+  source.first = request.first || request.read_only;
+  source.read_only = request.read_only;
+  source.inlined = engine.dialect() == fleet::Dialect::postgresql;
+  source.skip_invalid = request.skip_bad;
+  shard.left_out = {.asked = request.skip_bad};
   source.prefix = request.prefix;
   source.staged = engine.dialect() == fleet::Dialect::clickhouse;
   engine.begin();
@@ -187,11 +119,12 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
   if (!columns) {
-    const FleetCheck check = check_rows(engine, shard.sql, source);
+    const FleetCheck check = check_rows(engine, shard.sql, source, shard.left_out);
     shard.rows = check.rows;
     shard.ranges = check.ranges;
     shard.outliers = check.outliers;
   }
+  if (request.read_only) return;
   try {
     // ClickHouse has no transaction that would remove the tables again.
     const bool before = engine.dialect() == fleet::Dialect::clickhouse;
@@ -256,12 +189,16 @@ void count_units(std::vector<Shard>& shards, std::size_t replicates, FleetDays& 
     per_day.clear();
   };
   for (Shard& shard : shards) {
-    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
-      units.push_back(unit_sums(row, replicates));
-      refuse_repeated(shard.engine, units.back());
-      if (days.known) per_day.push_back(days.of(units.back().unit));
-      if (units.size() == together) count();
-    });
+    try {
+      shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
+        units.push_back(unit_sums(row, replicates));
+        refuse_repeated(shard.engine, units.back());
+        if (days.known) per_day.push_back(days.of(units.back().unit));
+        if (units.size() == together) count();
+      });
+    } catch (const InputError& error) {
+      explain(shard, error);
+    }
     count();
   }
 }
@@ -296,7 +233,9 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   found.model_id = model.id;
   found.files = request.files;
   found.replicates = full;
-  found.statements = shards.front().sql.setup + shards.front().sql.query;
+  const ClutchSql& sql = shards.front().sql;
+  found.statements = request.read_only ? sql.totals : sql.setup + sql.query;
+  found.left_out.asked = request.skip_bad;
   if (columns_of(*engines.front(), request))
     found.statements =
         fleet::comment("Summed by the program's built-in loop. The statements give the same.") +
@@ -305,6 +244,8 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
     found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.description();
     found.rows += shard.rows;
     found.outliers.add(shard.outliers);
+    found.left_out.add(shard.left_out);
+    if (found.layout.empty()) found.layout = shard.engine.layout();
     if (request.files.empty()) found.files.push_back(shard.engine.source());
   }
   std::vector<double> levels;

@@ -16,6 +16,8 @@ struct FleetRequest {
   std::vector<std::string> files = {};    ///< for the report; default: the engines' sources
   std::string prefix = "wearwell";        ///< prefix of the created tables
   bool first = false;                     ///< nothing was counted before
+  bool read_only = false;                 ///< create no table: all cycles in one query (PostgreSQL)
+  bool skip_bad = false;                  ///< leave out rows that cannot be summed, and report them
   bool replicates = true;
   /// Use the statements of ClutchSql even if the built-in loop gives the same sums faster.
   bool statements = false;

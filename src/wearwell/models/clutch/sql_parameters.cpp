@@ -80,7 +80,7 @@ const std::string& SqlParameters::column(std::size_t replicate, const std::strin
       ->column;
 }
 
-SqlParameters sql_parameters(const WearModel& model, bool replicates) {
+SqlParameters sql_parameters(const WearModel& model, bool replicates, bool inlined) {
   Builder builder;
   builder.add(0, model.polynomial(), model.run_in);
   for (std::size_t i = 0; i < model.scatter.p.size(); ++i)
@@ -96,6 +96,8 @@ SqlParameters sql_parameters(const WearModel& model, bool replicates) {
   }
   for (std::size_t b = 0; replicates && b < model.replicates.size(); ++b)
     builder.add(b + 1, model.replicates[b].w, model.replicates[b].run_in);
+  if (inlined)
+    for (SqlParameter& each : builder.out.all) each.column = fmt::format("float8 '{}'", each.value);
   return std::move(builder.out);
 }
 

@@ -29,7 +29,8 @@ struct SqlParameters {
 
   const std::string& column(std::size_t replicate, const std::string& name) const;
 };
-SqlParameters sql_parameters(const WearModel& model, bool replicates);
+/// `inlined`: the columns are literals of PostgreSQL.
+SqlParameters sql_parameters(const WearModel& model, bool replicates, bool inlined);
 
 /// The polynomial of one replicate by Horner's rule, `prefix` before each parameter: "(k.k0_1 + ds0
 /// * (k.k0_2 + temperature * k.k0_3))".

@@ -52,6 +52,9 @@ class SqlWriter {
   std::string keep() const;
   std::string check() const;
   std::string invalid_row() const;
+  std::string left_out() const;
+  std::string left_out_rows() const;
+  std::string left_out_units() const;
   std::string outlier() const;
   std::string stream() const;
   std::string known() const;
@@ -64,7 +67,7 @@ class SqlWriter {
 
  private:
   std::string k(std::size_t replicate, const std::string& name) const {
-    return "k." + parameters_.column(replicate, name);
+    return (source_.inlined ? "" : "k.") + parameters_.column(replicate, name);
   }
   bool clickhouse() const { return dialect_ == fleet::Dialect::clickhouse; }
   std::string count_if(const std::string& condition) const;
@@ -78,6 +81,16 @@ class SqlWriter {
   std::string kept_names() const;
   std::string adding() const;
   std::string parameters() const;
+  /// " cross join" with the parameters, and their columns; empty if they are literals.
+  std::string with_parameters() const;
+  const char* parameter_columns() const { return source_.inlined ? "" : " k.*,"; }
+  /// Sums of all units by one SELECT.
+  std::string sums() const;
+  /// A column of numbers; null for a text that is not a number.
+  std::string cell(const std::string& column) const;
+  /// Conditions on cycle, inputs and energy, in this order.
+  std::vector<std::string> conditions() const;
+  std::string reasons() const;
   std::string in_si(const SqlColumn& column) const;
   std::string unit() const;
   std::string valid() const;
