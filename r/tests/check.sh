@@ -1,5 +1,5 @@
 # check.sh R BUILD PACKAGE FOLDER: builds the tarball and checks it, offline; neither errors nor warnings. The tests are run by
-# ctest one by one, with the program beside them.
+# ctest one by one, with the program beside them. R CMD build runs the vignettes, so the check does not run them again.
 r=$1 build=$2 package=$3 folder=$4
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -7,7 +7,11 @@ cp -r "$package" "$folder/wearwell"
 cd "$folder"
 export WEARWELL_BUILD="$build" _R_CHECK_FORCE_SUGGESTS_=false _R_CHECK_SYSTEM_CLOCK_=false LC_ALL=C.UTF-8
 "$r" --vanilla CMD build wearwell >build.log 2>&1 || { cat build.log; exit 1; }
-"$r" --vanilla CMD check --no-manual --no-tests wearwell_*.tar.gz >check.log 2>&1 || { cat check.log; exit 1; }
+for vignette in wearwell/vignettes/*.Rmd; do
+  page=wearwell/inst/doc/$(basename "$vignette" .Rmd).html
+  tar tzf wearwell_*.tar.gz "$page" >tar.log 2>&1 || { cat build.log tar.log; exit 1; }
+done
+"$r" --vanilla CMD check --no-manual --no-tests --no-vignettes wearwell_*.tar.gz >check.log 2>&1 || { cat check.log; exit 1; }
 if grep -E 'WARNING|ERROR' check.log; then cat check.log; exit 1; fi
 grep '^Status' check.log
 # The module finds the DuckDB beside it, wherever the package is, and loads NetCDF when it is asked for.
