@@ -156,7 +156,7 @@ TEST_F(FleetRows, OfOtherCountriesAreTheSame) {
     EXPECT_EQ(fleet["worst"].dump(), expected["worst"].dump()) << each;
     EXPECT_THAT(fleet["fleet"]["layout"].get<std::string>(), HasSubstr("semicolons"));
   }
-  // Two layouts at once; and commas where rows are skipped, of which a point is not one of thousands.
+  // Two layouts at once; and commas where rows are skipped, without thousands points.
   std::vector<FleetCycle> first(cycles.begin(), cycles.begin() + 700),
       second(cycles.begin() + 700, cycles.end());
   file("first.csv", first);
@@ -166,7 +166,12 @@ TEST_F(FleetRows, OfOtherCountriesAreTheSame) {
       fleet_summary(name + " " + path("first.csv") + " " + path("second.csv") + output())["worst"]
           .dump(),
       expected["worst"].dump());
-  write("skipped.csv", text + "unit 1;9000;100;1.234;150;2,5;9000\n");
+  write("thousands.csv", text + "unit 1;9000;100;1.234;150;2,5;9000\n");
+  const CommandResult thousands =
+      run_wearwell("fleet " + name + " " + path("thousands.csv") + output() + " --skip-bad");
+  EXPECT_EQ(thousands.exit_code, 2);
+  EXPECT_THAT(thousands.err, HasSubstr("thousands point"));
+  write("skipped.csv", text + "unit 1;9000;100;broken;150;2,5;9000\n");
   const json skipped = fleet_summary(name + " " + path("skipped.csv") + output() + " --skip-bad");
   EXPECT_EQ(skipped["worst"].dump(), expected["worst"].dump());
   EXPECT_EQ(skipped["left_out"]["rows"], 1);
