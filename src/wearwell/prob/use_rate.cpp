@@ -50,7 +50,7 @@ RateNode node_at(const LifeAtRate& unit, Response age, double log_rate, bool slo
 // From one node on, until the log-concave integrand has fallen by all digits.
 void walk_rates(const LifeAtRate& unit, const Response& age, double first, double step, bool sloped,
                 double& best, std::vector<RateNode>& nodes) {
-  constexpr double all_digits = 40;
+  constexpr double all_digits = 32;
   constexpr int most = 4000;
   double before = -infinity;
   for (int i = 0; i < most; ++i) {
@@ -80,12 +80,12 @@ struct RateSum {
   }
   double share(const RateNode& node) const { return std::exp(node.value - best); }
   double all() const { return even + odd; }
-  bool settled() const { return std::abs(even - odd) <= 1e-5 * all(); }
+  bool settled() const { return std::abs(even - odd) <= 1e-4 * all(); }
 };
 
 // Parameters that the families refuse have no width.
 double first_step(const LifeAtRate& unit) {
-  constexpr double part = 0.4;
+  constexpr double part = 0.55;
   const double width = std::min(log_width(unit.life, unit.life_parameters),
                                 log_width(unit.rate, unit.rate_parameters));
   return std::isfinite(width) && width > 0 ? part * width : std::nan("");

@@ -16,8 +16,8 @@ namespace wearwell {
 /// and use u of one failure together have the density f(u) g(u/t) u/t^2; the factor u/t^2 has no parameter.
 ///
 /// The integrals are sums over equal steps of log r, whose error for these integrands falls exponentially with 1/step. The
-/// sums over every second step give its estimate, and the step is halved until they agree within 1e-5, so that the
-/// sum over all steps is within about 1e-10 (relative). Integrands are log-concave in log r: lives are Weibull, exponential,
+/// sums over every second step give its estimate, and the step is halved until they agree within 1e-4, so that the
+/// sum over all steps is within about 1e-8 (relative). Integrands are log-concave in log r: lives are Weibull, exponential,
 /// lognormal, loglogistic or gamma, rates lognormal, Weibull or gamma.
 bool can_be_life_at_rate(ResponseFamily family);
 bool can_be_rate(ResponseFamily family);
