@@ -20,7 +20,7 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 // Each folder may include those before it, but none of its own line.
 const std::vector<std::set<std::string>> order = {
     {"base"},
-    {"math", "netcdf"},
+    {"math", "netcdf", "http"},
     {"formula"},
     {"prob"},
     {"bayes"},
@@ -35,8 +35,9 @@ const std::vector<std::set<std::string>> order = {
     {"plan"},
     {"joint", "bearing", "clutch", "fatigue", "formula_model", "recurrence"},
     {"models", "monitor"},
-    {"cli"},
-    {"embed"}};
+    {"embed"},
+    {"workbench"},
+    {"cli"}};
 
 std::size_t rank(const std::string& folder) {
   const auto at = std::find_if(order.begin(), order.end(),
