@@ -91,7 +91,7 @@
     if (focus) document.getElementById(focus)?.focus();
   }
 
-  const list = (title, lines) => (lines.length ? element('div', {}, element('h4', {}, title), element('ul', {}, ...lines.map((each) => element('li', {}, each)))) : null);
+  const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {}, each)))) : null);
 
   // The options of a reading, as `wearwell new` has them: {"--column", "depth=wear"}.
   function choose(options) {

@@ -49,7 +49,6 @@
       tab.addEventListener('click', () => wearwell.step(each));
       return tab;
     }));
-    part('steps').setAttribute('aria-label', 'Steps');
     part('steps').addEventListener('keydown', (event) => {
       const at = steps.findIndex((each) => part(`step-${each}`).getAttribute('aria-selected') === 'true');
       const next = {ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: steps.length - 1}[event.key];

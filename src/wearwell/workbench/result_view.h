@@ -18,8 +18,7 @@ nlohmann::ordered_json result_json(const std::filesystem::path& folder);
 std::string report_page(const std::filesystem::path& folder);
 
 /// The answer of `wearwell life` to {"unit", "survived", "horizon", "risk", "level", "sides"}, texts,
-/// all optional: {text, answer, command, python}. `answer` is what --json prints, `python` is left out
-/// where Python has no such question. Throws InputError.
+/// all optional: {text, answer, command}. `answer` is what --json prints. Throws InputError.
 nlohmann::ordered_json life_answer(const std::filesystem::path& folder, Models models,
                                    const nlohmann::json& question);
 

@@ -169,7 +169,8 @@ HttpResponse Routes::report() const {
           {{"Content-Security-Policy",
             "sandbox allow-scripts allow-downloads allow-popups; connect-src 'none'; form-action "
             "'none'; frame-ancestors 'self'"},
-           {"X-Frame-Options", "SAMEORIGIN"}}};
+           {"X-Frame-Options", "SAMEORIGIN"},
+           {"Cross-Origin-Opener-Policy", "unsafe-none"}}};
 }
 
 std::uint64_t Routes::version() const {
