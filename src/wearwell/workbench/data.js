@@ -99,7 +99,7 @@
     place.y.replaceChildren(...options());
     place.x.selectedIndex = 0;
     place.y.selectedIndex = Math.min(1, numbers.length - 1);
-    wearwell.attempt(plot);
+    wearwell.quietly(plot);
   }
 
   async function show(next) {
@@ -164,5 +164,8 @@
   }
 
   // A page that is opened again shows what the program has open.
-  wearwell.data = {build, files, restore: async () => show(await wearwell.get('/api/table')), table: () => table, redraw: () => { if (table && !place.plotting.hidden) wearwell.attempt(plot); }};
+  // Nothing is opened where the folder has no such table.
+  const openNamed = (file, settings) => ([...place.list.options].some((each) => each.value === file) ? open(file, settings) : undefined);
+
+  wearwell.data = {build, files, openNamed, restore: async () => show(await wearwell.get('/api/table')), table: () => table, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(plot); }};
 })();

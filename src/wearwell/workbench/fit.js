@@ -54,7 +54,7 @@
     const key = `${now.result} ${now.fit.state === 'done' ? now.fit.seconds : ''}`;
     if (!now.result || key === shown || now.fit.state === 'running') return;
     shown = key;
-    wearwell.attempt(result);
+    wearwell.quietly(result);
   }
 
   function build(panel) {

@@ -31,7 +31,7 @@
     marks();
     gutter();
     clearTimeout(timer);
-    timer = setTimeout(() => wearwell.attempt(check), 250);
+    timer = setTimeout(() => wearwell.quietly(check), 250);
   }
 
   async function check() {
@@ -44,7 +44,19 @@
     place.check.replaceChildren(...(found.problem ? problem(found) : [element('p', {class: 'good'}, strings.checkGood),
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0}, found.description))]));
     form(found.keys);
+    if (table === null) openItsTable(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
+  }
+
+  // The table that an opened study names, read as the study says.
+  function openItsTable(keys) {
+    const settings = {};
+    for (const {path, value} of keys) {
+      const key = path.startsWith('data.') ? path.slice(5) : '';
+      if (key in strings.settings) settings[key] = value;
+    }
+    const file = keys.find((each) => each.path === 'data.file');
+    if (file && saved !== null) wearwell.data.openNamed(file.value, settings);
   }
 
   function problem(found) {
@@ -116,7 +128,15 @@
 
   async function guess() {
     roles();
-    const {readings} = await wearwell.post('/api/guess', {...choices, preset: undefined});
+    let readings = [];
+    try {
+      ({readings} = await wearwell.post('/api/guess', {...choices, preset: undefined}));
+    } catch (error) {
+      place.readings.hidden = true;
+      place.reasons.replaceChildren();
+      place.roles.open = true;
+      throw error;
+    }
     const first = Math.max(0, readings.findIndex((each) => each.preset === choices.preset));
     place.readings.replaceChildren(element('legend', {}, strings.readings), ...readings.map((each, i) => {
       const input = element('input', {type: 'radio', name: 'reading', value: each.preset, id: `reading-${i}`, checked: i === first});
@@ -145,7 +165,7 @@
     place.name.value = `${next.file.replace(/\.gz$/, '').replace(/\.[^.]*$/, '')}.toml`;
     saved = null;
     place.work.hidden = false;
-    wearwell.attempt(guess);
+    wearwell.quietly(guess);
   }
 
   function show(file, content) {

@@ -19,9 +19,14 @@
     part('banners').replaceChildren(shown);
   }
 
-  // Does it; a refusal is shown until the next try.
-  wearwell.attempt = async (act) => {
+  // Does what the user wants; a refusal is shown until the next wish.
+  wearwell.attempt = (act) => {
     part('banners').replaceChildren();
+    return wearwell.quietly(act);
+  };
+
+  // Does what follows from it.
+  wearwell.quietly = async (act) => {
     document.body.setAttribute('aria-busy', 'true');
     try {
       await act();
