@@ -34,10 +34,9 @@ const std::vector<std::set<std::string>> order = {
     {"selection", "prognosis", "fleet"},
     {"plan"},
     {"joint", "bearing", "clutch", "fatigue", "formula_model", "recurrence"},
-    {"models", "monitor"},
-    {"embed"},
-    {"workbench"},
-    {"cli"}};
+    {"models", "monitor", "workbench"},
+    {"cli"},
+    {"embed"}};
 
 std::size_t rank(const std::string& folder) {
   const auto at = std::find_if(order.begin(), order.end(),

@@ -9,7 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/monitor.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/embed/stoppable.h"
+#include "wearwell/base/stoppable.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/prognosis/carried_run.h"
 #include "wearwell/study/result_writer.h"
@@ -48,7 +48,7 @@ void run_fit_thread(Session& session, const std::string& study, const std::strin
   FitState state = FitState::done;
   std::string problem;
   try {
-    embed::stoppable(stop, [&] { fit_study(session, study, result, stop); });
+    stoppable(stop, [&] { fit_study(session, study, result, stop); });
   } catch (const Cancelled&) {
     state = FitState::stopped;
   } catch (const std::exception& error) {
