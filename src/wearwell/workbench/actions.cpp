@@ -168,7 +168,9 @@ Json rows_look(Session& session, const HttpTarget& target) {
 Json plot_look(Session& session, const HttpTarget& target) {
   constexpr std::size_t most = 1'000'000;
   const auto axis = [&](const char* column, const char* log) {
-    return PlotAxis{target.number(column, 0, most), target.number(log, 0, 1) == 1};
+    PlotAxis axis{{}, target.number(log, 0, 1) == 1};
+    if (target.query.contains(column)) axis.column = target.number(column, 0, most);
+    return axis;
   };
   return plot_json(*required_table(session), axis("x", "log_x"), axis("y", "log_y"));
 }

@@ -6,7 +6,7 @@
   let count = 0;
 
   function survival(answer) {
-    const points = answer.survival.filter((each) => each.life !== null).map((each) => [each.life, each.survival]);
+    const points = answer.survival.filter((each) => each.life !== null && each.survival > 0.004).map((each) => [each.life, each.survival]);
     if (points.length < 3) return null;
     return wearwell.scatter({points, line: true, x: {name: `${answer.name} [${wearwell.unit(answer.unit)}]`}, y: {name: strings.probability},
       description: `${strings.survivalTitle}: ${strings.probability}`, hint: '', read: ([a, b]) => `${wearwell.quantity(a, answer.unit, 4)}: ${wearwell.given(b)}`},

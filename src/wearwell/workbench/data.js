@@ -34,7 +34,7 @@
   function cell(value, refusal, index) {
     const number = table.columns[index].kind === 'number';
     const text = value === null ? '' : number ? wearwell.given(value) : value;
-    const made = element('td', {class: `${number ? 'number' : ''}${refusal ? ' refused' : ''}`}, text);
+    const made = element('td', {class: `${number || text.length < 25 ? 'short' : ''}${number ? ' number' : ''}${refusal ? ' refused' : ''}`}, text);
     if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${refusal}`));
     return made;
   }
@@ -76,10 +76,10 @@
   }
 
   async function plot() {
-    const x = Number(place.x.value), y = Number(place.y.value);
+    const x = place.x.value, y = Number(place.y.value);
     const log = [place.logX.checked, place.logY.checked];
-    const found = await wearwell.get('/api/plot', {x, y, log_x: Number(log[0]), log_y: Number(log[1])});
-    const names = [table.columns[x].name, table.columns[y].name];
+    const found = await wearwell.get('/api/plot', {...(x === '' ? {} : {x}), y, log_x: Number(log[0]), log_y: Number(log[1])});
+    const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
     const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
     if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
     if (found.left_out.not_positive) notes.push(strings.leftNegative(wearwell.count(found.left_out.not_positive)));
@@ -95,9 +95,9 @@
     place.plotting.hidden = numbers.length === 0;
     if (!numbers.length) return;
     const options = () => numbers.slice(0, 1000).map(([each, i]) => element('option', {value: i}, each.name));
-    place.x.replaceChildren(...options());
+    place.x.replaceChildren(...options(), element('option', {value: ''}, strings.rowNumber));
     place.y.replaceChildren(...options());
-    place.x.selectedIndex = 0;
+    place.x.selectedIndex = numbers.length > 1 ? 0 : 1;
     place.y.selectedIndex = Math.min(1, numbers.length - 1);
     wearwell.quietly(plot);
   }

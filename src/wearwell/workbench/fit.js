@@ -28,22 +28,26 @@
   }
 
   function checks(all) {
-    return element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
-        element('thead', {}, element('tr', {}, ...[strings.check, strings.verdict, strings.finding, strings.advice].map((each) => element('th', {scope: 'col'}, each)))),
+    const advised = all.some((each) => each.advice);
+    const heads = [strings.check, strings.verdict, strings.finding, ...(advised ? [strings.advice] : [])];
+    return element('div', {class: 'scroll whole', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
+        element('thead', {}, element('tr', {}, ...heads.map((each) => element('th', {scope: 'col'}, each)))),
         element('tbody', {}, ...all.map((each) => element('tr', {}, element('th', {scope: 'row'}, each.name),
-            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {}, each.detail), element('td', {}, each.advice))))));
+            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {}, each.detail), advised ? element('td', {}, each.advice) : null)))));
   }
 
   async function result() {
     const found = await wearwell.get('/api/result');
     const tiles = found.tiles.slice(0, 8).map((each) => element('div', {}, element('dt', {}, each.name), element('dd', {class: 'value'}, `${each.value} ${wearwell.unit(each.unit)}`), element('dd', {class: 'note'}, each.note)));
+    // The table of the answers; the others are folded.
+    const main = ['bounds', 'quantities', 'predictions'].map((id) => found.tables.find((each) => each.id === id)).find(Boolean);
     const frame = element('iframe', {title: strings.report, sandbox: 'allow-scripts allow-downloads allow-popups'});
     const details = element('details', {}, element('summary', {}, strings.report), frame);
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
     place.result.replaceChildren(element('h3', {}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        element('dl', {class: 'tiles'}, ...tiles), checks(found.checks),
-        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.map(table)),
+        ...found.leads.map((each) => element('p', {class: 'lead'}, each)), element('dl', {class: 'tiles'}, ...tiles), ...(main ? [table(main)] : []), checks(found.checks),
+        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(table)),
         details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)));
     wearwell.askPanel.result(found);
   }

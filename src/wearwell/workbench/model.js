@@ -72,6 +72,9 @@
     place.text.scrollTop = Math.max(0, (line - 4) * parseFloat(getComputedStyle(place.text).lineHeight));
   }
 
+  // The meanings of keys are those of the reference, whose pages are not here.
+  const plain = (text) => text.replace(/\s*\(?\[[^\]]*\]\([^)]*\)\)?/g, '').replaceAll('`', '').replace(/[:,]? see$/, '');
+
   function form(keys) {
     if (place.form.contains(document.activeElement) && document.activeElement.matches('input')) place.form.dataset.focus = document.activeElement.id;
     const groups = new Map();
@@ -81,11 +84,11 @@
       if (!groups.has(group)) groups.set(group, []);
       groups.get(group).push([key, key.path.slice(at + 1)]);
     }
-    place.form.replaceChildren(...[...groups].map(([group, inside]) => element('fieldset', {}, element('legend', {}, group || strings.editorTitle),
+    place.form.replaceChildren(...[...groups].map(([group, inside]) => element('fieldset', {}, element('legend', {}, group || strings.wholeStudy),
         ...inside.map(([key, name]) => {
           const id = `key-${key.path}`;
           const field = wearwell.field(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
-          if (key.meaning) field.append(element('small', {id: `${id}-meaning`}, key.meaning));
+          if (key.meaning) field.append(element('small', {id: `${id}-meaning`}, plain(key.meaning)));
           field.querySelector('input').addEventListener('change', (event) => wearwell.attempt(async () => {
             const before = text();
             try {

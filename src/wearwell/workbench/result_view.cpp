@@ -39,12 +39,15 @@ ordered_json table_texts(const present::Table& table) {
   return json;
 }
 
-void add_tiles(const std::vector<present::Block>& blocks, ordered_json& all) {
+// The sentences and key figures of a section.
+void add_summary(const std::vector<present::Block>& blocks, ordered_json& json) {
   for (const present::Block& block : blocks) {
+    const auto* prose = std::get_if<present::Prose>(&block.content);
+    if (prose && prose->lead) json["leads"].push_back(prose->text);
     const auto* tiles = std::get_if<present::Tiles>(&block.content);
     if (!tiles) continue;
     for (const html::Tile& each : tiles->tiles)
-      all.push_back(
+      json["tiles"].push_back(
           {{"name", each.name}, {"value", each.value}, {"unit", each.unit}, {"note", each.note}});
   }
 }
@@ -94,9 +97,10 @@ ordered_json result_json(const std::filesystem::path& folder) {
                        {"equation", header.equation},
                        {"trusted", header.trusted},
                        {"checks", to_json(header.checks)},
+                       {"leads", ordered_json::array()},
                        {"tiles", ordered_json::array()},
                        {"tables", ordered_json::array()}};
-  for (const present::Section& section : saved.sections) add_tiles(section.blocks, json["tiles"]);
+  for (const present::Section& section : saved.sections) add_summary(section.blocks, json);
   for (const present::Table* each : present::tables(saved.sections))
     json["tables"].push_back(table_texts(*each));
   std::error_code error;

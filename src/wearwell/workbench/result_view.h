@@ -9,7 +9,7 @@
 namespace wearwell::workbench {
 
 /// A result folder: {title, model, equation, trusted, checks: [{name, verdict, detail, advice}],
-/// tiles: [{name, value, unit, note}], tables: [{id, caption, columns, rows}], lives}. Numbers are
+/// leads: [sentence], tiles: [{name, value, unit, note}], tables: [{id, caption, columns, rows}], lives}. Numbers are
 /// texts as the report shows them. `lives`: whether `life_answer` has a posterior to ask. Throws
 /// InputError.
 nlohmann::ordered_json result_json(const std::filesystem::path& folder);

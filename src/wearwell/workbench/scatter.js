@@ -44,7 +44,7 @@
   wearwell.scatter = (plot, width) => {
     const height = Math.min(360, Math.max(240, Math.round(width * 0.55)));
     const box = {left: margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
-    const across = axisOf({...plot.x, values: plot.points.map((each) => each[0])}, Math.max(2, Math.floor((box.right - box.left) / 90)));
+    const across = axisOf({...plot.x, values: plot.points.map((each) => each[0])}, Math.max(3, Math.floor((box.right - box.left) / 80)));
     const up = axisOf({...plot.y, values: plot.points.map((each) => each[1])}, 5);
     const x = (value) => box.left + across.place(value) * (box.right - box.left);
     const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);

@@ -21,7 +21,7 @@ wearwell.strings = {
   empty: (n) => `${n} empty`, refused: (n) => `${n}${n === 1000 ? ' or more' : ''} refused`,
   refusedCell: 'Refused', earlier: 'Earlier rows', later: 'Later rows', rowsShown: (from, to, all) => `Rows ${from} to ${to} of ${all}`,
   goRow: 'Go to row', columnsShown: (from, to, all) => `Columns ${from} to ${to} of ${all}`, earlierColumns: 'Earlier columns', laterColumns: 'Later columns',
-  plotTitle: 'Plot', across: 'Across', up: 'Up', log: 'logarithmic',
+  plotTitle: 'Plot', rowNumber: 'number of the row', across: 'Across', up: 'Up', log: 'logarithmic',
   plotNote: (all, kept, shown) => (shown < kept ? `${shown} of ${kept} points are drawn: one for each place of the picture.` : `${kept} of ${all} rows are drawn.`),
   leftEmpty: (n) => `${n} without a number in one of the columns.`, leftNegative: (n) => `${n} not positive, which a logarithmic axis cannot show.`,
   plotHint: 'Point at the plot for the nearest row.', point: (row, x, y) => `Row ${row}: ${x}, ${y}`,
@@ -31,7 +31,7 @@ wearwell.strings = {
   readings: 'How this table can be read', equal: 'fits equally well',
   taken: 'From the headings', guesses: 'Check these guesses', unstated: 'State what no heading says',
   columnRole: 'Name a role of a column', role: 'Role', column: 'Column', noColumn: '(no column)', setRole: 'Set', chosenRoles: 'Chosen', forget: 'Forget these choices',
-  formTitle: 'Values', editorTitle: 'Study file', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,
+  formTitle: 'Values', wholeStudy: 'study', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,
   undo: 'Undo last replacement', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
   description: 'What will be fitted', checking: 'Checking',
 
@@ -44,7 +44,7 @@ wearwell.strings = {
   report: 'Report', reportTab: 'Open the report in a tab of its own', filesIn: (folder) => `Files are in ${folder}.`, noResult: 'No result yet.',
 
   askTitle: 'Ask', askLead: 'The life of a new unit, or the remaining useful life of one of the data.',
-  fields: {unit: ['Unit', 'J7; empty: a new one'], survived: ['Has survived', '1e4 cycles'], horizon: ['Does it end within', '500 cycles'],
+  fields: {unit: ['Unit', 'J7, or empty'], survived: ['Has survived', '1e4 cycles'], horizon: ['Does it end within', '500 cycles'],
            risk: ['Tolerated risk until the next inspection', '1 %'], level: ['Bound with probability', '95 %']},
   sides: 'Which bound', sideNames: {lower: 'lower', upper: 'upper', both: 'both'}, ask: 'Answer',
   noLives: 'This result has no posterior to ask. Fit a study first.', sameCommand: 'The same on the command line',

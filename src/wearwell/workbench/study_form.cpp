@@ -65,7 +65,9 @@ std::size_t end_of_value(std::string_view text, std::size_t at) {
     }
     if (each == '[' || each == '{') ++depth;
     if (each == ']' || each == '}') {
-      if (--depth <= 0) return depth == 0 ? at + 1 : at;
+      --depth;
+      if (depth == 0) return at + 1;
+      if (depth < 0) break;  // of the inline table that holds it
     }
     if (depth == 0 && (each == ',' || each == '#' || each == '\n' || each == '\r')) break;
     ++at;

@@ -157,10 +157,11 @@ ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis&
   std::size_t empty = 0, not_positive = 0;
   std::vector<std::size_t> kept;
   for (int a : {0, 1}) {
-    const Column& column = column_at(table, axes[a]->column);
+    const Column* const column = axes[a]->column ? &column_at(table, *axes[a]->column) : nullptr;
     values[a].reserve(table.rows);
     for (std::size_t row = 0; row < table.rows; ++row)
-      values[a].push_back(number_in(table, column, row, nullptr));
+      values[a].push_back(column ? number_in(table, *column, row, nullptr)
+                                 : static_cast<double>(row + 1));
   }
   double low[2] = {std::numeric_limits<double>::infinity(),
                    std::numeric_limits<double>::infinity()};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ nlohmann::ordered_json table_json(const OpenTable& open);
 nlohmann::ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t count,
                                  std::size_t from_column, std::size_t columns);
 
-/// An axis of a plot: a column by its index.
+/// An axis of a plot: a column by its index, or the number of the row.
 struct PlotAxis {
-  std::size_t column = 0;
+  std::optional<std::size_t> column = {};
   bool log = false;
 };
 
