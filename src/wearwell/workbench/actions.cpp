@@ -168,9 +168,9 @@ Json rows_look(Session& session, const HttpTarget& target) {
 Json plot_look(Session& session, const HttpTarget& target) {
   constexpr std::size_t most = 1'000'000;
   const auto axis = [&](const char* column, const char* log) {
-    PlotAxis axis{{}, target.number(log, 0, 1) == 1};
-    if (target.query.contains(column)) axis.column = target.number(column, 0, most);
-    return axis;
+    PlotAxis wanted{{}, target.number(log, 0, 1) == 1};
+    if (target.query.contains(column)) wanted.column = target.number(column, 0, most);
+    return wanted;
   };
   return plot_json(*required_table(session), axis("x", "log_x"), axis("y", "log_y"));
 }
