@@ -20,9 +20,14 @@
     place.problem.replaceChildren(...(fit.state === 'failed' ? [element('p', {class: 'wrong'}, strings.failed), element('pre', {tabindex: 0}, fit.problem)] : []));
   }
 
-  function table({id, caption, columns, rows, all}) {
+  const short = (text) => (text.length < 25 ? 'short' : '');
+
+  // Columns without a cell are left out, as in the report.
+  function table({id, caption, columns: given, rows: every, all}) {
+    const kept = given.map((_, i) => i).filter((i) => i === 0 || every.some((cells) => cells[i] !== ''));
+    const columns = kept.map((i) => given[i]), rows = every.map((cells) => kept.map((i) => cells[i]));
     const parts = [element('caption', {}, caption), element('thead', {}, element('tr', {}, ...columns.map((each) => element('th', {scope: 'col'}, each)))),
-                   element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((each, i) => element(i ? 'td' : 'th', i ? {} : {scope: 'row'}, each)))))];
+                   element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((each, i) => element(i ? 'td' : 'th', i ? {class: short(each)} : {scope: 'row'}, each)))))];
     return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption}, element('table', {id: `table-${id}`}, ...parts)),
         rows.length < all ? element('p', {class: 'note'}, strings.ofRows(rows.length, all)) : null);
   }
