@@ -20,7 +20,7 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 // Each folder may include those before it, but none of its own line.
 const std::vector<std::set<std::string>> order = {
     {"base"},
-    {"math", "netcdf"},
+    {"math", "netcdf", "http"},
     {"formula"},
     {"prob"},
     {"bayes"},
@@ -34,7 +34,7 @@ const std::vector<std::set<std::string>> order = {
     {"selection", "prognosis", "fleet"},
     {"plan"},
     {"joint", "bearing", "clutch", "fatigue", "formula_model", "recurrence"},
-    {"models", "monitor"},
+    {"models", "monitor", "workbench"},
     {"cli"},
     {"embed"}};
 

@@ -17,6 +17,7 @@
 #include "wearwell/cli/life.h"
 #include "wearwell/cli/monitor.h"
 #include "wearwell/cli/new.h"
+#include "wearwell/cli/open.h"
 #include "wearwell/cli/plan/plan_commands.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
@@ -28,12 +29,12 @@ namespace {
 // The heading of the help under which a command stands.
 void group_commands(CLI::App& app) {
   static const std::map<std::string, const char*> groups = {
-      {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
-      {"report", "A study"},    {"life", "Its result"},     {"decide", "Its result"},
-      {"update", "Its result"}, {"backtest", "Its result"}, {"compare", "Its result"},
-      {"export", "Its result"}, {"plan", "Its result"},     {"monitor", "Many units"},
-      {"fleet", "Many units"},  {"select", "Other"},        {"help", "Other"},
-      {"version", "Other"}};
+      {"open", "A study"},       {"new", "A study"},       {"check", "A study"},
+      {"fit", "A study"},        {"report", "A study"},    {"life", "Its result"},
+      {"decide", "Its result"},  {"update", "Its result"}, {"backtest", "Its result"},
+      {"compare", "Its result"}, {"export", "Its result"}, {"plan", "Its result"},
+      {"monitor", "Many units"}, {"fleet", "Many units"},  {"select", "Other"},
+      {"help", "Other"},         {"version", "Other"}};
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_group().empty()) continue;
     const auto group = groups.find(command->get_name());
@@ -49,6 +50,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
       "wearwell");
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
+  add_open_command(*app, models, exit_code);
   add_new_command(*app, models, exit_code);
   add_check_command(*app, models, exit_code);
   add_fit_command(*app, models, exit_code);

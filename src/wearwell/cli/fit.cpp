@@ -13,7 +13,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/option_rules.h"
 #include "wearwell/present/progress_line.h"
-#include "wearwell/prognosis/carry.h"
+#include "wearwell/prognosis/carried_run.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/posterior_study.h"
 #include "wearwell/study/result_writer.h"
@@ -46,8 +46,6 @@ int run_fit(const FitOptions& options, Models models) {
   const bool netcdf = !options.netcdf.empty();
   if (netcdf) static_cast<void>(require_posterior_study(*study));
   const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
-  std::optional<Source> carried;
-  if (of_posterior) carried = prognosis::carried_source(source, *of_posterior);
   if (of_posterior && !options.quiet) {
     const std::string note = method_note(*of_posterior, options.sampler);
     if (!note.empty()) fmt::print(stderr, "wearwell: {}\n", note);
@@ -55,19 +53,15 @@ int run_fit(const FitOptions& options, Models models) {
   ResultFolder folder(output);
   std::optional<StagedFile> draws;
   if (netcdf) draws.emplace(options.netcdf);
-  Result result = [&] {
+  const Result result = [&] {
     ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
     const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
                           .threads = options.threads};
-    return study->run({options.sampler, !options.no_report}, monitor);
+    return prognosis::carried_run(source, *study, {options.sampler, !options.no_report}, monitor);
   }();
   if (draws) {
     draws->write(
         netcdf::file_of(inference_data(require_posterior_study(*study), *result.posterior)));
-  }
-  if (carried) {
-    result.files.emplace_back("state.bin", prognosis::state_bytes(prognosis::state_of_result(
-                                               std::move(*carried), result)));
   }
   write_result(result, source.study.text, folder);
   if (draws) draws->commit();

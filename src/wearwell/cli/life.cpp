@@ -16,13 +16,15 @@
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/life_against.h"
-#include "wearwell/cli/life_bounds.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
+#include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/life_bounds.h"
+#include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/reweighted.h"
 #include "wearwell/prognosis/tracked_life.h"
@@ -36,6 +38,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::ordered_json;
+using prognosis::LifeReadings;
 using prognosis::UnitLife;
 
 struct LifeOptions {
@@ -45,21 +48,9 @@ struct LifeOptions {
   bool json = false;
 };
 
-// The nodes after the readings since then.
-struct Moved {
-  std::string how;  // empty without readings
-  std::size_t counted = 0, repeated = 0;
-  std::vector<prognosis::Contradiction> contradictions = {};
-};
-
-double risk_of(const std::string& text) {
-  const double risk = option_value("--risk", text, "1", Allowed::positive);
-  if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
-  return risk;
-}
-
 // Reweights the nodes; where too few carry the weight of the new posterior, rebuilds them.
-Moved take_readings(const LifeOptions& options, Models models, prognosis::CarriedState& state) {
+LifeReadings take_readings(const LifeOptions& options, Models models,
+                           prognosis::CarriedState& state) {
   const Table table = prognosis::read_new_data(state.source, options.readings);
   prognosis::JoinedData joined =
       prognosis::joined_data(state.source, {table}, prognosis::Repeated::ask);
@@ -73,7 +64,7 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
       prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
   const PosteriorStudy& study = require_posterior_study(*after);
   prognosis::judge_new_data(study, state.posterior, joined);
-  Moved done{"", joined.counted, joined.repeated, joined.contradictions};
+  LifeReadings done{"", joined.counted, joined.repeated, joined.contradictions};
   state.source = std::move(joined.source);
   if (prognosis::resolves(moved)) {
     done.how = fmt::format("nodes reweighted, effective sample size {:.0f}", moved.effective);
@@ -88,55 +79,6 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
   state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
   done.how = "nodes rebuilt";
   return done;
-}
-
-// 0.93 instead of 0.9299999999999999.
-double survival(double share) {
-  constexpr double digits = 1e12;
-  return std::round((1 - share) * digits) / digits;
-}
-
-ordered_json json_of(const UnitLife& life, const LifeBounds& bounds, const Moved& moved,
-                     bool trusted) {
-  ordered_json json = {{"of", life.of},
-                       {"name", life.name},
-                       {"at", life.at},
-                       {"unit", life.unit},
-                       {"trusted", trusted}};
-  if (life.from) json["from"] = *life.from;
-  if (life.passed) json["passed"] = *life.passed;
-  if (life.never) json["never"] = *life.never;
-  for (const auto& [key, p] : {std::pair{"q05", 0.05},
-                               {"q50", 0.5},
-                               {"q95", 0.95},
-                               {"b1", 0.01},
-                               {"b10", 0.1},
-                               {"b50", 0.5}})
-    json[key] = life.quantile(p);
-  if (life.numerical_error) json["numerical_error"] = *life.numerical_error;
-  if (bounds.asked) json.update(bounds_json(life, bounds));
-  json["risk"] = life.risk;
-  json["inspect_within"] = life.inspect_within;
-  if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
-  json["survival"] = ordered_json::array();
-  for (std::size_t i = 0; i < life.share.size(); ++i)
-    json["survival"].push_back({{"life", life.life[i]}, {"survival", survival(life.share[i])}});
-  if (moved.how.empty()) return json;
-  json["readings"] = {{"counted", moved.counted},
-                      {"repeated", moved.repeated},
-                      {"how", moved.how},
-                      {"contradictions", ordered_json::array()}};
-  for (const prognosis::Contradiction& each : moved.contradictions)
-    json["readings"]["contradictions"].push_back({{"place", each.place}, {"why", each.why}});
-  return json;
-}
-
-present::Table table_of(const UnitLife& life) {
-  present::Table table{
-      "survival", "Survival", {{life.name, life.unit, present::life()}, {"survival", "1"}}};
-  for (std::size_t i = 0; i < life.share.size(); ++i)
-    table.rows.push_back({life.life[i], survival(life.share[i])});
-  return table;
 }
 
 // The forecast of the quantity with the failure threshold, from the unit's tracker nodes at its
@@ -172,82 +114,6 @@ present::Table path_ahead(const LifeOptions& options, Models models,
   return table;
 }
 
-void print(const UnitLife& life, const LifeBounds& bounds, const Moved& moved, bool trusted) {
-  const std::string unit = printable(unit_description(life.unit, Script::terminal));
-  const int digits = digits_within(life.numerical_error.value_or(0));
-  const auto shown = [&](double value) {
-    return std::isfinite(value) ? plain_number(value, digits) : std::string("never");
-  };
-  if (!trusted)
-    fmt::print(
-        "Not trusted: a check of the fit failed; wearwell report or the summary names it.\n");
-  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
-             life.at);
-  if (life.from) {
-    const double place = std::strtod(fmt::format("{:.6g}", *life.from).c_str(), nullptr);
-    fmt::print("  counted from {} {}\n", plain_given(place), unit);
-  }
-  if (!moved.how.empty())
-    fmt::print("  with {} new reading{} ({} known already); {}\n", moved.counted,
-               moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
-  if (life.passed)
-    fmt::print("  probability of an earlier end: {}; given no earlier end:\n",
-               probability_text(*life.passed));
-  if (life.never)
-    fmt::print("  probability that it never ends: {}\n", probability_text(*life.never));
-  for (const prognosis::Contradiction& each : moved.contradictions)
-    fmt::print("  check {}: {}\n", each.place, each.why);
-  const auto with_unit = [&](double value) {
-    return std::isfinite(value) ? shown(value) + " " + unit : shown(value);
-  };
-  fmt::print("  median {}, {} to {} (90 %)\n", with_unit(life.quantile(0.5)),
-             shown(life.quantile(0.05)), with_unit(life.quantile(0.95)));
-  if (bounds.asked) fmt::print("  {}\n", bound_text(life, bounds.levels, with_unit));
-  fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
-             shown(life.quantile(0.5)));
-  if (life.numerical_error.value_or(0) > least_numerical_error)
-    fmt::print("  numerical error of these lives: {} %\n",
-               plain_number(100 * *life.numerical_error, 2));
-  if (life.horizon)
-    fmt::print("  probability of reaching the end within {} {}: {}\n", plain_given(*life.horizon),
-               unit, probability_text(*life.reached));
-  if (std::isfinite(life.inspect_within))
-    fmt::print("  inspect again within {}: {} risk of reaching the end before\n",
-               with_unit(life.inspect_within), probability_text(life.risk));
-  else
-    fmt::print("  no inspection is due: the risk of ever reaching the end is below {}\n",
-               probability_text(life.risk));
-}
-
-// The name of a part may also be that of a stress.
-void refuse_two_meanings(const prognosis::CarriedState& state, const std::string& name,
-                         const std::string& asked) {
-  if (name != asked) return;  // "part shaft"
-  const auto predict = TomlReader::parse(state.source.study).table("predict");
-  const auto stresses = predict ? predict->table("stress") : std::nullopt;
-  if (stresses && stresses->has(name))
-    throw InputError(
-        fmt::format("--unit: '{0}' is both a part of the data and a stress of [predict.stress]: "
-                    "write 'part {0}' for the part, or rename the stress",
-                    printable(name)));
-}
-
-// A named part of an S-N study is found by its name; all else by the study's lives.
-UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::CarriedState& state,
-                    const prognosis::LifeQuestion& question) {
-  const prognosis::ReadAsked read = [&](const Source& source) {
-    return read_study(source, models);
-  };
-  if (state.model == "sn" && !question.unit.empty()) {
-    const auto tracker = tracker_of(state, options.result, models);
-    if (const auto name = prognosis::tracked_name(*tracker, question.unit)) {
-      refuse_two_meanings(state, *name, question.unit);
-      return prognosis::tracked_life(*tracker, *name, question);
-    }
-  }
-  return prognosis::unit_life(state.source, read, state.posterior, question);
-}
-
 int run_against(const LifeOptions& options, Models models) {
   const std::pair<const char*, bool> others[] = {
       {"--survived", !options.survived.empty()}, {"--readings", !options.readings.empty()},
@@ -270,21 +136,23 @@ int run_life(const LifeOptions& options, Models models) {
   question.unit = printable(options.unit);  // read as tables are
   if (!options.survived.empty()) question.survived = options.survived;
   if (!options.horizon.empty()) question.horizon = options.horizon;
-  if (!options.risk.empty()) question.risk = risk_of(options.risk);
-  const LifeBounds bounds = read_life_bounds(options.level, options.sides);
+  if (!options.risk.empty()) question.risk = prognosis::tolerated_risk(options.risk);
+  const prognosis::LifeBounds bounds = prognosis::read_life_bounds(options.level, options.sides);
   if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
   prognosis::CarriedState state = read_carried(options.result);
-  Moved moved;
+  LifeReadings moved;
   if (!options.readings.empty()) moved = take_readings(options, models, state);
-  const UnitLife life = life_asked(options, models, state, question);
+  const UnitLife life = prognosis::asked_life(state, options.result.string(), models, question);
   std::string path;
   if (!options.path.empty()) path = present::csv(path_ahead(options, models, state));
-  if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
+  if (!options.output.empty())
+    write_file(options.output, present::csv(prognosis::survival_table(life)));
   if (!options.path.empty()) write_file(options.path, path);
   if (options.json) {
-    fmt::print("{}\n", printable_json(json_of(life, bounds, moved, state.trusted).dump(2)));
+    fmt::print("{}\n",
+               printable_json(prognosis::life_json(life, bounds, moved, state.trusted).dump(2)));
   } else {
-    print(life, bounds, moved, state.trusted);
+    fmt::print("{}", prognosis::life_text(life, bounds, moved, state.trusted));
     if (!options.output.empty())
       fmt::print("The survival curve is in {}\n", options.output.string());
     if (!options.path.empty()) fmt::print("The forecast is in {}\n", options.path.string());

@@ -14,8 +14,8 @@
 #include "wearwell/cli/table_question.h"
 #include "wearwell/input/workbook.h"
 #include "wearwell/present/text_table.h"
-#include "wearwell/study/column_roles.h"
 #include "wearwell/study/example.h"
+#include "wearwell/study/guessed_studies.h"
 
 namespace wearwell {
 namespace {
@@ -24,18 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* selection = "select";  // not a study, but a command
 
-// One way to read the table.
-struct Candidate {
-  std::string preset;
-  Scaffold study;
-};
-
 std::string settings_text(const NewOptions& options) {
-  std::string text;
-  for (const auto& [key, value] : options.table)
-    text += fmt::format("{} = {}\n", key, key == "header_row" ? value : toml_text(value));
-  if (options.wide) text += fmt::format("sql = {}\n", toml_text(options.wide->sql));
-  return text;
+  return data_lines(options.table, options.wide);
 }
 
 // The given command with these further options.
@@ -128,43 +118,14 @@ TableChoices choices_of(const NewOptions& options, const Table& table) {
   choices.settings = settings_text(options);
   if (!options.limit.empty() && !std::isdigit(static_cast<unsigned char>(options.limit.front())))
     throw InputError(fmt::format("--limit: '{}' is not a quantity like '100 um'", options.limit));
-  for (const std::string& each : options.columns) {
-    const std::size_t at = each.find('=');
-    if (at == each.npos)
-      throw InputError(
-          fmt::format("--column: '{}' is not ROLE=HEADING, like depth='wear [um]'", each));
-    const std::string role = each.substr(0, at), heading = each.substr(at + 1);
-    try {
-      if (!heading.empty()) static_cast<void>(table.column(heading));
-      if (role == "unused") {
-        choices.unused.push_back(heading);
-        continue;
-      }
-      static_cast<void>(role_form(role));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("--column {}: {}", each, error.what()));
-    }
-    choices.columns[role] = heading;
-  }
+  for (const std::string& each : options.columns) choose_column(table, each, choices);
   return choices;
 }
 
-std::vector<Candidate> candidates(const NewOptions& options, Models models, const Table& table,
-                                  const TableChoices& choices) {
-  std::vector<Candidate> found;
-  const auto add = [&](std::string_view preset, std::optional<Scaffold> (*first)(ColumnRoles&)) {
-    if (!first || (!options.preset.empty() && preset != options.preset)) return;
-    ColumnRoles roles(table, options.from.filename().string(), choices, !options.preset.empty());
-    auto study = first(roles);
-    if (study && study->fit != ReadingFit::none)
-      found.push_back({std::string(preset), std::move(*study)});
-  };
-  for (const Model& model : models) add(model.preset, model.scaffold);
-  add(selection, first_selection);
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.study.fit > b.study.fit;
-  });
-  return found;
+std::vector<GuessedStudy> candidates(const NewOptions& options, Models models, const Table& table,
+                                     const TableChoices& choices) {
+  return guessed_studies(models, table, options.from.filename().string(), choices, options.preset,
+                         {{selection, first_selection}});
 }
 
 [[noreturn]] void refuse_all(const NewOptions& options, const Table& table) {
@@ -195,24 +156,17 @@ void require_used(const NewOptions& options, const Scaffold& study) {
     refuse("--failure", "column of codes for how a life ended");
 }
 
-std::string description(const WideTable& wide) {
-  return fmt::format("columns {} are units with one column each: `sql` stacks their readings",
-                     fmt::join(wide.units, ", "));
-}
-
 // The best reading; empty where the user was asked and the answer is in `options`.
-std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
-                                             const Table& table) {
+std::optional<std::vector<GuessedStudy>> chosen(NewOptions& options, Models models,
+                                                const Table& table) {
   const TableChoices choices = choices_of(options, table);
-  std::vector<Candidate> found = candidates(options, models, table, choices);
+  std::vector<GuessedStudy> found = candidates(options, models, table, choices);
   if (found.empty()) refuse_all(options, table);
-  const auto best = std::count_if(found.begin(), found.end(), [&](const Candidate& each) {
-    return each.study.fit == found.front().study.fit;
-  });
+  const std::size_t best = equally_good(found);
   if (best > 1) {
     TableQuestion question{
         fmt::format("{} can be read in several ways.", options.from.filename().string()), {}};
-    for (const Candidate& each : found) {
+    for (const GuessedStudy& each : found) {
       question.readings.push_back(
           {fmt::format("{}: {}", each.preset, each.study.reading), {"PRESET", each.preset}});
     }
@@ -225,8 +179,8 @@ std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
   }
   require_used(options, found.front().study);
   if (options.wide) {
-    for (Candidate& each : found)
-      each.study.guesses.insert(each.study.guesses.begin(), description(*options.wide));
+    for (GuessedStudy& each : found)
+      each.study.guesses.insert(each.study.guesses.begin(), wide_description(*options.wide));
   }
   return found;
 }
@@ -238,7 +192,7 @@ std::string listed(const char* title, const std::vector<std::string>& lines) {
   return text;
 }
 
-std::string description(const NewOptions& options, const std::vector<Candidate>& found) {
+std::string description(const NewOptions& options, const std::vector<GuessedStudy>& found) {
   const Scaffold& first = found.front().study;
   std::vector<std::string> others;
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -267,7 +221,7 @@ int run(NewOptions options, Models models) {
         fmt::format("--from: a study of a {} cannot be guessed from one table; start from the "
                     "example: wearwell new {} DIR",
                     options.preset, options.preset));
-  std::optional<std::vector<Candidate>> found;
+  std::optional<std::vector<GuessedStudy>> found;
   while (!found) {
     const auto table = read_from(options);
     if (table) found = chosen(options, models, *table);

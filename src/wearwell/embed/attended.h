@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "wearwell/base/monitor.h"
-#include "wearwell/embed/stoppable.h"
+#include "wearwell/base/stoppable.h"
 
 namespace wearwell::embed {
 

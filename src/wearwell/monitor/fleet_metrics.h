@@ -1,19 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "wearwell/http/handler.h"
 #include "wearwell/monitor/fleet_view.h"
 
 namespace wearwell::monitor {
-
-/// The server's statistics of itself.
-struct HttpCounts {
-  std::uint64_t connections = 0, streams = 0;      ///< open now
-  std::map<unsigned, std::uint64_t> answers = {};  ///< so far, by status
-};
 
 /// Text in the Prometheus format, with `units` as separate samples (text format 0.0.4; names and
 /// units: docs/reference/monitor-api.md).

@@ -1,15 +1,8 @@
 #pragma once
 
-#include <string>
+#include "wearwell/http/served_page.h"
 
 namespace wearwell::monitor {
-
-/// A self-contained page; it requests nothing except from its own server.
-struct ServedPage {
-  std::string html;
-  std::string policy;  ///< its Content-Security-Policy
-  std::string tag;     ///< its ETag
-};
 
 /// The fleet and its units. `token`: whether the viewer has signed in, and may sign out.
 ServedPage fleet_page(bool token);

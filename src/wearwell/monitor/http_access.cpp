@@ -2,9 +2,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-#include <openssl/hmac.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/http/secret.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -37,45 +35,7 @@ bool is_address(const std::string& name) {
          inet_pton(AF_INET6, name.c_str(), bytes.data()) == 1;
 }
 
-std::array<unsigned char, 32> hmac(std::string_view key, std::string_view text) {
-  std::array<unsigned char, 32> digest;
-  unsigned length = digest.size();
-  HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()),
-       reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(), &length);
-  return digest;
-}
-
-/// The value of a cookie of `Cookie: a=1; b=2`.
-std::string_view cookie_value(std::string_view field, std::string_view name) {
-  while (!field.empty()) {
-    const std::size_t end = std::min(field.find(';'), field.size());
-    std::string_view each = field.substr(0, end);
-    field.remove_prefix(std::min(end + 1, field.size()));
-    while (each.starts_with(' ')) each.remove_prefix(1);
-    if (each.size() > name.size() && each.starts_with(name) && each[name.size()] == '=') {
-      return each.substr(name.size() + 1);
-    }
-  }
-  return {};
-}
-
 }  // namespace
-
-HttpResponse refusal(unsigned status, const std::string& problem) {
-  // Quoted as JSON by hand: after `printable` only quotes and backslashes need escapes.
-  std::string text;
-  for (const char each : printable(problem)) {
-    if (each == '"' || each == '\\') text += '\\';
-    text += each;
-  }
-  return {status, "application/json", fmt::format("{{\"error\":\"{}\"}}\n", text)};
-}
-
-// Hashes have equal length and reveal nothing about the text, not even its length.
-bool equal_in_constant_time(std::string_view a, std::string_view b) {
-  const auto of_a = hmac("wearwell", a), of_b = hmac("wearwell", b);
-  return CRYPTO_memcmp(of_a.data(), of_b.data(), of_a.size()) == 0;
-}
 
 void check_token(const std::string& token) {
   constexpr std::size_t least = 16;

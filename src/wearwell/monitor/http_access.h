@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wearwell/monitor/http_message.h"
-#include "wearwell/monitor/http_settings.h"
+#include "wearwell/http/message.h"
+#include "wearwell/http/settings.h"
 
 namespace wearwell::monitor {
 
@@ -45,9 +45,6 @@ class HttpAccess {
   std::function<bool(const std::string&)> covered_;
   bool secure_;
 };
-
-/// Compares texts in a time that does not depend on where they differ.
-bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 /// Throws InputError for a token that could be guessed or that no header can carry: fewer than 16
 /// characters, or characters other than visible ASCII.

@@ -119,16 +119,16 @@ HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbo
       wrong_(login_page(true)),
       started_ms_(reader.fleet().started_ms) {}
 
-bool HttpRoutes::is_events(const HttpRequest& question) {
+bool HttpRoutes::is_events(const HttpRequest& question) const {
   return question.method == "GET" && path_of(question) == "/api/events";
 }
 
-bool HttpRoutes::is_supervision(const HttpRequest& question) {
+bool HttpRoutes::is_supervision(const HttpRequest& question) const {
   const std::string_view path = path_of(question);
   return path == "/health" || path == "/metrics";
 }
 
-bool HttpRoutes::is_delivery(const HttpRequest& question) {
+bool HttpRoutes::is_delivery(const HttpRequest& question) const {
   return path_of(question) == "/api/readings" || is_events_of_unit(path_of(question));
 }
 

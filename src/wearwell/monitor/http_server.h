@@ -3,15 +3,13 @@
 #include <memory>
 #include <string>
 
+#include "wearwell/http/settings.h"
 #include "wearwell/monitor/fleet_view.h"
-#include "wearwell/monitor/http_settings.h"
 
 namespace wearwell::monitor {
 
-/// The page, the JSON API, events and metrics of a fleet (docs/reference/monitor-api.md), on its
-/// own threads: one that moves bytes and never waits, two that query the reader, two that pass
-/// messages to the inbox. A slow client does not affect others: a stream of events holds one event,
-/// and the next contains all changes since.
+/// The page, the JSON API, events and metrics of a fleet (docs/reference/monitor-api.md), served by
+/// an HttpListener: two of its threads query the reader, two pass messages to the inbox.
 class HttpServer {
  public:
   /// Listening when it returns. `readings`, `events`: null if these are not accepted by HTTP. All

@@ -7,7 +7,7 @@
 
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/monitor/alarm.h"
-#include "wearwell/monitor/http_settings.h"
+#include "wearwell/http/settings.h"
 #include "wearwell/monitor/reading_mapping.h"
 #include "wearwell/monitor/topic_pattern.h"
 #include "wearwell/prognosis/tracker.h"

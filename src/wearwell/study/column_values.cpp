@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
+#include <unordered_set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
@@ -11,11 +13,17 @@ namespace wearwell {
 
 std::vector<double> numbers_of(const Table& table, const Column& column) {
   std::vector<double> numbers;
+  numbers.reserve(table.rows);
+  // A refusal takes a thousand times as long as a number: that of each word is remembered.
+  std::unordered_set<std::string_view> words;
   for (std::size_t i = 0; i < table.rows; ++i) {
     double value = NAN;
-    try {
-      value = cell_number(table, column, i);
-    } catch (const InputError&) {  // a word
+    if (column.is_number || !words.contains(column.text[i])) {
+      try {
+        value = cell_number(table, column, i);
+      } catch (const InputError&) {
+        words.insert(column.text[i]);
+      }
     }
     numbers.push_back(value);
   }

@@ -1,4 +1,4 @@
-#include "wearwell/cli/life_bounds.h"
+#include "wearwell/prognosis/life_bounds.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/input/option_value.h"
 
-namespace wearwell {
+namespace wearwell::prognosis {
 
 LifeBounds read_life_bounds(const std::string& level, const std::string& sides) {
   LifeBounds bounds{!level.empty() || !sides.empty(), {}};
@@ -25,7 +25,7 @@ LifeBounds read_life_bounds(const std::string& level, const std::string& sides) 
   return bounds;
 }
 
-std::string bound_text(const prognosis::UnitLife& life, const LifeLevels& levels,
+std::string bound_text(const UnitLife& life, const LifeLevels& levels,
                        const std::function<std::string(double)>& shown) {
   const std::string lower = shown(life.quantile(levels.below())),
                     upper = shown(life.quantile(1 - levels.below()));
@@ -35,11 +35,11 @@ std::string bound_text(const prognosis::UnitLife& life, const LifeLevels& levels
   return fmt::format("{} with probability {:.6g} %", value, 100 * levels.credible_level);
 }
 
-nlohmann::ordered_json bounds_json(const prognosis::UnitLife& life, const LifeBounds& bounds) {
+nlohmann::ordered_json bounds_json(const UnitLife& life, const LifeBounds& bounds) {
   nlohmann::ordered_json json = {{"level", bounds.levels.credible_level}};
   if (has_lower(bounds.levels.sides)) json["lower"] = life.quantile(bounds.levels.below());
   if (has_upper(bounds.levels.sides)) json["upper"] = life.quantile(1 - bounds.levels.below());
   return json;
 }
 
-}  // namespace wearwell
+}  // namespace wearwell::prognosis

@@ -12,10 +12,10 @@
 #include <set>
 #include <string>
 
-#include "wearwell/monitor/http_routes.h"
-#include "wearwell/monitor/http_settings.h"
+#include "wearwell/http/handler.h"
+#include "wearwell/http/settings.h"
 
-namespace wearwell::monitor {
+namespace wearwell {
 
 /// One client. All of it runs on the thread of the server's `io`.
 class HttpConnection {
@@ -35,10 +35,9 @@ class HttpConnection {
 
 /// The parts that connections share.
 struct HttpHub {
-  HttpHub(const HttpRoutes& all_routes, const HttpLimits& all_limits)
-      : routes(all_routes), limits(all_limits) {}
+  HttpHub(const HttpHandler& of, const HttpLimits& all_limits) : handler(of), limits(all_limits) {}
 
-  const HttpRoutes& routes;
+  const HttpHandler& handler;
   const HttpLimits limits;
   std::unique_ptr<boost::asio::ssl::context> tls;  ///< null: plain HTTP
   // Only for the thread of `io`; connections remove themselves when they end.
@@ -55,4 +54,4 @@ struct HttpHub {
 std::shared_ptr<HttpConnection> make_connection(boost::asio::ip::tcp::socket socket,
                                                 const std::string& client, HttpHub* hub);
 
-}  // namespace wearwell::monitor
+}  // namespace wearwell

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace wearwell::monitor {
+namespace wearwell {
 
 /// "/api/units?search=J%207&count=20", parsed.
 struct HttpTarget {
@@ -26,4 +26,4 @@ std::string percent_decoded(std::string_view text, bool form = false);
 /// "a=1&b=2", decoded.
 std::map<std::string, std::string> form_fields(std::string_view text);
 
-}  // namespace wearwell::monitor
+}  // namespace wearwell

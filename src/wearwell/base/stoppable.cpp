@@ -1,4 +1,4 @@
-#include "wearwell/embed/stoppable.h"
+#include "wearwell/base/stoppable.h"
 
 #include <tbb/task_arena.h>
 #include <tbb/task_scheduler_observer.h>
@@ -8,7 +8,7 @@
 
 #include "wearwell/base/stop_scope.h"
 
-namespace wearwell::embed {
+namespace wearwell {
 namespace {
 
 // Hands the signal to each thread of the pool that joins the work of this thread.
@@ -43,4 +43,4 @@ void stoppable(std::stop_token stop, const std::function<void()>& work) {
   work();
 }
 
-}  // namespace wearwell::embed
+}  // namespace wearwell

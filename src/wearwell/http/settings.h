@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace wearwell::monitor {
+namespace wearwell {
 
 /// Limits for one client, and for all together. Requests beyond them are answered with 413, 431 or
 /// 503, or cut off.
@@ -41,4 +41,4 @@ struct HttpSettings {
   HttpLimits limits = {};
 };
 
-}  // namespace wearwell::monitor
+}  // namespace wearwell

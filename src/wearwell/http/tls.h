@@ -3,11 +3,12 @@
 #include <openssl/ssl.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "wearwell/monitor/http_settings.h"
+#include "wearwell/http/settings.h"
 
-namespace wearwell::monitor {
+namespace wearwell {
 
 /// TLS 1.2 and 1.3 with the certificate and key of the settings.
 class HttpTls {
@@ -24,4 +25,8 @@ class HttpTls {
   std::shared_ptr<SSL_CTX> context_;
 };
 
-}  // namespace wearwell::monitor
+/// With the certificate and key of the settings; empty without. Throws InputError if one of the two
+/// is missing, and like HttpTls.
+std::optional<HttpTls> tls_of(const HttpSettings& settings);
+
+}  // namespace wearwell

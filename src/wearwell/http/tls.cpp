@@ -1,4 +1,4 @@
-#include "wearwell/monitor/http_tls.h"
+#include "wearwell/http/tls.h"
 
 #include <fmt/format.h>
 #include <openssl/err.h>
@@ -7,7 +7,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 
-namespace wearwell::monitor {
+namespace wearwell {
 namespace {
 
 // The last entry of OpenSSL's queue is the most specific.
@@ -46,4 +46,12 @@ bool HttpTls::covers(const std::string& name) const {
   return X509_check_host(certificate, name.data(), name.size(), 0, nullptr) == 1;
 }
 
-}  // namespace wearwell::monitor
+std::optional<HttpTls> tls_of(const HttpSettings& settings) {
+  if (settings.certificate.empty() != settings.key.empty()) {
+    throw InputError("certificate and key: TLS needs both; one is missing");
+  }
+  if (settings.certificate.empty()) return {};
+  return HttpTls(settings.certificate, settings.key);
+}
+
+}  // namespace wearwell

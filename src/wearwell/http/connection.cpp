@@ -1,4 +1,4 @@
-#include "wearwell/monitor/http_connection.h"
+#include "wearwell/http/connection.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 
 #include "wearwell/base/printable.h"
 
-namespace wearwell::monitor {
+namespace wearwell {
 namespace {
 
 namespace beast = boost::beast;
@@ -163,9 +163,9 @@ class Connection final : public HttpConnection,
     idle_ = false;
     const auto& request = parser_->get();
     question_ = question_of(request);
-    if (is_reserve() && !HttpRoutes::is_supervision(question_)) return respond(no_room());
-    if (auto refused = hub_.routes.refuse(question_)) return respond(std::move(*refused));
-    if (HttpRoutes::is_events(question_)) return listen();
+    if (is_reserve() && !hub_.handler.is_supervision(question_)) return respond(no_room());
+    if (auto refused = hub_.handler.refuse(question_)) return respond(std::move(*refused));
+    if (hub_.handler.is_events(question_)) return listen();
     if (is_large()) {
       if (hub_.large_bodies >= hub_.limits.large_bodies) {
         HttpResponse answer = refusal(503, "too many large requests at once");
@@ -203,10 +203,10 @@ class Connection final : public HttpConnection,
 
   // On a thread that may wait; the answer returns to this one.
   void ask() {
-    auto& pool = HttpRoutes::is_delivery(question_) ? hub_.deliveries : hub_.readers;
+    auto& pool = hub_.handler.is_delivery(question_) ? hub_.deliveries : hub_.readers;
     HttpCounts counts{hub_.connections.size(), hub_.streams.size(), hub_.answers};
     net::post(pool, [self = self(), counts = std::move(counts)]() mutable {
-      HttpResponse answer = self->hub_.routes.answer(self->question_, counts);
+      HttpResponse answer = self->hub_.handler.answer(self->question_, counts);
       auto& io = self->hub_.io;
       net::post(io, [self = std::move(self), answer = std::move(answer)]() mutable {
         self->respond(std::move(answer));
@@ -273,7 +273,7 @@ class Connection final : public HttpConnection,
     }
     ++hub_.answers[200];
     hub_.streams.insert(this);
-    version_ = hub_.routes.version_of(question_.last_event_id);
+    version_ = hub_.handler.version_of(question_.last_event_id);
     http::response<http::empty_body> head(http::status::ok, 11);
     set_common_fields(&head, is_tls);
     head.set(http::field::content_type, "text/event-stream; charset=utf-8");
@@ -315,4 +315,4 @@ std::shared_ptr<HttpConnection> make_connection(net::ip::tcp::socket socket,
   return std::make_shared<Connection<TlsStream>>(hub, client, std::move(socket), *hub->tls);
 }
 
-}  // namespace wearwell::monitor
+}  // namespace wearwell

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace wearwell::monitor {
+namespace wearwell {
 
 /// The parts of a request that answers depend on. Missing fields are "".
 struct HttpRequest {
@@ -24,4 +24,4 @@ struct HttpResponse {
 /// {"error": "..."}: the error, in one sentence.
 HttpResponse refusal(unsigned status, const std::string& problem);
 
-}  // namespace wearwell::monitor
+}  // namespace wearwell

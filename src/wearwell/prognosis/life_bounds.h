@@ -7,7 +7,7 @@
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/study/life_levels.h"
 
-namespace wearwell {
+namespace wearwell::prognosis {
 
 /// Bounds of the life of one unit that `wearwell life` is asked for, beside its 90 % interval.
 struct LifeBounds {
@@ -19,10 +19,10 @@ struct LifeBounds {
 LifeBounds read_life_bounds(const std::string& level, const std::string& sides);
 
 /// "at least 530 h with probability 95 %"; `shown` writes a life.
-std::string bound_text(const prognosis::UnitLife& life, const LifeLevels& levels,
+std::string bound_text(const UnitLife& life, const LifeLevels& levels,
                        const std::function<std::string(double)>& shown);
 
 /// level, lower, upper; the bounds that were asked for.
-nlohmann::ordered_json bounds_json(const prognosis::UnitLife& life, const LifeBounds& bounds);
+nlohmann::ordered_json bounds_json(const UnitLife& life, const LifeBounds& bounds);
 
-}  // namespace wearwell
+}  // namespace wearwell::prognosis

@@ -1,0 +1,51 @@
+#include "wearwell/prognosis/asked_life.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/prognosis/result_lives.h"
+#include "wearwell/prognosis/tracked_life.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+// The name of a part may also be that of a stress.
+void refuse_two_meanings(const CarriedState& state, const std::string& name,
+                         const std::string& asked) {
+  if (name != asked) return;  // "part shaft"
+  const auto predict = TomlReader::parse(state.source.study).table("predict");
+  const auto stresses = predict ? predict->table("stress") : std::nullopt;
+  if (stresses && stresses->has(name))
+    throw InputError(
+        fmt::format("--unit: '{0}' is both a part of the data and a stress of [predict.stress]: "
+                    "write 'part {0}' for the part, or rename the stress",
+                    printable(name)));
+}
+
+}  // namespace
+
+double tolerated_risk(const std::string& text) {
+  const double risk = option_value("--risk", text, "1", Allowed::positive);
+  if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
+  return risk;
+}
+
+UnitLife asked_life(const CarriedState& state, const std::string& result, Models models,
+                    const LifeQuestion& question) {
+  const ReadAsked read = [&](const Source& source) { return read_study(source, models); };
+  if (state.model == "sn" && !question.unit.empty()) {
+    const auto tracker = required_tracker(state, models, result);
+    if (const auto name = tracked_name(*tracker, question.unit)) {
+      refuse_two_meanings(state, *name, question.unit);
+      return tracked_life(*tracker, *name, question);
+    }
+  }
+  return unit_life(state.source, read, state.posterior, question);
+}
+
+}  // namespace wearwell::prognosis

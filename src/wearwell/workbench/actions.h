@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "wearwell/base/error.h"
+#include "wearwell/http/target.h"
+#include "wearwell/workbench/session.h"
+
+namespace wearwell::workbench {
+
+/// What the page can ask for and do: functions on a session, by path. Each returns JSON and throws
+/// InputError.
+using Json = nlohmann::ordered_json;
+
+/// {folder, files, table, study, result, fit}: what is open. `table`: its file.
+Json session_json(Session& session);
+
+/// The answer to a GET; null if there is no such path.
+using Look = Json (*)(Session& session, const HttpTarget& target);
+Look look_of(std::string_view path);
+
+/// The answer to a POST of JSON; null if there is no such path.
+using Action = Json (*)(Session& session, const nlohmann::json& wish);
+Action action_of(std::string_view path);
+
+/// Writes `bytes` as a new file `name` of the folder, and opens it. A file with other content stays, and
+/// is an error.
+Json upload(Session& session, const std::string& name, const std::string& bytes);
+
+/// Opens a table, a study or a result of the folder.
+Json open_file(Session& session, const nlohmann::json& wish);
+
+/// A file has changed since the page read it.
+struct Conflict : InputError {
+  using InputError::InputError;
+};
+
+}  // namespace wearwell::workbench

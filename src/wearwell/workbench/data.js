@@ -1,0 +1,171 @@
+'use strict';
+// The step Data: choose a table, look at it as it was read, plot its columns.
+(() => {
+  const {element, strings} = wearwell;
+  const atOnce = 50, columnsAtOnce = 20;
+  let table = null, from = 0, fromColumn = 0;
+  const place = {};
+
+  async function opened(answer) {
+    if (answer.kind === 'sheets') return sheets(answer);
+    if (answer.kind === 'table') await show(answer.table);
+    if (answer.kind === 'study') { wearwell.model.show(answer.study.file, answer.study.text); wearwell.step('model'); }
+    if (answer.kind === 'result') wearwell.step('fit');
+    return undefined;
+  }
+
+  const open = (file, settings = {}) => wearwell.attempt(async () => opened(await wearwell.post('/api/open', {file, settings})));
+  const upload = (file) => wearwell.attempt(async () => opened(await wearwell.upload(file)));
+
+  function sheets({file, sheets: names}) {
+    place.sheets.replaceChildren(element('fieldset', {class: 'choices'}, element('legend', {}, strings.sheetTitle(file)),
+        ...names.map((name) => wearwell.button(name, () => open(file, {sheet: name}), 'plain'))));
+    place.sheets.querySelector('button')?.focus();
+  }
+
+  function head(column, index) {
+    const notes = [strings.kinds[column.kind], wearwell.unit(column.unit) || (column.kind === 'number' ? strings.noUnit : '')];
+    if (column.empty) notes.push(strings.empty(column.empty));
+    return element('th', {scope: 'col', 'data-column': index}, element('span', {}, column.name), element('small', {}, notes.filter(Boolean).join(', ')),
+        column.refused ? element('small', {class: 'bad'}, strings.refused(column.refused)) : null,
+        column.doubt ? element('small', {class: 'bad'}, column.doubt) : null);
+  }
+
+  function cell(value, refusal, index) {
+    const number = table.columns[index].kind === 'number';
+    const text = value === null ? '' : number ? wearwell.given(value) : value;
+    const made = element('td', {class: `${number || text.length < 25 ? 'short' : ''}${number ? ' number' : ''}${refusal ? ' refused' : ''}`}, text);
+    if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${refusal}`));
+    return made;
+  }
+
+  async function rows() {
+    const asked = table, columns = asked.columns.slice(fromColumn, fromColumn + columnsAtOnce);
+    const {rows: found} = await wearwell.get('/api/rows', {from, count: atOnce, from_column: fromColumn, columns: columnsAtOnce});
+    if (asked !== table) return;
+    place.grid.replaceChildren(
+        element('caption', {}, strings.tableCaption(table.file, wearwell.count(table.rows), wearwell.count(table.columns.length))),
+        element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, strings.row), ...columns.map((each, i) => head(each, fromColumn + i)))),
+        element('tbody', {}, ...found.map((each) => element('tr', {}, element('th', {scope: 'row'}, wearwell.count(each.row)),
+            ...each.cells.map((value, i) => cell(value, each.refused?.[fromColumn + i], fromColumn + i))))));
+    place.rowsShown.textContent = strings.rowsShown(wearwell.count(from + 1), wearwell.count(from + found.length), wearwell.count(table.rows));
+    place.earlier.disabled = from === 0;
+    place.later.disabled = from + atOnce >= table.rows;
+    place.columnPager.hidden = table.columns.length <= columnsAtOnce;
+    place.columnsShown.textContent = strings.columnsShown(fromColumn + 1, fromColumn + columns.length, table.columns.length);
+    place.earlierColumns.disabled = fromColumn === 0;
+    place.laterColumns.disabled = fromColumn + columnsAtOnce >= table.columns.length;
+  }
+
+  const move = (rowsBy, columnsBy) => wearwell.attempt(() => {
+    from = Math.min(Math.max(0, from + rowsBy), Math.max(0, table.rows - 1));
+    fromColumn = Math.min(Math.max(0, fromColumn + columnsBy), table.columns.length - 1);
+    return rows();
+  });
+
+  function settings() {
+    const inputs = Object.entries(strings.settings).map(([key, label]) => [key, wearwell.field(label, `setting-${key}`, {value: table.settings[key] ?? ''})]);
+    place.settings.replaceChildren(element('summary', {}, strings.stored), element('p', {}, table.layout),
+        element('form', {class: 'fields'}, ...inputs.map(([, field]) => field), element('button', {}, strings.apply)));
+    place.settings.querySelector('form').addEventListener('submit', (event) => {
+      event.preventDefault();
+      const wanted = {};
+      for (const [key, field] of inputs) { const {value} = field.querySelector('input'); if (value) wanted[key] = value; }
+      wearwell.attempt(async () => opened(await wearwell.post('/api/table', {settings: wanted})));
+    });
+  }
+
+  async function plot() {
+    const x = place.x.value, y = Number(place.y.value);
+    const log = [place.logX.checked, place.logY.checked];
+    const found = await wearwell.get('/api/plot', {...(x === '' ? {} : {x}), y, log_x: Number(log[0]), log_y: Number(log[1])});
+    const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
+    const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
+    if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
+    if (found.left_out.not_positive) notes.push(strings.leftNegative(wearwell.count(found.left_out.not_positive)));
+    place.plot.replaceChildren(wearwell.scatter({
+      points: found.points, x: {name: names[0], log: log[0]}, y: {name: names[1], log: log[1]},
+      description: strings.plotDescription(names[1], names[0]), hint: strings.plotHint,
+      read: ([a, b, row]) => strings.point(wearwell.count(row), wearwell.given(a), wearwell.given(b)),
+    }, Math.min(760, Math.max(280, place.plot.clientWidth || 600))), element('p', {class: 'note'}, notes.join(' ')));
+  }
+
+  function plotChoices() {
+    const numbers = table.columns.map((each, i) => [each, i]).filter(([each]) => each.kind === 'number' || each.refused !== undefined);
+    place.plotting.hidden = numbers.length === 0;
+    if (!numbers.length) return;
+    const options = () => numbers.slice(0, 1000).map(([each, i]) => element('option', {value: i}, each.name));
+    place.x.replaceChildren(...options(), element('option', {value: ''}, strings.rowNumber));
+    place.y.replaceChildren(...options());
+    place.x.selectedIndex = numbers.length > 1 ? 0 : 1;
+    place.y.selectedIndex = Math.min(1, numbers.length - 1);
+    wearwell.quietly(plot);
+  }
+
+  async function show(next) {
+    table = next;
+    [from, fromColumn] = [0, 0];
+    place.sheets.replaceChildren();
+    place.table.hidden = false;
+    settings();
+    await rows();
+    plotChoices();
+    wearwell.model.tableOpened(table);
+  }
+
+  function build(panel) {
+    place.file = element('input', {type: 'file', id: 'choose', accept: '.csv,.tsv,.txt,.dat,.asc,.json,.ndjson,.jsonl,.gz,.parquet,.xlsx'});
+    place.file.addEventListener('change', () => { if (place.file.files.length) upload(place.file.files[0]); });
+    place.list = element('select', {id: 'in-folder'});
+    place.openButton = wearwell.button(strings.open, () => open(place.list.value));
+    const drop = element('div', {class: 'drop'}, element('label', {for: 'choose'}, strings.chooseFile), place.file, element('p', {}, strings.dropHere));
+    drop.addEventListener('dragover', (event) => { event.preventDefault(); drop.classList.add('over'); });
+    drop.addEventListener('dragleave', () => drop.classList.remove('over'));
+    drop.addEventListener('drop', (event) => {
+      event.preventDefault();
+      drop.classList.remove('over');
+      if (event.dataTransfer.files.length) upload(event.dataTransfer.files[0]);
+    });
+    place.sheets = element('div', {});
+    place.grid = element('table', {});
+    place.settings = element('details', {});
+    place.rowsShown = element('p', {role: 'status'});
+    place.earlier = wearwell.button(strings.earlier, () => move(-atOnce, 0), 'plain');
+    place.later = wearwell.button(strings.later, () => move(atOnce, 0), 'plain');
+    const go = wearwell.field(strings.goRow, 'go-row', {type: 'number', min: 1});
+    go.querySelector('input').addEventListener('change', (event) => move(Number(event.target.value || 1) - 1 - from, 0));
+    place.columnsShown = element('p', {role: 'status'});
+    place.earlierColumns = wearwell.button(strings.earlierColumns, () => move(0, -columnsAtOnce), 'plain');
+    place.laterColumns = wearwell.button(strings.laterColumns, () => move(0, columnsAtOnce), 'plain');
+    place.columnPager = element('div', {class: 'pager'}, place.earlierColumns, place.columnsShown, place.laterColumns);
+    place.x = element('select', {id: 'plot-x'});
+    place.y = element('select', {id: 'plot-y'});
+    place.logX = element('input', {type: 'checkbox', id: 'log-x'});
+    place.logY = element('input', {type: 'checkbox', id: 'log-y'});
+    for (const each of [place.x, place.y, place.logX, place.logY]) each.addEventListener('change', () => wearwell.attempt(plot));
+    const axis = (label, select, log) => element('div', {class: 'field'}, element('label', {for: select.id}, label), select,
+        element('label', {class: 'tick', for: log.id}, log, strings.log));
+    place.plot = element('div', {class: 'picture'});
+    place.plotting = element('div', {hidden: true}, element('h3', {}, strings.plotTitle), element('div', {class: 'fields'}, axis(strings.up, place.y, place.logY), axis(strings.across, place.x, place.logX)), place.plot);
+    place.table = element('div', {hidden: true}, place.settings, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
+        element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
+    panel.append(element('h2', {}, strings.dataTitle),
+        element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
+            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.table);
+  }
+
+  function files(all) {
+    const chosen = place.list.value;
+    const groups = ['tables', 'studies', 'results'].filter((kind) => all[kind].length).map((kind) =>
+        element('optgroup', {label: strings[kind]}, ...all[kind].map((name) => element('option', {value: name}, name))));
+    place.list.replaceChildren(...(groups.length ? groups : [element('option', {value: ''}, strings.nothingHere)]));
+    place.openButton.disabled = !groups.length;
+    if ([...place.list.options].some((each) => each.value === chosen)) place.list.value = chosen;
+  }
+
+  // A page that is opened again shows what the program has open.
+  // Nothing is opened where the folder has no such table.
+  const openNamed = (file, settings) => ([...place.list.options].some((each) => each.value === file) ? open(file, settings) : undefined);
+
+  wearwell.data = {build, files, openNamed, restore: async () => show(await wearwell.get('/api/table')), table: () => table, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(plot); }};
+})();

@@ -1,0 +1,85 @@
+'use strict';
+// The step Fit: run, progress, verdict, checks, tables and the report.
+(() => {
+  const {element, strings} = wearwell;
+  const place = {};
+  let shown = '', report = '';
+
+  function progress(fit) {
+    const running = fit.state === 'running';
+    place.go.disabled = running;
+    place.stop.hidden = !running;
+    place.bar.hidden = !running;
+    place.progress.replaceChildren();
+    if (running) {
+      if (fit.total) { place.bar.max = fit.total; place.bar.value = fit.done; } else { place.bar.removeAttribute('value'); }
+      const steps = fit.total ? strings.steps_of(wearwell.count(fit.done), wearwell.count(fit.total), fit.what) : fit.what ? strings.steps_(wearwell.count(fit.done), fit.what) : '';
+      place.progress.append([strings.running(fit.study), steps, strings.seconds(Math.round(fit.seconds))].filter(Boolean).join(', '));
+    }
+    if (fit.state === 'stopped') place.progress.append(strings.stopped);
+    place.problem.replaceChildren(...(fit.state === 'failed' ? [element('p', {class: 'wrong'}, strings.failed), element('pre', {tabindex: 0}, fit.problem)] : []));
+  }
+
+  const short = (text) => (text.length < 25 ? 'short' : '');
+
+  // Columns without a cell are left out, as in the report.
+  function table({id, caption, columns: given, rows: every, all}) {
+    const kept = given.map((_, i) => i).filter((i) => i === 0 || every.some((cells) => cells[i] !== ''));
+    const columns = kept.map((i) => given[i]), rows = every.map((cells) => kept.map((i) => cells[i]));
+    const parts = [element('caption', {}, caption), element('thead', {}, element('tr', {}, ...columns.map((each) => element('th', {scope: 'col'}, each)))),
+                   element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((each, i) => element(i ? 'td' : 'th', i ? {class: short(each)} : {scope: 'row'}, each)))))];
+    return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption}, element('table', {id: `table-${id}`}, ...parts)),
+        rows.length < all ? element('p', {class: 'note'}, strings.ofRows(rows.length, all)) : null);
+  }
+
+  function checks(all) {
+    const advised = all.some((each) => each.advice);
+    const heads = [strings.check, strings.verdict, strings.finding, ...(advised ? [strings.advice] : [])];
+    return element('div', {class: 'scroll whole', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
+        element('thead', {}, element('tr', {}, ...heads.map((each) => element('th', {scope: 'col'}, each)))),
+        element('tbody', {}, ...all.map((each) => element('tr', {}, element('th', {scope: 'row'}, each.name),
+            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {}, each.detail), advised ? element('td', {}, each.advice) : null)))));
+  }
+
+  async function result() {
+    const found = await wearwell.get('/api/result');
+    const tiles = found.tiles.slice(0, 8).map((each) => element('div', {}, element('dt', {}, each.name), element('dd', {class: 'value'}, `${each.value} ${wearwell.unit(each.unit)}`), element('dd', {class: 'note'}, each.note)));
+    // The table of the answers; the others are folded.
+    const main = ['bounds', 'quantities', 'predictions'].map((id) => found.tables.find((each) => each.id === id)).find(Boolean);
+    const frame = element('iframe', {title: strings.report, sandbox: 'allow-scripts allow-downloads allow-popups'});
+    const details = element('details', {}, element('summary', {}, strings.report), frame);
+    details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
+    place.result.replaceChildren(element('h3', {}, found.title),
+        element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
+        ...found.leads.map((each) => element('p', {class: 'lead'}, each)), element('dl', {class: 'tiles'}, ...tiles), ...(main ? [table(main)] : []), checks(found.checks),
+        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(table)),
+        details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)));
+    wearwell.askPanel.result(found);
+  }
+
+  function session(now) {
+    report = now.report ?? report;
+    progress(now.fit);
+    const key = `${now.result} ${now.fit.state === 'done' ? now.fit.seconds : ''}`;
+    if (!now.result || key === shown || now.fit.state === 'running') return;
+    shown = key;
+    wearwell.quietly(result);
+  }
+
+  function build(panel) {
+    place.go = wearwell.button(strings.fit, () => wearwell.attempt(async () => {
+      if (!wearwell.model.hasText()) throw new Error(strings.noStudy);
+      const file = await wearwell.model.save();
+      await wearwell.post('/api/fit', {file});
+    }));
+    place.stop = wearwell.button(strings.stop, () => wearwell.attempt(() => wearwell.post('/api/stop')), 'plain');
+    place.stop.hidden = true;
+    place.bar = element('progress', {'aria-label': strings.fitTitle, hidden: true});
+    place.progress = element('p', {role: 'status', id: 'progress'});
+    place.problem = element('div', {role: 'alert'});
+    place.result = element('div', {id: 'result'}, element('p', {}, strings.noResult));
+    panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
+  }
+
+  wearwell.fit = {build, session};
+})();

@@ -1,0 +1,26 @@
+#include "wearwell/workbench/page.h"
+
+#include <string>
+
+#include "wearwell/workbench/page_resources.h"
+
+namespace wearwell::workbench {
+
+ServedPage workbench_page() {
+  namespace of = resource;
+  constexpr bool frames = true;  // the report
+  return served_page("wearwell", std::string(of::workbench_html()),
+                     {page_style(), {of::workbench_css(), of::workbench_css_sha256()}},
+                     {page_words(),
+                      {of::workbench_strings_js(), of::workbench_strings_js_sha256()},
+                      {of::workbench_server_js(), of::workbench_server_js_sha256()},
+                      {of::workbench_scatter_js(), of::workbench_scatter_js_sha256()},
+                      {of::workbench_data_js(), of::workbench_data_js_sha256()},
+                      {of::workbench_model_js(), of::workbench_model_js_sha256()},
+                      {of::workbench_fit_js(), of::workbench_fit_js_sha256()},
+                      {of::workbench_ask_js(), of::workbench_ask_js_sha256()},
+                      {of::workbench_page_js(), of::workbench_page_js_sha256()}},
+                     frames);
+}
+
+}  // namespace wearwell::workbench

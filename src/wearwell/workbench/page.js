@@ -1,0 +1,93 @@
+'use strict';
+// The page: its steps, messages, and what the program has open.
+(() => {
+  const {element, strings} = wearwell;
+  const steps = Object.keys(strings.steps);
+  const part = (id) => document.getElementById(id);
+
+  wearwell.button = (text, act, look = '') => {
+    const made = element('button', {type: 'button', class: look}, text);
+    made.addEventListener('click', act);
+    return made;
+  };
+  wearwell.field = (label, id, attributes) => element('div', {class: 'field'}, element('label', {for: id}, label),
+      element('input', {id, autocomplete: 'off', spellcheck: 'false', ...attributes}));
+
+  function complain(message) {
+    const shown = element('div', {class: 'callout fail'}, element('pre', {}, message));
+    shown.append(wearwell.button(strings.close, () => shown.remove(), 'plain'));
+    part('banners').replaceChildren(shown);
+  }
+
+  // Does what the user wants; a refusal is shown until the next wish.
+  wearwell.attempt = (act) => {
+    part('banners').replaceChildren();
+    return wearwell.quietly(act);
+  };
+
+  // Does what follows from it.
+  wearwell.quietly = async (act) => {
+    document.body.setAttribute('aria-busy', 'true');
+    try {
+      await act();
+    } catch (error) {
+      complain(error.message);
+    } finally {
+      document.body.removeAttribute('aria-busy');
+    }
+  };
+
+  wearwell.step = (name, focus = false) => {
+    for (const each of steps) {
+      const chosen = each === name, tab = part(`step-${each}`);
+      part(`panel-${each}`).hidden = !chosen;
+      tab.setAttribute('aria-selected', chosen);
+      tab.tabIndex = chosen ? 0 : -1;
+      if (chosen && focus) tab.focus();
+    }
+    if (name === 'data') wearwell.data.redraw();
+  };
+
+  function tabs() {
+    part('steps').append(...steps.map((each, i) => {
+      const tab = element('button', {type: 'button', role: 'tab', id: `step-${each}`, 'aria-controls': `panel-${each}`}, `${i + 1} ${strings.steps[each]}`);
+      tab.addEventListener('click', () => wearwell.step(each));
+      return tab;
+    }));
+    part('steps').addEventListener('keydown', (event) => {
+      const at = steps.findIndex((each) => part(`step-${each}`).getAttribute('aria-selected') === 'true');
+      const next = {ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: steps.length - 1}[event.key];
+      if (next === undefined) return;
+      event.preventDefault();
+      wearwell.step(steps[(next + steps.length) % steps.length], true);
+    });
+  }
+
+  function connection(state) {
+    part('connection').dataset.state = state;
+    part('connection').textContent = {live: strings.connected, lost: strings.lost, wait: strings.connecting}[state];
+  }
+
+  function session(now) {
+    part('folder').textContent = now.folder;
+    wearwell.data.files(now.files);
+    wearwell.fit.session(now);
+  }
+
+  async function start() {
+    for (const [name, built] of [['data', wearwell.data], ['model', wearwell.model], ['fit', wearwell.fit], ['ask', wearwell.askPanel]]) built.build(part(`panel-${name}`));
+    tabs();
+    connection('wait');
+    wearwell.step('data');
+    if (!wearwell.hasToken()) { connection('lost'); complain(strings.noToken); return; }
+    await wearwell.attempt(async () => {
+      const now = await wearwell.get('/api/session');
+      session(now);
+      if (now.study) await wearwell.model.restore();
+      if (now.table) await wearwell.data.restore();
+      wearwell.step(now.table ? 'data' : now.study ? 'model' : now.result ? 'fit' : 'data');
+    });
+    wearwell.follow(session, connection);
+  }
+  start();
+})();

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+
+/// Files of the page that are embedded in the program (cmake/resources.cmake). `_sha256` is in
+/// hexadecimal digits.
+namespace wearwell::resource {
+
+std::string_view workbench_html();
+std::string_view workbench_css();
+std::string_view workbench_css_sha256();
+std::string_view workbench_strings_js();
+std::string_view workbench_strings_js_sha256();
+std::string_view workbench_server_js();
+std::string_view workbench_server_js_sha256();
+std::string_view workbench_scatter_js();
+std::string_view workbench_scatter_js_sha256();
+std::string_view workbench_data_js();
+std::string_view workbench_data_js_sha256();
+std::string_view workbench_model_js();
+std::string_view workbench_model_js_sha256();
+std::string_view workbench_fit_js();
+std::string_view workbench_fit_js_sha256();
+std::string_view workbench_ask_js();
+std::string_view workbench_ask_js_sha256();
+std::string_view workbench_page_js();
+std::string_view workbench_page_js_sha256();
+
+}  // namespace wearwell::resource

@@ -1,0 +1,84 @@
+'use strict';
+// A plot of points or a line over two axes, each linear or logarithmic.
+(() => {
+  const {element} = wearwell;
+  const margin = {left: 64, right: 16, top: 12, bottom: 44};
+
+  function linearTicks(low, high, most) {
+    const rough = (high - low) / most, power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough);
+    const found = [];
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push(Number((i * step).toPrecision(12)));
+    return found;
+  }
+
+  function logTicks(low, high, most) {
+    const found = [], first = Math.floor(low), last = Math.ceil(high);
+    const every = Math.max(1, Math.ceil((last - first) / most));
+    const within = high - low < 2.5 ? [1, 2, 5] : [1];
+    for (let power = first; power <= last; power += every) {
+      for (const each of within) {
+        const at = power + Math.log10(each);
+        if (at >= low - 1e-9 && at <= high + 1e-9) found.push(at);
+      }
+    }
+    return found;
+  }
+
+  // {name, log, values} -> {place: value -> 0 to 1, ticks: [{at, text}]}
+  function axisOf({log, values}, most) {
+    const scaled = (value) => (log ? Math.log10(value) : value);
+    let low = Infinity, high = -Infinity;
+    for (const each of values) { const at = scaled(each); low = Math.min(low, at); high = Math.max(high, at); }
+    if (!(low <= high)) [low, high] = [0, 1];
+    const room = high > low ? 0.04 * (high - low) : Math.abs(low) || 1;
+    [low, high] = [low - room, high + room];
+    const ticks = log ? logTicks(low, high, most) : linearTicks(low, high, most);
+    return {
+      place: (value) => (scaled(value) - low) / (high - low),
+      ticks: ticks.map((at) => ({part: (at - low) / (high - low), text: wearwell.given(log ? Number((10 ** at).toPrecision(6)) : at)})),
+    };
+  }
+
+  // {points: [[x, y, row]], x: {name, log}, y: {name, log}, line, description, read: (point) -> text, hint}
+  wearwell.scatter = (plot, width) => {
+    const height = Math.min(360, Math.max(240, Math.round(width * 0.55)));
+    const box = {left: margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
+    const across = axisOf({...plot.x, values: plot.points.map((each) => each[0])}, Math.max(3, Math.floor((box.right - box.left) / 80)));
+    const up = axisOf({...plot.y, values: plot.points.map((each) => each[1])}, 5);
+    const x = (value) => box.left + across.place(value) * (box.right - box.left);
+    const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);
+    const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', 'aria-label': plot.description, class: 'plot'});
+    for (const {part, text} of across.ticks) {
+      const at = box.left + part * (box.right - box.left);
+      svg.append(element('line', {class: 'grid', x1: at, x2: at, y1: box.top, y2: box.bottom}),
+                 element('text', {x: at, y: box.bottom + 17, 'text-anchor': 'middle'}, text));
+    }
+    for (const {part, text} of up.ticks) {
+      const at = box.bottom - part * (box.bottom - box.top);
+      svg.append(element('line', {class: 'grid', x1: box.left, x2: box.right, y1: at, y2: at}),
+                 element('text', {x: box.left - 8, y: at + 4, 'text-anchor': 'end'}, text));
+    }
+    const places = plot.points.map(([a, b]) => [x(a), y(b)]);
+    const path = plot.line ? `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`
+                           : places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
+    if (places.length) svg.append(element('path', {class: plot.line ? 'curve' : `dots${places.length > 300 ? ' many' : ''}`, d: path}));
+    svg.append(element('text', {class: 'name', x: (box.left + box.right) / 2, y: height - 6, 'text-anchor': 'middle'}, plot.x.name));
+    const readout = element('p', {class: 'readout'}, plot.hint);
+    const mark = element('circle', {class: 'mark', r: 6, visibility: 'hidden'});
+    svg.append(mark);
+    svg.addEventListener('pointermove', (event) => {
+      const frame = svg.getBoundingClientRect(), ratio = width / frame.width;
+      const [a, b] = [(event.clientX - frame.left) * ratio, (event.clientY - frame.top) * ratio];
+      let best = -1, least = Infinity;
+      places.forEach(([px, py], i) => { const d = (px - a) ** 2 + (py - b) ** 2; if (d < least) { least = d; best = i; } });
+      if (best < 0) return;
+      mark.setAttribute('cx', places[best][0]);
+      mark.setAttribute('cy', places[best][1]);
+      mark.setAttribute('visibility', 'visible');
+      readout.textContent = plot.read(plot.points[best]);
+    });
+    svg.addEventListener('pointerleave', () => { mark.setAttribute('visibility', 'hidden'); readout.textContent = plot.hint; });
+    return element('figure', {}, element('figcaption', {}, plot.y.name), svg, readout);
+  };
+})();

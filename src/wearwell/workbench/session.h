@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "wearwell/input/table.h"
+#include "wearwell/study/model.h"
+#include "wearwell/study/wide_table.h"
+
+namespace wearwell::workbench {
+
+/// A table of the folder, as it was read.
+struct OpenTable {
+  std::string file;
+  std::map<std::string, std::string> settings = {};  ///< keys of [data]: "sheet"
+  Table table = {};
+  std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes
+};
+
+enum class FitState { none, running, done, failed, stopped };
+
+/// The latest run of a study.
+struct FitProgress {
+  FitState state = FitState::none;
+  std::string study, result;      ///< the file, and the folder of its result
+  std::string what = {};          ///< the steps: "iterations"
+  long long done = 0, total = 0;  ///< of them; a total of 0 is unknown
+  double seconds = 0;             ///< since the start
+  std::string problem = {};       ///< why it failed
+};
+
+/// What one `wearwell open` works on. Everything that lasts is a file in `folder`.
+struct Session {
+  Session(std::filesystem::path of, Models known) : folder(std::move(of)), models(known) {}
+
+  const std::filesystem::path folder;
+  const Models models;
+
+  std::mutex mutex;           ///< guards the members below
+  std::uint64_t version = 1;  ///< increases with each change of them
+  std::shared_ptr<const OpenTable> table = {};
+  std::string study = {}, result = {};  ///< open: a file, a folder; "" none
+  FitProgress fit = {};
+  std::jthread fitting = {};  ///< last, so that it ends first
+};
+
+}  // namespace wearwell::workbench

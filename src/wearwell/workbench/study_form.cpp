@@ -1,0 +1,182 @@
+#include "wearwell/workbench/study_form.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/study_keys.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/study/scaffold.h"
+
+namespace wearwell::workbench {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The byte at a line and a column, both from 1; columns count characters.
+std::size_t offset_at(std::string_view text, std::size_t line, std::size_t column) {
+  std::size_t at = 0;
+  for (; line > 1; --line) {
+    at = text.find('\n', at);
+    if (at == text.npos) return text.size();
+    ++at;
+  }
+  while (column > 1 && at < text.size()) {
+    ++at;
+    if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xc0) != 0x80) --column;
+  }
+  return at;
+}
+
+// The end of the TOML string that begins at `at`.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char mark = text[at];
+  const std::string three(3, mark);
+  if (text.substr(at, 3) == three) {
+    const std::size_t end = text.find(three, at + 3);
+    return end == text.npos ? text.size()
+                            : std::min(text.find_first_not_of(mark, end), text.size());
+  }
+  for (++at; at < text.size() && text[at] != mark && text[at] != '\n'; ++at) {
+    if (mark == '"' && text[at] == '\\') ++at;
+  }
+  return std::min(at + 1, text.size());
+}
+
+// The end of the TOML value that begins at `at`.
+std::size_t end_of_value(std::string_view text, std::size_t at) {
+  int depth = 0;
+  while (at < text.size()) {
+    const char each = text[at];
+    if (each == '"' || each == '\'') {
+      at = end_of_string(text, at);
+      if (depth == 0) return at;
+      continue;
+    }
+    if (depth > 0 && each == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    if (each == '[' || each == '{') ++depth;
+    if (each == ']' || each == '}') {
+      --depth;
+      if (depth == 0) return at + 1;
+      if (depth < 0) break;  // of the inline table that holds it
+    }
+    if (depth == 0 && (each == ',' || each == '#' || each == '\n' || each == '\r')) break;
+    ++at;
+  }
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
+  return at;
+}
+
+struct Place {
+  std::size_t begin = 0, end = 0;
+};
+
+Place place_of(std::string_view text, const TomlReader::Present& key) {
+  const std::size_t begin = offset_at(text, key.line, key.column);
+  return {begin, begin < text.size() ? end_of_value(text, begin) : begin};
+}
+
+bool is_quoted(std::string_view text, const Place& place) {
+  return place.begin < text.size() && (text[place.begin] == '"' || text[place.begin] == '\'');
+}
+
+std::vector<std::string> paths_of(const TomlReader& root) {
+  std::vector<std::string> paths;
+  for (const TomlReader::Present& each : root.present()) paths.push_back(each.path);
+  return paths;
+}
+
+StudyKeys keys_of(const TomlReader& root, Models models) {
+  if (!root.has("model") || !root.is_text("model")) return {};
+  const std::string name = *root.text("model");
+  for (const Model& model : models)
+    if (model.key == name && model.keys) return model.keys();
+  return {};
+}
+
+ordered_json form_json(const TomlReader& root, const std::string& text, Models models) {
+  const StudyKeys known = keys_of(root, models);
+  ordered_json keys = ordered_json::array();
+  for (const TomlReader::Present& each : root.present()) {
+    if (each.is_table) continue;
+    const Place place = place_of(text, each);
+    const bool quoted = is_quoted(text, place);
+    ordered_json key = {
+        {"path", printable(each.path)},
+        {"value", quoted ? each.text : text.substr(place.begin, place.end - place.begin)},
+        {"text", quoted},
+        {"line", each.line}};
+    const auto found = std::find_if(known.begin(), known.end(), [&](const StudyKey& one) {
+      return matches_key(one.path, each.path);
+    });
+    if (found != known.end()) {
+      key["meaning"] = found->meaning;
+      key["example"] = found->example;
+    }
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+// "study.toml:12:7: prior.k: ..." -> 12, 7.
+void add_position(const std::string& message, const std::string& file, ordered_json& json) {
+  const std::size_t at = message.find(file + ":");
+  if (at == message.npos) return;
+  const char *next = message.data() + at + file.size() + 1, *end = message.data() + message.size();
+  for (const char* key : {"line", "column"}) {
+    std::size_t number = 0;
+    const auto [last, error] = std::from_chars(next, end, number);
+    if (error != std::errc{} || last == end || *last != ':') return;
+    json[key] = number;
+    next = last + 1;
+  }
+}
+
+}  // namespace
+
+ordered_json checked_study(const std::filesystem::path& file, const std::string& text,
+                           Models models) {
+  ordered_json json = {{"keys", ordered_json::array()}};
+  try {
+    const TextFile study{file, text};
+    json["keys"] = form_json(TomlReader::parse(study), text, models);
+    json["description"] = printable_lines(read_study({study}, models)->description());
+  } catch (const InputError& error) {
+    // Names of this folder need no path.
+    std::string message = error.what();
+    const std::string folder = file.parent_path().string() + "/";
+    for (std::size_t at = 0; (at = message.find(folder, at)) != message.npos;)
+      message.erase(at, folder.size());
+    json["problem"] = printable_lines(message);
+    add_position(message, file.filename().string(), json);
+  }
+  return json;
+}
+
+std::string with_value(const std::string& text, const std::string& path, const std::string& value) {
+  const TomlReader root = TomlReader::parse({"the study", text});
+  for (const TomlReader::Present& each : root.present()) {
+    if (each.is_table || printable(each.path) != path) continue;
+    const Place place = place_of(text, each);
+    std::string changed = text;
+    changed.replace(place.begin, place.end - place.begin,
+                    is_quoted(text, place) ? toml_text(value) : value);
+    const TomlReader after = TomlReader::parse({"the study", changed});
+    if (paths_of(after) != paths_of(root))
+      throw InputError(
+          fmt::format("{}: \"{}\" is not one value", path, printable(shortened(value))));
+    return changed;
+  }
+  throw InputError(fmt::format("the study has no key {}", printable(shortened(path))));
+}
+
+}  // namespace wearwell::workbench

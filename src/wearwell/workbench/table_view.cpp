@@ -1,0 +1,203 @@
+#include "wearwell/workbench/table_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/as_read.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/input/source.h"
+#include "wearwell/study/guessed_studies.h"
+#include "wearwell/study/role_words.h"
+#include "wearwell/workbench/folder_files.h"
+
+namespace wearwell::workbench {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t looked_at = 200, most_refused = 1000;
+
+// NaN where the cell is empty or refused; `refusal` says why.
+double number_in(const Table& table, const Column& column, std::size_t row, std::string* refusal) {
+  if (column.is_number) return column.numbers[row];
+  if (column.text[row].empty()) return std::numeric_limits<double>::quiet_NaN();
+  try {
+    return cell_value(table, column, row).number;
+  } catch (const InputError& error) {
+    if (refusal) *refusal = error.what();
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+// Whether a column of text is one of numbers in which some cells are not.
+bool is_mostly_numbers(const Table& table, const Column& column) {
+  if (column.is_number) return false;
+  std::size_t seen = 0, numbers = 0;
+  for (std::size_t row = 0; row < table.rows && seen < looked_at; ++row) {
+    if (column.text[row].empty()) continue;
+    ++seen;
+    numbers += !std::isnan(number_in(table, column, row, nullptr));
+  }
+  return 2 * numbers > seen;
+}
+
+std::string unit_in(const Column& column) {
+  return column.unit.empty() ? read_heading(column.name, "").unit : column.unit;
+}
+
+ordered_json column_json(const Table& table, const Column& column) {
+  ordered_json json = {{"name", printable(column.name)}, {"unit", printable(unit_in(column))}};
+  const bool mostly = is_mostly_numbers(table, column);
+  json["kind"] = column.is_number ? "number" : "text";
+  std::size_t empty = 0, refused = 0;
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (!column.is_number && column.text[row].empty()) {
+      ++empty;
+      continue;
+    }
+    if (!column.is_number && !mostly) continue;
+    if (refused >= most_refused) break;
+    const double value = number_in(table, column, row, nullptr);
+    if (std::isnan(value)) {
+      ++(column.is_number ? empty : refused);
+    } else {
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
+  }
+  json["empty"] = empty;
+  if (mostly) json["refused"] = refused;
+  if (!column.doubt.empty()) json["doubt"] = printable(column.doubt);
+  if (least <= largest) {
+    json["least"] = least;
+    json["largest"] = largest;
+  }
+  return json;
+}
+
+const Column& column_at(const Table& table, std::size_t index) {
+  if (index >= table.columns.size())
+    throw InputError(fmt::format("column {}: the table has {}", index, table.columns.size()));
+  return table.columns[index];
+}
+
+}  // namespace
+
+OpenTable open_table(const std::filesystem::path& folder, const std::string& file,
+                     const std::map<std::string, std::string>& settings) {
+  const std::filesystem::path path = path_in(folder, file);
+  const std::string text = data_lines(settings, {});
+  const TableSettings read =
+      text.empty() ? TableSettings() : read_table_settings(TomlReader::parse({"[data]", text}));
+  OpenTable open{file, settings, read_table(path, {}, {}, read)};
+  open.wide = wide_table(open.table);
+  if (open.wide) open.table = read_table(path, open.wide->sql, {}, read);
+  return open;
+}
+
+ordered_json table_json(const OpenTable& open) {
+  ordered_json json = {{"file", open.file},
+                       {"rows", open.table.rows},
+                       {"layout", printable(open.table.layout.text)}};
+  json["settings"] = open.settings;
+  if (open.wide) json["wide"] = printable(wide_description(*open.wide));
+  json["columns"] = ordered_json::array();
+  for (const Column& each : open.table.columns)
+    json["columns"].push_back(column_json(open.table, each));
+  json["roles"] = ordered_json::array();
+  for (const RoleForm& each : role_forms()) json["roles"].push_back(std::string(each.name));
+  return json;
+}
+
+ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t count,
+                       std::size_t from_column, std::size_t columns) {
+  const Table& table = open.table;
+  const std::size_t last = std::min(table.rows, from + count);
+  const std::size_t last_column = std::min(table.columns.size(), from_column + columns);
+  std::set<std::size_t> mostly;
+  for (std::size_t c = from_column; c < last_column; ++c) {
+    if (is_mostly_numbers(table, table.columns[c])) mostly.insert(c);
+  }
+  ordered_json json = {{"from", from}, {"rows", ordered_json::array()}};
+  for (std::size_t row = from; row < last; ++row) {
+    ordered_json cells = ordered_json::array(), refused = ordered_json::object();
+    for (std::size_t c = from_column; c < last_column; ++c) {
+      const Column& column = table.columns[c];
+      if (column.is_number) {
+        const double value = column.numbers[row];
+        std::isfinite(value) ? cells.push_back(value) : cells.push_back(nullptr);
+        continue;
+      }
+      cells.push_back(printable(shortened(column.text[row], 200)));
+      std::string refusal;
+      if (mostly.contains(c)) static_cast<void>(number_in(table, column, row, &refusal));
+      if (!refusal.empty()) refused[std::to_string(c)] = printable(refusal);
+    }
+    ordered_json each = {{"row", row + 1}};
+    if (!table.lines.empty()) each["line"] = table.lines[row];
+    each["cells"] = std::move(cells);
+    if (!refused.empty()) each["refused"] = std::move(refused);
+    json["rows"].push_back(std::move(each));
+  }
+  return json;
+}
+
+ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y) {
+  constexpr double across = 160, up = 90;
+  const Table& table = open.table;
+  const PlotAxis* const axes[] = {&x, &y};
+  std::vector<double> values[2];
+  std::size_t empty = 0, not_positive = 0;
+  std::vector<std::size_t> kept;
+  for (int a : {0, 1}) {
+    const Column* const column = axes[a]->column ? &column_at(table, *axes[a]->column) : nullptr;
+    values[a].reserve(table.rows);
+    for (std::size_t row = 0; row < table.rows; ++row)
+      values[a].push_back(column ? number_in(table, *column, row, nullptr)
+                                 : static_cast<double>(row + 1));
+  }
+  double low[2] = {std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double high[2] = {-low[0], -low[0]};
+  const auto placed = [&](int a, std::size_t row) {
+    return axes[a]->log ? std::log10(values[a][row]) : values[a][row];
+  };
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (!std::isfinite(values[0][row]) || !std::isfinite(values[1][row])) {
+      ++empty;
+    } else if ((x.log && !(values[0][row] > 0)) || (y.log && !(values[1][row] > 0))) {
+      ++not_positive;
+    } else {
+      kept.push_back(row);
+      for (int a : {0, 1}) {
+        low[a] = std::min(low[a], placed(a, row));
+        high[a] = std::max(high[a], placed(a, row));
+      }
+    }
+  }
+  const auto cell = [&](int a, std::size_t row, double cells) {
+    const double width = high[a] - low[a];
+    return width > 0 ? std::floor((placed(a, row) - low[a]) / width * cells) : 0;
+  };
+  ordered_json points = ordered_json::array();
+  std::set<std::pair<double, double>> taken;
+  for (const std::size_t row : kept) {
+    if (!taken.emplace(cell(0, row, across), cell(1, row, up)).second) continue;
+    points.push_back({values[0][row], values[1][row], row + 1});
+  }
+  ordered_json json = {{"rows", table.rows},
+                       {"shown", points.size()},
+                       {"kept", kept.size()},
+                       {"left_out", {{"empty", empty}, {"not_positive", not_positive}}}};
+  json["points"] = std::move(points);
+  return json;
+}
+
+}  // namespace wearwell::workbench

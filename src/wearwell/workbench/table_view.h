@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/workbench/session.h"
+
+namespace wearwell::workbench {
+
+/// Reads a table of the folder; a wide one through its SELECT, as `wearwell new --from` does.
+/// Throws InputError, SeveralSheets for a workbook without the key `sheet`.
+OpenTable open_table(const std::filesystem::path& folder, const std::string& file,
+                     const std::map<std::string, std::string>& settings);
+
+/// {file, rows, layout, remarks, settings, wide, columns: [{name, unit, kind, empty, refused, least,
+/// largest}], roles}. `kind`: "number", or "text"; text in which most cells are numbers has `refused`, the
+/// number of the others (at most 1000 are counted).
+nlohmann::ordered_json table_json(const OpenTable& open);
+
+/// {from, rows: [{row, line, cells, refused: {COLUMN: message}}]} of `count` rows and `columns`
+/// columns; a missing number is null.
+nlohmann::ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t count,
+                                 std::size_t from_column, std::size_t columns);
+
+/// An axis of a plot: a column by its index, or the number of the row.
+struct PlotAxis {
+  std::optional<std::size_t> column = {};
+  bool log = false;
+};
+
+/// {points: [[x, y, row]], rows, shown, left_out: {empty, not_positive}}: of many points in one
+/// place only the first is kept (a grid of 160 by 90), so that 10^6 rows stay a picture.
+nlohmann::ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y);
+
+}  // namespace wearwell::workbench

@@ -1,0 +1,170 @@
+// `wearwell open` itself in headless Chromium: from a messy table of lives with suspensions to a B10 with its bound, in at most
+// ten actions, and `wearwell fit` of the study file that it leaves gives the same digits. At both widths, light and dark, each step
+// is clean for axe-core, as wide as the screen, logs no error and fetches nothing from elsewhere; it is worked by keyboard, and names
+// in a hostile table stay names.
+//
+//   node workbench.mjs NODE_MODULES SCREENSHOTS WEARWELL FOLDER
+import {spawn, spawnSync} from 'node:child_process';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join, resolve} from 'node:path';
+import {createInterface} from 'node:readline';
+
+const [modules, screenshots, wearwell, folder] = process.argv.slice(2);
+const require = createRequire(join(resolve(modules), 'any.js'));
+const {chromium} = require('playwright-core');
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+const faults = [];
+const check = (holds, fault) => { if (!holds) faults.push(fault); };
+
+// A German file with lines above its headings, points for thousands, and a status in words.
+const hours = [212.5, 305, 371, 418.5, 466, 509, 540, 588, 633, 702, 749, 1800, 1800, 1800, 1800];
+const german = (x) => x.toLocaleString('de-DE', {minimumFractionDigits: 1});
+const messy = ['Pumpenprüfstand Halle 3', 'Prüfer: Jürgen Müller', '', 'Nr.;Laufzeit [h];Status;Bemerkung',
+               ...hours.map((each, i) => `P${i + 1};${german(each)};${i < 11 ? 'Ausfall' : 'läuft'};${i === 3 ? '"Lager; laut"' : ''}`), ''].join('\r\n');
+
+async function serve(inside) {
+  const child = spawn(wearwell, ['open', inside, '--no-browser'], {stdio: ['ignore', 'pipe', 'inherit']});
+  const line = await new Promise((done, failed) => {
+    createInterface(child.stdout).once('line', done);
+    child.once('exit', () => failed(new Error('the program ended')));
+  });
+  return {address: line.slice(line.indexOf('http')), stop: () => new Promise((done) => { child.once('exit', done); child.kill('SIGINT'); })};
+}
+
+function fresh(name) {
+  const inside = join(folder, name);
+  rmSync(inside, {recursive: true, force: true});
+  mkdirSync(inside, {recursive: true});
+  return inside;
+}
+
+async function open(context, address, complaints) {
+  const page = await context.newPage();
+  const base = address.slice(0, address.indexOf('#'));
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`script: ${error.message}`));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(base) && !/^(data|blob|about):/.test(request.url())) complaints.push(`request: ${request.url()}`);
+  });
+  await page.goto(address, {timeout: 60000});
+  await page.waitForSelector('#connection[data-state="live"]', {timeout: 60000});
+  return page;
+}
+
+async function looks(page, what, complaints) {
+  await page.evaluate(axe);
+  const {violations} = await page.evaluate(() => axe.run({exclude: ['iframe'], runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']}));
+  for (const {id, help, nodes} of violations)
+    complaints.push(`${what}: ${id}: ${help}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | ')}`);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  if (wide) complaints.push(`${what}: the page is wider than the screen`);
+}
+
+async function walk(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  const {address, stop} = await serve(inside);
+  const context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  const shot = (step) => page.screenshot({path: join(screenshots, `workbench-${name}-${step}.png`), fullPage: true});
+  let actions = 0;
+  const act = async (does) => { actions += 1; await does(); };
+
+  await act(() => page.setInputFiles('#choose', {name: 'pumps.csv', mimeType: 'text/csv', buffer: Buffer.from(messy, 'latin1')}));
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  await page.waitForSelector('#panel-data svg.plot');
+  await looks(page, `${name} data`, complaints);
+  await shot('data');
+  await act(() => page.click('#step-model'));
+  await page.waitForSelector('.check[data-state]', {timeout: 60000});
+  await looks(page, `${name} model`, complaints);
+  await shot('model');
+  check(await page.getAttribute('.check', 'data-state') === 'good', `${name}: the guessed study cannot be fitted: ${await page.textContent('.check')}`);
+  await act(() => page.fill('[id="key-predict.credible_level"]', '0.95'));
+  await act(() => page.press('[id="key-predict.credible_level"]', 'Tab'));
+  await page.waitForFunction(() => document.getElementById('study').value.includes('credible_level = 0.95'), null, {timeout: 60000});
+  await act(() => page.click('#step-fit'));
+  await act(() => page.click('#panel-fit button'));
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  await looks(page, `${name} fit`, complaints);
+  await shot('fit');
+  await act(() => page.click('#step-ask'));
+  await page.fill('#ask-level', '95 %');
+  await act(() => page.click('#panel-ask form button'));
+  await page.waitForSelector('.card .answer', {timeout: 60000});
+  await looks(page, `${name} ask`, complaints);
+  await shot('ask');
+  check(actions <= 10, `${name}: ${actions} actions`);
+  const command = await page.textContent('.card .command');
+  const answer = await page.textContent('.card .answer');
+
+  // The same by the program, from what the page left.
+  const fit = spawnSync(wearwell, ['fit', 'pumps.toml', '-o', 'by-program', '--quiet'], {cwd: inside, encoding: 'utf8'});
+  check(fit.status <= 1, `${name}: wearwell fit: ${fit.stderr}`);
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  check(summary('pumps-results') === summary('by-program'), `${name}: the program gives other digits`);
+  const b10 = JSON.parse(summary('by-program')).quantities.find((each) => each.name.startsWith('B10'));
+  check(b10 && b10.bound > 0 && b10.credible_level === 0.95, `${name}: no B10 with its bound`);
+  const shown = await page.evaluate(() => [...document.querySelectorAll('#result tr')].map((each) => each.textContent).find((each) => each.startsWith('B10')));
+  check(Boolean(shown), `${name}: the page shows no B10`);
+  const asked = spawnSync('sh', ['-c', command.replace(/^wearwell/, '"$0"'), wearwell], {cwd: inside, encoding: 'utf8'});
+  check(asked.stdout === answer, `${name}: ${command} prints ${asked.stdout}${asked.stderr}, the page ${answer}`);
+
+  await page.click('#step-fit');
+  await page.click('#panel-fit summary:has-text("Report")');
+  await page.frameLocator('iframe').locator('section').first().waitFor({timeout: 60000});
+  // A page that is opened again stands as it was left.
+  await page.reload();
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  check((await page.inputValue('#study')).includes('credible_level = 0.95'), `${name}: the study is lost after a reload`);
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `${name}: ${each}`));
+}
+
+// An error in the study under its line; the keyboard alone; a table whose names are markup.
+async function errors(browser) {
+  const complaints = [];
+  const inside = fresh('errors');
+  writeFileSync(join(inside, 'hostile.csv'), 'hours [h],status,"<img src=x onerror=alert(1)>"\n' + hours.map((each, i) => `${each},${i < 11 ? 'failure' : 'running'},=cmd|'/c calc'!A1\n`).join(''));
+  const {address, stop} = await serve(join(inside, 'hostile.csv'));
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}});
+  const page = await open(context, address, complaints);
+  page.on('dialog', (dialog) => { complaints.push('a script of a table ran'); dialog.dismiss(); });
+  await page.waitForSelector('#panel-data tbody tr');
+  check(!(await page.$('main img')), 'a name became markup');
+  await page.focus('#step-data');
+  await page.keyboard.press('ArrowRight');
+  check(await page.isVisible('#panel-model'), 'the arrow keys do not change the step');
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  const good = await page.inputValue('#study');
+  await page.fill('#study', good.replace('family = "weibull"', 'family = "weibul"'));
+  await page.waitForSelector('.check[data-state="bad"]', {timeout: 60000});
+  check((await page.textContent('.check')).includes('weibul'), 'the message does not name the value');
+  const line = good.split('\n').findIndex((each) => each.startsWith('family')) + 1;
+  check(await page.textContent('.gutter .bad') === String(line), 'the line of the error is not marked');
+  await page.fill('#study', good);
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `errors: ${each}`));
+}
+
+mkdirSync(screenshots, {recursive: true});
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync'],
+});
+for (const each of [
+  {name: 'wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
+  {name: 'narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
+]) await walk(browser, each);
+await errors(browser);
+await browser.close();
+for (const each of faults) console.log(each);
+process.exit(faults.length ? 1 : 0);

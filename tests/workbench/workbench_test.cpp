@@ -1,0 +1,298 @@
+#include "wearwell/workbench/routes.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "monitor/http_client.h"
+#include "support/run_command.h"
+#include "support/scratch.h"
+#include "wearwell/http/listener.h"
+#include "wearwell/models/registry.h"
+
+namespace wearwell::workbench {
+namespace {
+
+using monitor::HttpClient;
+using monitor::HttpReply;
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string token = "0123456789abcdef0123456789abcdef";
+
+std::string lives() {
+  std::string text = "unit;running hours [h];status\n";
+  const int hours[] = {212, 305, 371, 418, 466, 509, 540, 588, 633, 702, 749, 800, 800, 800, 800};
+  for (int i = 0; i < 15; ++i)
+    text += "P" + std::to_string(i + 1) + ";" + std::to_string(hours[i]) +
+            (i < 11 ? ",5;failure\n" : ",0;running\n");
+  return text;
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class WorkbenchTest : public ScratchTest {
+ protected:
+  WorkbenchTest() : session_(folder(), all_models()), routes_(session_, token) {
+    HttpSettings settings;
+    settings.port = 0;
+    settings.limits.body_bytes = 1 << 20;
+    listener_.emplace(settings, std::nullopt, routes_);
+    routes_.set_port(listener_->port());
+  }
+  ~WorkbenchTest() override { listener_->stop(); }
+
+  std::string host() const { return "127.0.0.1:" + std::to_string(listener_->port()); }
+  std::string fields() const { return "Authorization: Bearer " + token + "\r\n"; }
+  HttpReply send(const std::string& line, const std::string& of_host, const std::string& more,
+                 const std::string& body = {}) const {
+    HttpClient client(listener_->port());
+    client.send(line + " HTTP/1.1\r\nHost: " + of_host + "\r\n" + more +
+                (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
+                "\r\n" + body);
+    return client.reply();
+  }
+  HttpReply get(const std::string& target) const { return send("GET " + target, host(), fields()); }
+  HttpReply post(const std::string& target, const json& body) const {
+    return send("POST " + target, host(), fields() + "Content-Type: application/json\r\n",
+                body.dump());
+  }
+  json got(const std::string& target) const {
+    const HttpReply reply = get(target);
+    EXPECT_EQ(reply.status, 200) << target << reply.body;
+    return json::parse(reply.body);
+  }
+  json done(const std::string& target, const json& body) const {
+    const HttpReply reply = post(target, body);
+    EXPECT_EQ(reply.status, 200) << target << reply.body;
+    return json::parse(reply.body);
+  }
+  json ended_fit() const {
+    for (int i = 0; i < 1200; ++i) {
+      const json session = got("/api/session");
+      if (session["fit"]["state"] != "running") return session["fit"];
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return {};
+  }
+
+  Session session_;
+  Routes routes_;
+  std::optional<HttpListener> listener_;
+};
+
+TEST_F(WorkbenchTest, ThePageHoldsNoDataAndNeedsNoToken) {
+  write("secret-name.csv", "a,b\n1,2\n");
+  const HttpReply page = send("GET /", host(), "");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.body.find("secret-name"), std::string::npos);
+  EXPECT_EQ(page.body.find(token), std::string::npos);
+  EXPECT_THAT(page.field("Content-Security-Policy"), HasSubstr("default-src 'none'"));
+  EXPECT_EQ(page.field("Content-Security-Policy").find("unsafe"), std::string::npos);
+  EXPECT_EQ(page.field("X-Frame-Options"), "DENY");
+  EXPECT_EQ(page.body.find("src=\"http"), std::string::npos);
+}
+
+TEST_F(WorkbenchTest, RefusesStrangers) {
+  EXPECT_EQ(get("/api/session").status, 200);
+  EXPECT_EQ(send("GET /api/session", host(), "").status, 401);
+  EXPECT_EQ(send("GET /api/session", host(), "Authorization: Bearer 0123\r\n").status, 401);
+  EXPECT_EQ(send("GET /api/session", host(), "Cookie: wearwell=" + token + "\r\n").status, 401);
+  // Another name for this address, as DNS rebinding makes, and another port.
+  for (const std::string& name : {std::string("evil.example"), "evil.example:" + host().substr(10),
+                                  std::string("127.0.0.1"), std::string("127.0.0.1:1")})
+    EXPECT_EQ(send("GET /api/session", name, fields()).status, 403) << name;
+  for (const char* origin : {"http://evil.example", "http://127.0.0.1:1", "null"})
+    EXPECT_EQ(send("GET /api/session", host(), fields() + "Origin: " + origin + "\r\n").status, 403)
+        << origin;
+  EXPECT_EQ(send("GET /api/session", host(), fields() + "Origin: http://" + host() + "\r\n").status,
+            200);
+  EXPECT_EQ(send("GET /api/session", host(), fields() + "Sec-Fetch-Site: cross-site\r\n").status,
+            403);
+  EXPECT_EQ(send("GET /api/session", host(), fields() + "Sec-Fetch-Site: same-site\r\n").status,
+            403);
+  // A form of another site can send no JSON.
+  EXPECT_EQ(send("POST /api/stop", host(), fields() + "Content-Type: text/plain\r\n", "{}").status,
+            415);
+  EXPECT_EQ(get("/api/session").field("Access-Control-Allow-Origin"), "");
+}
+
+TEST_F(WorkbenchTest, RefusesHostileRequests) {
+  write("ok.csv", "a,b\n1,2\n");
+  std::filesystem::create_symlink("/etc/hostname", folder() / "leak.csv");
+  for (const char* name : {"../x.csv", "/etc/passwd", "..", ".", "", ".hidden.csv", "a/b.csv",
+                           "leak.csv", "no.csv", "a\nb.csv", "a\u202eb.csv"})
+    EXPECT_EQ(post("/api/open", {{"file", name}}).status, 400) << name;
+  EXPECT_EQ(post("/api/open", {{"file", std::string(5000, 'a')}}).status, 400);
+  EXPECT_EQ(post("/api/open", {{"file", 7}}).status, 400);
+  EXPECT_EQ(post("/api/open", json::array()).status, 400);
+  EXPECT_EQ(post("/api/save", {{"file", "../x.toml"}, {"text", "a"}}).status, 400);
+  EXPECT_EQ(post("/api/save", {{"file", "x.sh"}, {"text", "a"}}).status, 400);
+  EXPECT_EQ(post("/api/save", {{"file", "leak.csv"}, {"text", "a"}}).status, 400);
+  EXPECT_EQ(send("POST /api/upload?file=..%2Fx.csv", host(), fields(), "a\n1\n").status, 400);
+  EXPECT_EQ(send("POST /api/upload?file=x.sh", host(), fields(), "a\n1\n").status, 400);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x.sh"));
+  EXPECT_EQ(send("POST /api/upload?file=x.csv", host(), fields(), std::string(2 << 20, 'x')).status,
+            413);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x.csv"));
+  EXPECT_EQ(send("POST /api/open", host(), fields() + "Content-Type: application/json\r\n",
+                 std::string(60000, '['))
+                .status,
+            400);
+  EXPECT_EQ(post("/api/table", {{"settings", {{"sql", "select 1"}}}}).status, 400);
+  EXPECT_EQ(get("/api/rows?from=-1").status, 400);
+  EXPECT_EQ(get("/api/nothing").status, 404);
+  EXPECT_EQ(get("/report/0123").status, 404);
+  EXPECT_EQ(send("DELETE /api/session", host(), fields()).status, 405);
+  EXPECT_EQ(get("/api/fit").status, 405);
+  EXPECT_EQ(post("/api/open", {{"file", "ok.csv"}}).status, 200);
+  EXPECT_EQ(post("/api/table", {{"settings", {{"sql", "select 1"}}}}).status, 400);
+  EXPECT_EQ(post("/api/table", {{"settings", {{"header_row", "1\nsql = 'select 1'"}}}}).status,
+            400);
+  EXPECT_EQ(get("/api/plot?x=0&y=9").status, 400);
+}
+
+TEST_F(WorkbenchTest, ShowsATableAsItWasRead) {
+  write("odd.csv",
+        "name,wear [um],n\n<img src=x onerror=alert(1)>,1.5,10\nb,bad,20\nc,,30\nd,4,40\n");
+  const json table = done("/api/open", {{"file", "odd.csv"}})["table"];
+  EXPECT_EQ(table["rows"], 4);
+  ASSERT_EQ(table["columns"].size(), 3u);
+  EXPECT_EQ(table["columns"][1]["unit"], "um");
+  EXPECT_EQ(table["columns"][1]["kind"], "text");
+  EXPECT_EQ(table["columns"][1]["refused"], 1);
+  EXPECT_EQ(table["columns"][1]["empty"], 1);
+  EXPECT_EQ(table["columns"][2]["kind"], "number");
+  EXPECT_EQ(table["columns"][2]["largest"], 40);
+  const json rows = got("/api/rows?from=1&count=2")["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["row"], 2);
+  EXPECT_EQ(rows[0]["cells"][1], "bad");
+  EXPECT_THAT(rows[0]["refused"]["1"].get<std::string>(), HasSubstr("row 2"));
+  EXPECT_FALSE(rows[1].contains("refused"));
+  const json plot = got("/api/plot?x=2&y=1&log_x=1");
+  EXPECT_EQ(plot["points"], json::parse("[[10,1.5,1],[40,4,4]]"));
+  EXPECT_EQ(plot["left_out"]["empty"], 2);
+}
+
+// A plot of many rows stays a picture, and keeps their range.
+TEST_F(WorkbenchTest, ThinsAPlotOfManyRows) {
+  std::string text = "x,y\n";
+  for (int i = 0; i < 60000; ++i)
+    text += std::to_string(i) + "," + std::to_string((i * 7919) % 1000) + "\n";
+  write("many.csv", text);
+  done("/api/open", {{"file", "many.csv"}});
+  const json plot = got("/api/plot?x=0&y=1");
+  EXPECT_EQ(plot["kept"], 60000);
+  EXPECT_LE(plot["points"].size(), 161u * 91u);
+  EXPECT_GT(plot["points"].size(), 5000u);
+  EXPECT_EQ(plot["points"][0][0], 0);
+  EXPECT_EQ(plot["points"].back()[0].get<int>() > 59000, true);
+}
+
+TEST_F(WorkbenchTest, FromATableToALifeAndTheProgramAgreesToTheLastDigit) {
+  const HttpReply uploaded = send("POST /api/upload?file=pumps.csv", host(), fields(), lives());
+  ASSERT_EQ(uploaded.status, 200) << uploaded.body;
+  EXPECT_EQ(content(folder() / "pumps.csv"), lives());
+  // the same again is no conflict, other content is
+  EXPECT_EQ(send("POST /api/upload?file=pumps.csv", host(), fields(), lives()).status, 200);
+  EXPECT_EQ(send("POST /api/upload?file=pumps.csv", host(), fields(), "a\n1\n").status, 409);
+
+  const json readings = done("/api/guess", json::object())["readings"];
+  const std::string text = readings[0]["text"];
+  EXPECT_EQ(readings[0]["questions"].size(), 0u) << readings[0]["questions"];
+  const json checked = done("/api/check", {{"file", "pumps.toml"}, {"text", text}});
+  ASSERT_FALSE(checked.contains("problem")) << checked["problem"];
+  const std::string changed = done(
+      "/api/set", {{"text", text}, {"path", "predict.credible_level"}, {"value", "0.95"}})["text"];
+  EXPECT_THAT(changed, HasSubstr("0.95"));
+
+  done("/api/save", {{"file", "pumps.toml"}, {"text", changed}, {"before", nullptr}});
+  EXPECT_EQ(content(folder() / "pumps.toml"), changed);
+  // another page that read the earlier text does not overwrite this one
+  EXPECT_EQ(post("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", text}}).status,
+            409);
+  EXPECT_EQ(post("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", nullptr}}).status,
+            409);
+
+  done("/api/fit", {{"file", "pumps.toml"}});
+  const json fit = ended_fit();
+  ASSERT_EQ(fit["state"], "done") << fit;
+  const json result = got("/api/result");
+  EXPECT_GT(result["checks"].size(), 3u);
+  EXPECT_GT(result["tables"].size(), 2u);
+
+  const std::filesystem::path other = folder() / "by-program";
+  const CommandResult program =
+      run_command(std::string(WEARWELL_BINARY) + " fit " + (folder() / "pumps.toml").string() +
+                  " --quiet -o " + other.string());
+  ASSERT_LE(program.exit_code, 1) << program.err;
+  // The report also has the time that the run took.
+  for (const char* file : {"summary.json", "state.bin", "study.toml", "tables/bounds.csv"})
+    EXPECT_EQ(content(folder() / "pumps-results" / file), content(other / file)) << file;
+
+  const json life =
+      done("/api/life",
+           {{"survived", "400 h"}, {"horizon", "100 h"}, {"level", "95 %"}, {"sides", "lower"}});
+  const CommandResult asked =
+      run_command("cd " + folder().string() +
+                  " && PATH=" + std::filesystem::path(WEARWELL_BINARY).parent_path().string() +
+                  ":$PATH " + life["command"].get<std::string>());
+  EXPECT_EQ(life["text"], asked.out) << life["command"];
+  const HttpReply wrong = post("/api/life", {{"survived", "400 mm"}});
+  EXPECT_EQ(wrong.status, 400);
+  EXPECT_EQ(wrong.body.find("--survived"), std::string::npos) << wrong.body;
+  EXPECT_THAT(wrong.body, HasSubstr("survived"));
+
+  // The report is reached under its own address, without a token, in a sandbox.
+  const HttpReply report =
+      send("GET " + got("/api/session")["report"].get<std::string>(), host(), "");
+  EXPECT_EQ(report.status, 200);
+  EXPECT_EQ(report.body, content(folder() / "pumps-results" / "report.html"));
+  EXPECT_THAT(report.field("Content-Security-Policy"), HasSubstr("sandbox allow-scripts"));
+  EXPECT_EQ(report.field("Content-Security-Policy").find("allow-same-origin"), std::string::npos);
+}
+
+TEST_F(WorkbenchTest, AFitStopsAndWritesNothing) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  std::string text = done("/api/guess", json::object())["readings"][0]["text"];
+  text += "\n[sampler]\ndraws = 1000000\n";
+  done("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", nullptr}});
+  done("/api/fit", {{"file", "pumps.toml"}});
+  EXPECT_EQ(post("/api/fit", {{"file", "pumps.toml"}}).status, 400);  // one at a time
+  done("/api/stop", json::object());
+  EXPECT_EQ(ended_fit()["state"], "stopped");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "pumps-results"));
+}
+
+TEST_F(WorkbenchTest, AFitThatFailsSaysWhy) {
+  write("bad.toml", "model = \"formula\"\n");
+  done("/api/fit", {{"file", "bad.toml"}});
+  const json fit = ended_fit();
+  EXPECT_EQ(fit["state"], "failed");
+  EXPECT_THAT(fit["problem"].get<std::string>(), HasSubstr("bad.toml"));
+  EXPECT_EQ(post("/api/fit", {{"file", "no.toml"}}).status, 400);
+}
+
+TEST_F(WorkbenchTest, EventsShowEachChange) {
+  write("a.csv", "a,b\n1,2\n3,4\n");
+  HttpClient client(listener_->port());
+  client.send("GET /api/events HTTP/1.1\r\nHost: " + host() + "\r\n" + fields() + "\r\n");
+  EXPECT_THAT(client.until("event: session\n"), HasSubstr("200 OK"));
+  done("/api/open", {{"file", "a.csv"}});
+  for (int i = 0; i < 5; ++i) {
+    if (client.until("\n\n").find("\"table\":\"a.csv\"") != std::string::npos) return;
+  }
+  FAIL() << "no event named the table";
+}
+
+}  // namespace
+}  // namespace wearwell::workbench
