@@ -62,14 +62,14 @@ std::string in_json(const monitor::FleetReader& fleet) {
 }
 
 void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
-  const auto started = [&](const monitor::Fleet& fleet, const std::string& address) {
+  const auto started = [&](const monitor::FleetReader& fleet, const std::string& address) {
     if (command.quiet || command.json || command.run.once) return;
     fmt::print("monitoring {} units, {} readings stored{}\n", fleet.fleet().units,
                fleet.fleet().stored,
                address.empty() ? "" : fmt::format("; the page is {}", address));
     std::fflush(stdout);
   };
-  const auto ended = [&](const monitor::Fleet& fleet) {
+  const auto ended = [&](const monitor::FleetReader& fleet) {
     if (command.json) {
       fmt::print("{}\n", in_json(fleet));
     } else if (!command.quiet) {
@@ -77,8 +77,7 @@ void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
     }
   };
   try {
-    monitor::run_monitor(read.config, {*read.tracker, read.fingerprint, read.trusted}, command.run,
-                         started, ended);
+    monitor::run_monitor(read.config, read.population(), read.result, command.run, started, ended);
   } catch (const monitor::StoreError& error) {
     throw MachineError(error.what());
   }

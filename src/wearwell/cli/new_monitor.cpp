@@ -87,7 +87,7 @@ kind = "stdin"            # which a service does not have
 # broker = "mqtts://broker:8883"
 # topic  = "plant/wear"   # "plant/{{unit}}/wear": the topic names the {0}; then reading.unit is left out
 # [source.post]
-# kind   = "http"         # POST /api/readings
+# kind   = "http"         # POST /api/v1/readings
 
 # Risk: the probability that {5} reaches {6:.6g} {7} within the horizon.
 [alarm]

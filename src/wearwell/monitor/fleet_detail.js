@@ -191,7 +191,7 @@
   async function load() {
     const mine = ++serial, unit = opened;
     try {
-      const view = await wearwell.ask(`/api/units/${encodeURIComponent(unit)}`);
+      const view = await wearwell.ask(`/api/v1/units/${encodeURIComponent(unit)}`);
       if (mine === serial) draw(view);
     } catch (error) {
       if (mine !== serial) return;

@@ -91,7 +91,7 @@
       message.className = 'note';
       message.textContent = 'Sending';
       try {
-        const answer = await wearwell.send(`/api/units/${encodeURIComponent(unit)}/events`, bodyOf(form));
+        const answer = await wearwell.send(`/api/v1/units/${encodeURIComponent(unit)}/events`, bodyOf(form));
         message.textContent = answer.events ? 'Stored. The forecast follows in a moment.' : answer.problem || 'This event is stored already.';
         choose();
         document.activeElement?.blur();  // the list above may change again

@@ -12,7 +12,7 @@
 
   const height = () => (phone.matches ? 74 : 46);
   const unit = (i) => pages.get(Math.floor(i / page))?.[i % page];
-  const path = (number) => `/api/units?search=${encodeURIComponent(search.value)}&offset=${number * page}&count=${page}`;
+  const path = (number) => `/api/v1/units?search=${encodeURIComponent(search.value)}&offset=${number * page}&count=${page}`;
 
   // Position of a life relative to the horizon: the horizon in the middle, infinity at the right.
   const place = (x) => (x === null ? 100 : 100 * Math.max(0, x) / (Math.max(0, x) + fleet.horizon || 1));

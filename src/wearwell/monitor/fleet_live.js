@@ -96,7 +96,7 @@
   // If no event stream is free, the page polls.
   async function poll() {
     try {
-      news(await wearwell.ask('/api/fleet'), true, []);
+      news(await wearwell.ask('/api/v1/fleet'), true, []);
       alive();
     } catch {
       cut();
@@ -105,7 +105,7 @@
 
   function listen() {
     source?.close();
-    source = new EventSource('/api/events');
+    source = new EventSource('/api/v1/events');
     source.addEventListener('open', () => {
       clearInterval(polling);
       polling = 0;
@@ -161,7 +161,7 @@
 
   async function begin() {
     try {
-      take(await wearwell.ask('/api/fleet'));
+      take(await wearwell.ask('/api/v1/fleet'));
       const first = await wearwell.list.begin(fleet);
       if (!chosen() && wide.matches && first !== undefined) history.replaceState(null, '', `#unit=${encodeURIComponent(first)}`);
       show();

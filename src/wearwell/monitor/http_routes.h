@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "wearwell/monitor/fleet_metrics.h"
 #include "wearwell/monitor/fleet_page.h"
@@ -12,11 +14,20 @@
 
 namespace wearwell::monitor {
 
+/// A path of the server, "/api/v1/units/{name}", its methods, "GET, HEAD", and the role that it
+/// needs (HttpRole; 0: none).
+struct HttpRoute {
+  std::string_view path, methods;
+  unsigned role;
+};
+
 /// The routes and their answers (docs/reference/monitor-api.md). Any thread may ask.
 class HttpRoutes {
  public:
   /// `readings`, `events`: null if these are not accepted by HTTP.
   HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* readings, Inbox* events);
+
+  static std::span<const HttpRoute> list();
 
   /// The header is enough to refuse a request: sender, path and method, type of body.
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
@@ -40,6 +51,7 @@ class HttpRoutes {
   HttpResponse page(const HttpRequest& question) const;
   HttpResponse login(const HttpRequest& question) const;
   HttpResponse units(const HttpTarget& target) const;
+  HttpResponse fits(const HttpTarget& target) const;
   HttpResponse unit(const std::string& encoded) const;
   HttpResponse readings(const std::string& body) const;
   HttpResponse event_of_unit(const std::string& encoded, const std::string& body) const;

@@ -53,7 +53,7 @@ std::optional<HttpTls> tls_of(const HttpSettings& settings) {
 void check_reach(const HttpSettings& settings, const Tcp::endpoint& endpoint) {
   if (endpoint.address().is_loopback()) return;
   std::string missing;
-  if (settings.token.empty()) missing = "a token";
+  if (!settings.needs_token()) missing = "a token";
   if (settings.certificate.empty()) {
     missing += missing.empty() ? "" : " and ";
     missing += "TLS (certificate and key)";

@@ -6,6 +6,7 @@
 /// hexadecimal digits.
 namespace wearwell::resource {
 
+std::string_view monitor_openapi();
 std::string_view monitor_html();
 std::string_view monitor_css();
 std::string_view monitor_css_sha256();
