@@ -241,17 +241,17 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
     const double limit = content == "other" ? 900 : 1000;
     return {std::make_shared<const GrowthTracker>(4, limit), content, content != "doubtful", 7};
   };
-  FitExchange exchange({result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1},
-                       [&](const Population& population) -> std::shared_ptr<Fleet> {
-                         FleetSettings settings;
-                         settings.population = population.fingerprint;
-                         settings.beside = true;
-                         static std::vector<std::shared_ptr<const prognosis::Tracker>> alive;
-                         alive.push_back(population.tracker);
-                         return std::make_shared<Fleet>(*population.tracker, *store_, *tally_,
-                                                        quiet_, settings);
-                       },
-                       quiet_, [&] { ++woken; });
+  FitExchange exchange(
+      {result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1},
+      [&](const Population& population) -> std::shared_ptr<Fleet> {
+        FleetSettings settings;
+        settings.population = population.fingerprint;
+        settings.beside = true;
+        static std::vector<std::shared_ptr<const prognosis::Tracker>> alive;
+        alive.push_back(population.tracker);
+        return std::make_shared<Fleet>(*population.tracker, *store_, *tally_, quiet_, settings);
+      },
+      quiet_, [&] { ++woken; });
   const auto eventually = [](const auto& holds) {
     for (int i = 0; i < 400 && !holds(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(25));

@@ -20,7 +20,9 @@ std::string shown(const Fields& fields) {
     } else if (each.kind == Field::Kind::text) {
       text += "'" + each.text + "'";
     } else {
-      text += each.kind == Field::Kind::flag ? "flag" : each.kind == Field::Kind::null ? "null" : "list";
+      text += each.kind == Field::Kind::flag   ? "flag"
+              : each.kind == Field::Kind::null ? "null"
+                                               : "list";
     }
     text += ";";
   }
@@ -54,8 +56,10 @@ TEST(InfluxLines, AreReadAsInfluxDBDoes) {
                           "'fieldValue';{timestamp}=1556813561098;"));
   EXPECT_THAT(influx("m f=1,g=-1.5e1,h=12485903i,i=7u,j=t,k=FALSE").rows,
               ElementsAre("{measurement}='m';f=1;g=-15;h=12485903;i=7;j=flag;k=flag;"));
-  EXPECT_THAT(influx(R"(my\ Measurement,tag\ Key=a\,b\=c fie\=ld="string \"value\", a=b \\ c" )").rows,
-              ElementsAre(R"({measurement}='my Measurement';tag Key='a,b=c';fie=ld='string "value", a=b \ c';)"));
+  EXPECT_THAT(
+      influx(R"(my\ Measurement,tag\ Key=a\,b\=c fie\=ld="string \"value\", a=b \\ c" )").rows,
+      ElementsAre(
+          R"({measurement}='my Measurement';tag Key='a,b=c';fie=ld='string "value", a=b \ c';)"));
   EXPECT_THAT(influx("# a comment\nm a=1\r\n\n  m a=2.5\n").rows,
               ElementsAre("{measurement}='m';a=1;", "{measurement}='m';a=2.500000;"));
 }
@@ -141,7 +145,8 @@ TEST(OpcUaMessages, RefuseWhatCannotBeAReading) {
   EXPECT_THAT(problem(R"({"Status": 2147483648, "Payload": {"a": 1}})"), HasSubstr("bad status"));
   EXPECT_THAT(problem(R"({"a": 1})"), HasSubstr("neither Messages nor Payload"));
   EXPECT_THAT(problem(R"({"Payload": 5})"), HasSubstr("no Payload with fields"));
-  EXPECT_THAT(problem(R"({"Timestamp": "yesterday", "Payload": {"a": 1}})"), HasSubstr("Timestamp"));
+  EXPECT_THAT(problem(R"({"Timestamp": "yesterday", "Payload": {"a": 1}})"),
+              HasSubstr("Timestamp"));
   EXPECT_THAT(problem(R"({"Payload": {"a": 1, "a": 2}})"), HasSubstr("has 'a' twice"));
   EXPECT_EQ(problem("{"), "is not JSON");
   EXPECT_EQ(problem("5"), "is not a message of OPC UA PubSub");
@@ -151,7 +156,8 @@ TEST(OpcUaMessages, RefuseWhatCannotBeAReading) {
 // Whatever comes is read or refused.
 TEST(ForeignMessages, SurviveMutations) {
   Rng rng(3, 1);
-  const std::string sources[] = {key_frame, R"(m\ x,tag=a\,b f=1.5,g="a \"b\"",h=3i 1700000000000000000)"};
+  const std::string sources[] = {key_frame,
+                                 R"(m\ x,tag=a\,b f=1.5,g="a \"b\"",h=3i 1700000000000000000)"};
   for (int round = 0; round < 20'000; ++round) {
     std::string text = sources[round % 2];
     const int changes = 1 + static_cast<int>(rng.uniform() * 6);

@@ -116,7 +116,8 @@ class GrowthTracker : public prognosis::Tracker {
     limit_.value = limit;
   }
   std::string refusal(const std::string& unit) const override {
-    return !refused_.empty() && unit == refused_ ? "'" + unit + "' is not a unit of this study" : "";
+    return !refused_.empty() && unit == refused_ ? "'" + unit + "' is not a unit of this study"
+                                                 : "";
   }
   std::span<const prognosis::ReadingColumn> columns() const override { return columns_; }
   std::span<const std::string> labels() const override { return {}; }

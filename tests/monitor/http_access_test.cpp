@@ -94,8 +94,8 @@ TEST_F(HttpAccessTest, ATokenIsAskedForEverywhere) {
   const HttpServer server(settings_of(token), fleet_, &fleet_);
   const unsigned short port = server.port();
   const std::string bearer = "Authorization: Bearer " + token + "\r\n";
-  for (const char* path :
-       {"/api/v1/fleet", "/api/v1/units", "/api/v1/units/M1010", "/api/v1/events", "/metrics", "/nothing"}) {
+  for (const char* path : {"/api/v1/fleet", "/api/v1/units", "/api/v1/units/M1010",
+                           "/api/v1/events", "/metrics", "/nothing"}) {
     const HttpReply refused = get(port, path);
     EXPECT_EQ(refused.status, 401) << path;
     EXPECT_THAT(refused.field("WWW-Authenticate"), StartsWith("Bearer")) << path;
@@ -150,6 +150,44 @@ TEST_F(HttpAccessTest, ACookieEndsWithItsTimeAndItsToken) {
   EXPECT_TRUE(access.roles(question, 1000 + month));
   EXPECT_FALSE(access.roles(question, 1001 + month));
   EXPECT_FALSE(HttpAccess(settings_of(token + "2"), {}).roles(question, 1000));
+}
+
+// Each token may do what its roles say, by its header and by its cookie.
+TEST_F(HttpAccessTest, TokensHaveRoles) {
+  HttpSettings settings = settings_of(token);
+  settings.port = 0;
+  const std::string reads = "reads-0123456789", writes = "writes-0123456789",
+                    operates = "operates-0123456789";
+  settings.tokens = {{"a", reads, role_read},
+                     {"b", writes, role_write},
+                     {"c", operates, role_read | role_operate}};
+  GeneratedFleet fleet(20);
+  HttpServer server(settings, fleet, &fleet, &fleet);
+  const unsigned short port = server.port();
+  const auto bearer = [](const std::string& of) { return "Authorization: Bearer " + of + "\r\n"; };
+  const std::string reading = R"({"unit": "M1010", "at": 5000, "wear": 31.5})";
+  const std::string path = "/api/v1/units/M1010/events";
+  struct Expected {
+    std::string token;
+    int read, write, operate;
+  };
+  for (const Expected& each : {Expected{token, 200, 200, 400}, Expected{reads, 200, 403, 403},
+                               Expected{writes, 403, 200, 403}, Expected{operates, 200, 403, 400},
+                               Expected{"nobody-0123456789", 401, 401, 401}}) {
+    const std::string field = bearer(each.token);
+    EXPECT_EQ(get(port, "/api/v1/fleet", field).status, each.read) << each.token;
+    EXPECT_EQ(get(port, "/metrics", field).status, each.read) << each.token;
+    EXPECT_EQ(post(port, "/api/v1/readings", reading, field).status, each.write) << each.token;
+    EXPECT_EQ(post(port, path, "{}", field).status, each.operate) << each.token;
+    EXPECT_EQ(get(port, "/health", field).status, 200);
+  }
+  EXPECT_THAT(post(port, path, "{}", bearer(reads)).body,
+              HasSubstr("this needs the role operate; the token has read"));
+  EXPECT_EQ(post(port, "/login", "token=" + writes).status, 403);
+  const std::string cookie = post(port, "/login", "token=" + reads).field("Set-Cookie");
+  const std::string field = "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n";
+  EXPECT_EQ(get(port, "/api/v1/fleet", field).status, 200);
+  EXPECT_EQ(post(port, path, "{}", field).status, 403);
 }
 
 TEST_F(HttpAccessTest, BeyondLoopbackATokenAndTlsMustBe) {

@@ -163,8 +163,9 @@ TEST_F(HttpServerTest, TakesReadingsOrSaysWhyNot) {
   EXPECT_EQ(std::string(json::parse(partly.body)["problem"]), "\"nonsense\" is no reading");
 
   EXPECT_EQ(post("nonsense").status, 400);
-  EXPECT_EQ(ask(server_.port(), request_of("POST /api/v1/readings", "Content-Length: 0\r\n")).status,
-            400);
+  EXPECT_EQ(
+      ask(server_.port(), request_of("POST /api/v1/readings", "Content-Length: 0\r\n")).status,
+      400);
   EXPECT_EQ(post(reading, "Content-Type: multipart/form-data\r\n").status, 415);
   EXPECT_EQ(post(reading, "Content-Encoding: gzip\r\n").status, 415);
 
@@ -224,7 +225,9 @@ TEST_F(HttpServerTest, AnswersManyAtOnce) {
     clients.emplace_back([&, i] {
       HttpClient client(server_.port());
       for (int j = 0; j < 100; ++j) {
-        const char* target = (i + j) % 3 == 0 ? "/api/v1/units" : (i + j) % 3 == 1 ? "/metrics" : "/";
+        const char* target = (i + j) % 3 == 0   ? "/api/v1/units"
+                             : (i + j) % 3 == 1 ? "/metrics"
+                                                : "/";
         client.send(request_of(std::string("GET ") + target));
         if (client.reply().status != 200) ++wrong;
         fleet_.advance();
@@ -456,9 +459,12 @@ TEST_F(HttpServerTest, BearsWhatIsNoRequest) {
 TEST_F(HttpServerTest, BearsRequestsThatAreChangedAtRandom) {
   std::mt19937 engine(5);
   const std::vector<std::string> seeds = {
-      request_of("POST /api/v1/readings", "Content-Type: text/csv\r\n", "unit,at,wear\nM1010,1,2\n"),
-      request_of("GET /api/v1/units?search=a%20b&offset=3&count=9", "Cookie: a=b; wearwell=1.2\r\n"),
-      request_of("GET /api/v1/units/M%31010", "If-None-Match: \"x\"\r\nOrigin: http://localhost\r\n"),
+      request_of("POST /api/v1/readings", "Content-Type: text/csv\r\n",
+                 "unit,at,wear\nM1010,1,2\n"),
+      request_of("GET /api/v1/units?search=a%20b&offset=3&count=9",
+                 "Cookie: a=b; wearwell=1.2\r\n"),
+      request_of("GET /api/v1/units/M%31010",
+                 "If-None-Match: \"x\"\r\nOrigin: http://localhost\r\n"),
       "POST /api/v1/readings HTTP/1.1\r\nHost: [::1]:80\r\nTransfer-Encoding: chunked\r\n\r\n"
       "3\r\nabc\r\n0\r\n\r\n"};
   for (int i = 0; i < 3000; ++i) {

@@ -17,7 +17,8 @@ class JsonSchema {
   explicit JsonSchema(const nlohmann::json& document) : document_(document) {}
 
   /// Why a value is not as described; empty if it is.
-  std::vector<std::string> problems(const nlohmann::json& schema, const nlohmann::json& value) const {
+  std::vector<std::string> problems(const nlohmann::json& schema,
+                                    const nlohmann::json& value) const {
     std::vector<std::string> found;
     check(schema, value, "", found);
     return found;
@@ -40,12 +41,14 @@ class JsonSchema {
              std::vector<std::string>& found) const {
     for (const auto& [key, rule] : schema.items()) {
       if (key == "$ref") {
-        check(document_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value, place, found);
+        check(document_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value, place,
+              found);
       } else if (key == "type") {
         const Json types = rule.is_array() ? rule : Json::array({rule});
         if (std::none_of(types.begin(), types.end(),
                          [&](const Json& type) { return is_type(type, value); }))
-          found.push_back(fmt::format("{}: {} is not of type {}", place, value.dump(), rule.dump()));
+          found.push_back(
+              fmt::format("{}: {} is not of type {}", place, value.dump(), rule.dump()));
       } else if (key == "enum") {
         if (std::find(rule.begin(), rule.end(), value) == rule.end())
           found.push_back(fmt::format("{}: {} is none of {}", place, value.dump(), rule.dump()));

@@ -30,7 +30,8 @@ class OpenApi : public testing::Test {
     const json& answer = answers.contains(code) ? answers[code] : answers.at("default");
     return answer.at("content").at("application/json").at("schema");
   }
-  void expect_described(const std::string& path, const std::string& method, const HttpReply& reply) {
+  void expect_described(const std::string& path, const std::string& method,
+                        const HttpReply& reply) {
     const json body = json::parse(reply.body);
     EXPECT_THAT(JsonSchema(description_).problems(schema_of(path, method, reply.status), body),
                 IsEmpty())
@@ -63,8 +64,8 @@ TEST_F(OpenApi, HasAllRoutesAndNoOther) {
       std::string target = path;
       if (const auto at = target.find("{name}"); at != target.npos) target.replace(at, 6, "M1020");
       if (target == "/api/v1/events") continue;  // it does not end
-      const int status =
-          method == "get" ? get(server_.port(), target).status : post(server_.port(), target, "{").status;
+      const int status = method == "get" ? get(server_.port(), target).status
+                                         : post(server_.port(), target, "{").status;
       EXPECT_NE(status, 404) << target;
       EXPECT_NE(status, 405) << target;
       const json& answers = operation["responses"];
@@ -84,7 +85,8 @@ TEST_F(OpenApi, DescribesEveryAnswer) {
     expect_described("/api/v1/units/{name}", "get", get(server_.port(), "/api/v1/units/" + name));
   }
   expect_described("/api/v1/units/{name}", "get", get(server_.port(), "/api/v1/units/none"));
-  expect_described("/api/v1/fleet", "get", get(server_.port(), "/api/v1/fleet", "Origin: http://x.y\r\n"));
+  expect_described("/api/v1/fleet", "get",
+                   get(server_.port(), "/api/v1/fleet", "Origin: http://x.y\r\n"));
   expect_described("/api/v1/units", "get", get(server_.port(), "/api/v1/units?count=x"));
   const std::string reading = R"({"unit": "M1020", "at": 5000, "wear": 31.5})";
   expect_described("/api/v1/readings", "post", post(server_.port(), "/api/v1/readings", reading));
@@ -107,8 +109,9 @@ TEST_F(OpenApi, DescribesTheStream) {
     text = client.until("\n\n");
   } while (text.find("event: fleet") == text.npos);
   const json data = json::parse(text.substr(text.find("data: ") + 6));
-  EXPECT_THAT(JsonSchema(description_).problems(description_["components"]["schemas"]["Change"], data),
-              IsEmpty());
+  EXPECT_THAT(
+      JsonSchema(description_).problems(description_["components"]["schemas"]["Change"], data),
+      IsEmpty());
 }
 
 // The check itself finds what is wrong.
@@ -127,7 +130,10 @@ TEST_F(OpenApi, IsCheckedStrictly) {
   EXPECT_EQ(with([](json& each) { each["units"]["act"] = "3"; }), 1U);
   EXPECT_EQ(with([](json& each) { each["keys"] = "other"; }), 1U);
   EXPECT_EQ(with([](json& each) { each["webhook"]["sent"] = 1.5; }), 1U);
-  EXPECT_EQ(with([](json& each) { each["columns"] = json::array({{{"name", 5}, {"unit", nullptr}}}); }), 1U);
+  EXPECT_EQ(with([](json& each) {
+              each["columns"] = json::array({{{"name", 5}, {"unit", nullptr}}});
+            }),
+            1U);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
       wearwell.badge(each.alarm, wearwell.stateOf(each)),
-      element('span', {class: 'name'}, each.unit),
+      element('span', {class: 'name'}, each.unit, each.acknowledged_by ? element('span', {class: 'note'}, ` acknowledged: ${each.acknowledged_by}`) : null),
       element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
       element('span', {class: past ? 'life past' : 'life'}, past || !each.known || each.doubt ? null : interval(each.remaining),
               element('span', {class: 'unseen'}, 'remaining useful life '), element('span', {class: 'range'}, life)),

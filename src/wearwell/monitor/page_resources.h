@@ -18,6 +18,8 @@ std::string_view monitor_list_js();
 std::string_view monitor_list_js_sha256();
 std::string_view monitor_events_js();
 std::string_view monitor_events_js_sha256();
+std::string_view monitor_fits_js();
+std::string_view monitor_fits_js_sha256();
 std::string_view monitor_detail_js();
 std::string_view monitor_detail_js_sha256();
 std::string_view monitor_live_js();
