@@ -1,10 +1,19 @@
 // Another fit takes the place of the running one: forecasts move, and nothing else does.
 #include <gmock/gmock.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
 #include "monitor/fleet_rig.h"
+#include "support/disk_content.h"
+#include "wearwell/base/error.h"
+#include "wearwell/base/rng.h"
 #include "wearwell/base/sha1.h"
 #include "wearwell/monitor/current_fleet.h"
 #include "wearwell/monitor/fit_exchange.h"
@@ -274,6 +283,166 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
   EXPECT_EQ(ready->population.fingerprint, "second");
   EXPECT_EQ(ready->fleet->fleet().units, 1U);
   EXPECT_FALSE(exchange.ready());
+}
+
+/// A whole monitor in a process of its own, over a folder of files and a folder of results.
+class RunningMonitors : public FleetRig {
+ protected:
+  MonitorConfig config(const std::string& store) {
+    MonitorConfig config;
+    config.folder = folder();
+    config.store = store;
+    config.sequence = true;
+    config.alarm = alarm_;
+    SourceSettings files = source();
+    files.kind = SourceKind::folder;
+    files.folder = folder() / "incoming";
+    config.sources = {files};
+    return config;
+  }
+  std::filesystem::path result() const { return folder() / "result"; }
+  /// "2" is a fit with a mean rate of 2 m/h.
+  void put_result(int rate) {
+    std::filesystem::create_directories(result());
+    const std::string content = std::to_string(rate);
+    write("result/new.bin", content);
+    write("result/new.sha1", sha1_of(content) + "  state.bin\n");
+    // One after the other: a monitor may look in between.
+    std::filesystem::rename(result() / "new.bin", result() / "state.bin");
+    std::filesystem::rename(result() / "new.sha1", result() / "results.sha1");
+  }
+  ResultSource source_of_results() const {
+    return {result(), [file = result() / "state.bin"] {
+              std::ifstream stream(file);
+              int rate = 0;
+              stream >> rate;
+              if (!stream) throw InputError("state.bin is damaged");
+              return Population{std::make_shared<const GrowthTracker>(rate),
+                                "fit-" + std::to_string(rate), true, 0};
+            }};
+  }
+  pid_t start(const std::string& store, bool once = false) {
+    const MonitorConfig own = config(store);
+    const ResultSource from = source_of_results();
+    const std::string log = (folder() / "log").string();
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (!std::freopen(log.c_str(), "a", stderr)) _exit(4);
+    try {
+      run_monitor(
+          own, from.read(), from, {once, 1}, [](const FleetReader&, const std::string&) {},
+          [](const FleetReader&) {});
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      _exit(2);
+    }
+    _exit(0);
+  }
+  static int end(pid_t child, int signal) {
+    if (signal) kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  template <class Holds>
+  static bool eventually(const Holds& holds) {
+    for (int i = 0; i < 1200; ++i) {
+      if (holds()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    }
+    return false;
+  }
+  std::unique_ptr<Store> look(const std::string& store) {
+    return open_store(store, folder(), columns(), Access::read);
+  }
+  std::string population(const std::string& store) {
+    try {
+      const auto fits = look(store)->fits();
+      return fits.empty() ? "" : fits.back().population;
+    } catch (const std::exception&) {
+      return {};
+    }
+  }
+  /// All readings and all states of a fit, without when they came.
+  std::string known(const std::string& store, int rate) {
+    const auto at = look(store);
+    const GrowthTracker tracker(rate);
+    std::map<std::string, std::string> all;
+    for (const StoredReading& each : at->after(0, SIZE_MAX / 2))
+      all[each.unit] += fmt::format("{} {};", each.key, json_of(each.numbers));
+    const EventsOfUnits events = events_of_units(*at, tracker);
+    for (const Checkpoint& each : at->states("fit-" + std::to_string(rate))) {
+      UnitRecord record = restored_record(each, tracker, events_of(events, each.unit));
+      record.last_received_ms = 0;
+      for (UnitMoment& moment : record.moments) moment.time_ms = 0;
+      all[each.unit] += bytes_of(record);
+    }
+    std::string text;
+    for (const auto& [unit, bits] : all) text += unit + bits;
+    return text;
+  }
+  void send(int round) {
+    std::ofstream file(folder() / "incoming" / "a.jsonl", std::ios::app);
+    for (int i = 0; i < 8; ++i)
+      file << message("m" + std::to_string(i), round, (10 + i) * round, 10.0 * round) << "\n";
+  }
+};
+
+TEST_F(RunningMonitors, TakeAnotherFit) {
+  std::filesystem::create_directories(folder() / "incoming");
+  put_result(1);
+  send(1);
+  const pid_t child = start("fleet.sqlite");
+  ASSERT_TRUE(eventually([&] { return population("fleet.sqlite") == "fit-1"; }));
+  put_result(3);
+  ASSERT_TRUE(eventually([&] { return population("fleet.sqlite") == "fit-3"; }));
+  // Half written: refused, and the present one goes on.
+  write("result/state.bin", "4");
+  ASSERT_TRUE(eventually(
+      [&] { return content(folder() / "log").find("half written") != std::string::npos; }));
+  send(2);
+  ASSERT_TRUE(eventually([&] { return look("fleet.sqlite")->count() == 16; }));
+  EXPECT_EQ(population("fleet.sqlite"), "fit-3");
+  // SIGHUP looks at once, also at what has not changed.
+  put_result(3);
+  kill(child, SIGHUP);
+  ASSERT_TRUE(eventually([&] {
+    return content(folder() / "log").find("has the fit fit-3 that forecasts come from") !=
+           std::string::npos;
+  }));
+  EXPECT_EQ(end(child, SIGTERM), 0);
+  const auto fits = look("fleet.sqlite")->fits();
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_EQ(look("fleet.sqlite")->moved(fits[1].number).size(), 8U);
+  EXPECT_EQ(look("fleet.sqlite")->states("fit-3").size(), 8U);
+  EXPECT_THAT(content(folder() / "log"), HasSubstr("8 units; the median remaining useful life of"));
+}
+
+// Killed at any moment of exchanges: readings and states are in the end what they are without.
+TEST_F(RunningMonitors, LoseNothingAmongExchangesAndKills) {
+  std::filesystem::create_directories(folder() / "incoming");
+  const char* many = std::getenv("WEARWELL_KILLS");
+  const int kills = many ? std::atoi(many) : 8;
+  Rng rng(5, 1);
+  for (int i = 1; i <= kills; ++i) {
+    if (i == 1) put_result(1);
+    const pid_t child = start("fleet.sqlite");
+    send(i);
+    std::this_thread::sleep_for(std::chrono::duration<double>(0.4 * rng.uniform()));
+    put_result(1 + i % 3);
+    std::this_thread::sleep_for(std::chrono::duration<double>(2 * rng.uniform()));
+    EXPECT_EQ(end(child, SIGKILL), -1);
+  }
+  put_result(5);
+  const pid_t child = start("fleet.sqlite");
+  const auto all = static_cast<std::uint64_t>(8 * kills);
+  ASSERT_TRUE(eventually([&] { return look("fleet.sqlite")->count() == all; }));
+  put_result(6);
+  ASSERT_TRUE(eventually([&] { return population("fleet.sqlite") == "fit-6"; }));
+  EXPECT_EQ(end(child, SIGTERM), 0) << content(folder() / "log");
+  EXPECT_EQ(end(start("undisturbed.sqlite", true), 0), 0) << content(folder() / "log");
+  EXPECT_EQ(look("fleet.sqlite")->states("fit-6").size(), 8U);
+  EXPECT_TRUE(known("fleet.sqlite", 6) == known("undisturbed.sqlite", 6));
 }
 
 }  // namespace

@@ -320,7 +320,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   const StoreColumns columns{{"wear", "time"}, {"site"}, true};
   // Who only reads changes nothing, and another result's columns neither.
   EXPECT_THAT(message_of<InputError>([&] { open(columns, Access::read); }),
-              HasSubstr("is a store of version 1, and this wearwell reads version 3"));
+              HasSubstr("is a store of version 1, and this wearwell reads version 4"));
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear"}, {"site"}, true});
               }),
@@ -328,7 +328,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   std::vector<std::string> reported;
   const auto tell = [&](const std::string& what) { reported.push_back(what); };
   auto store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 3")));
+  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 4")));
   EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
   ASSERT_EQ(store->states("p").size(), 1U);
   EXPECT_EQ(store->states("p")[0].bytes, "old");
@@ -342,6 +342,10 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   store->log({{"a", 9, Alarm::act, 0.5, 8}});
   EXPECT_EQ(store->alarms()[0].place, 8);
   EXPECT_THAT(store->add({reading("a", 4, 1)}), ElementsAre(Kept::stored));
+  store->begin_fit({0, "p", 5, 0, true}, {});
+  store->note_sent("a", Alarm::act, 9);
+  EXPECT_EQ(store->fits().size(), 1U);
+  EXPECT_EQ(store->sent_alarms().size(), 1U);
   EXPECT_GT(store->after(7, 1)[0].place, 7);
   store = nullptr;
   store = open_store(url(), folder(), columns, Access::write, tell);
@@ -368,12 +372,12 @@ TEST_P(OldStores, StayAsTheyWereWhereAStepFails) {
 TEST_P(OldStores, OfLaterVersionsAreRefused) {
   if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
   run(old_tables());
-  for (const char* version : {"4", "0", "-1", "2.5", "", "two"}) {
+  for (const char* version : {"5", "0", "-1", "2.5", "", "two"}) {
     run(fmt::format("UPDATE wearwell SET value = '{}' WHERE name = 'version';", version));
     if (server_ && !*version) continue;  // no store at all
     EXPECT_THAT(message_of<InputError>([&] { open(); }),
                 HasSubstr(fmt::format("is a store of version '{}'; this wearwell reads versions 1 "
-                                      "to 3",
+                                      "to 4",
                                       version)));
   }
 }
