@@ -6,7 +6,7 @@
 #include "monitor/generated_fleet.h"
 #include "monitor/http_client.h"
 #include "monitor/json_schema.h"
-#include "wearwell/monitor/http_routes.h"
+#include "wearwell/monitor/http_route.h"
 #include "wearwell/monitor/http_server.h"
 
 namespace wearwell::monitor {
@@ -49,7 +49,7 @@ TEST_F(OpenApi, HasAllRoutesAndNoOther) {
   for (const auto& [path, methods] : description_["paths"].items()) {
     for (const auto& [method, operation] : methods.items()) described.insert(method + " " + path);
   }
-  for (const HttpRoute& each : HttpRoutes::list()) {
+  for (const HttpRoute& each : http_routes()) {
     for (const char* method : {"GET", "POST"}) {
       if (each.methods.find(method) == std::string_view::npos) continue;
       std::string name = method;

@@ -20,7 +20,7 @@ monitor::Population population_in(const std::filesystem::path& result, Models mo
 }  // namespace
 
 monitor::Population MonitoredFleet::population() const {
-  return {tracker, fingerprint, trusted, monitor::written_ms(result.folder)};
+  return {tracker, fingerprint, trusted, written_ms};
 }
 
 MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models models) {
@@ -34,6 +34,7 @@ MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models model
   fleet.tracker = population.tracker;
   fleet.fingerprint = population.fingerprint;
   fleet.trusted = population.trusted;
+  fleet.written_ms = population.written_ms;
   fleet.config = monitor::read_monitor_config(root, *fleet.tracker);
   return fleet;
 }

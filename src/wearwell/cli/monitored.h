@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@ struct MonitoredFleet {
   std::shared_ptr<const prognosis::Tracker> tracker;
   std::string fingerprint;  ///< of the fit
   bool trusted = true;
+  std::int64_t written_ms = 0;  ///< Unix time of its file
   monitor::MonitorConfig config;
   monitor::ResultSource result;  ///< from which another fit may come; refers to the models
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "wearwell/monitor/source.h"
 
@@ -32,8 +33,11 @@ std::optional<FitExchange::Ready> FitExchange::ready() {
 
 void FitExchange::watch(const std::stop_token& stop) {
   constexpr auto between = std::chrono::milliseconds(500);
+  // Another one may have come between the start and the first look.
+  bool changed_before = written_ms(source_.folder) != present_.written_ms;
   while (pause(between, stop)) {
-    const bool changed = watch_.changed(), asked = requested_.exchange(false);
+    const bool changed = watch_.changed() || std::exchange(changed_before, false);
+    const bool asked = requested_.exchange(false);
     if (!changed && !asked) continue;
     if (asked) watch_.reset();
     try {

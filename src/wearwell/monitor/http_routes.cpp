@@ -21,45 +21,8 @@ constexpr std::size_t units_at_once = 500;
 constexpr std::size_t units_measured = 10'000;
 /// With more changes an event says only that many units changed, not which.
 constexpr std::size_t names_at_once = 200;
-constexpr std::string_view unit_prefix = "/api/v1/units/", events_suffix = "/events";
-
-/// "/api/v1/units/NAME/events"; a slash of a name is encoded.
-bool is_events_of_unit(std::string_view path) {
-  return path.starts_with(unit_prefix) && path.ends_with(events_suffix) &&
-         path.size() > unit_prefix.size() + events_suffix.size();
-}
-
 std::string_view path_of(const HttpRequest& question) {
   return std::string_view(question.target).substr(0, question.target.find('?'));
-}
-
-constexpr HttpRoute routes[] = {
-    {"/", "GET, HEAD", role_read},
-    {"/api/v1/fits", "GET, HEAD", role_read},
-    {"/api/v1/fleet", "GET, HEAD", role_read},
-    {"/api/v1/units", "GET, HEAD", role_read},
-    {"/api/v1/units/{name}/events", "POST", role_operate},
-    {"/api/v1/units/{name}", "GET, HEAD", role_read},
-    {"/api/v1/events", "GET", role_read},
-    {"/api/v1/readings", "POST", role_write},
-    {"/api/v1/openapi.json", "GET, HEAD", role_read},
-    {"/metrics", "GET, HEAD", role_read},
-    {"/health", "GET, HEAD", 0},
-    {"/login", "GET, HEAD, POST", 0},
-    {"/logout", "POST", role_all},
-};
-
-/// The route of a path; null if there is none.
-const HttpRoute* route_of(std::string_view path) {
-  const bool events = is_events_of_unit(path);
-  const bool unit = !events && path.starts_with(unit_prefix);
-  const std::string_view pattern = events ? "/api/v1/units/{name}/events"
-                                   : unit ? "/api/v1/units/{name}"
-                                          : path;
-  for (const HttpRoute& each : routes) {
-    if (each.path == pattern) return &each;
-  }
-  return nullptr;
 }
 
 bool is_taken(const std::string& methods, const std::string& method) {
@@ -200,10 +163,6 @@ std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) cons
   return {};
 }
 
-std::span<const HttpRoute> HttpRoutes::list() {
-  return routes;
-}
-
 HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& http) const {
   try {
     const HttpTarget target = http_target(question.target);
@@ -227,11 +186,8 @@ HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& h
     if (path == "/api/v1/openapi.json")
       return {200, "application/json", std::string(resource::monitor_openapi())};
     if (path == "/api/v1/readings") return readings(question.body);
-    if (is_events_of_unit(path)) {
-      const std::size_t around = unit_prefix.size() + events_suffix.size();
-      return event_of_unit(path.substr(unit_prefix.size(), path.size() - around), question.body);
-    }
-    return unit(path.substr(unit_prefix.size()));
+    if (is_events_of_unit(path)) return event_of_unit(unit_in(path), question.body);
+    return unit(unit_in(path));
   } catch (const InputError& error) {
     return refusal(400, error.what());
   } catch (const std::exception& error) {

@@ -1,33 +1,23 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "wearwell/monitor/fleet_metrics.h"
 #include "wearwell/monitor/fleet_page.h"
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/http_access.h"
 #include "wearwell/monitor/http_message.h"
+#include "wearwell/monitor/http_route.h"
 #include "wearwell/monitor/http_target.h"
 
 namespace wearwell::monitor {
-
-/// A path of the server, "/api/v1/units/{name}", its methods, "GET, HEAD", and the role that it
-/// needs (HttpRole; 0: none).
-struct HttpRoute {
-  std::string_view path, methods;
-  unsigned role;
-};
 
 /// The routes and their answers (docs/reference/monitor-api.md). Any thread may ask.
 class HttpRoutes {
  public:
   /// `readings`, `events`: null if these are not accepted by HTTP.
   HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* readings, Inbox* events);
-
-  static std::span<const HttpRoute> list();
 
   /// The header is enough to refuse a request: sender, path and method, type of body.
   std::optional<HttpResponse> refuse(const HttpRequest& question) const;
