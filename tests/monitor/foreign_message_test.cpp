@@ -76,7 +76,9 @@ TEST(InfluxLines, TimesHaveAPrecision) {
     for (const std::int64_t read : precisions) {
       const Outcome outcome = influx("m a=1 " + std::to_string(1'700'000'000 * written), read);
       EXPECT_EQ(outcome.rows.size(), written == read ? 1U : 0U) << written << " " << read;
-      if (written != read) EXPECT_THAT(outcome.problems[0], HasSubstr("source's precision"));
+      if (written != read) {
+        EXPECT_THAT(outcome.problems[0], HasSubstr("source's precision"));
+      }
     }
   }
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <thread>
 
@@ -201,7 +202,7 @@ TEST_F(Webhooks, EndWithoutAnAnswer) {
   }
   EXPECT_EQ(counts.sent, 0U);
   EXPECT_THAT(store_->sent_alarms(), IsEmpty());
-  close(listener);
+  ::close(listener);
 }
 
 }  // namespace

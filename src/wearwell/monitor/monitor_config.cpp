@@ -10,6 +10,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/text_file.h"
+#include "wearwell/monitor/foreign_message.h"
 #include "wearwell/monitor/http_access.h"
 #include "wearwell/monitor/sparkplug_metrics.h"
 #include "wearwell/monitor/sparkplug_topic.h"

@@ -5,6 +5,7 @@
 #include <map>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/notices.h"
