@@ -103,7 +103,7 @@ TEST(InfluxLines, RefuseWhatIsNone) {
   EXPECT_THAT(problem("m a=1 12x"), HasSubstr("has the time '12x'"));
   EXPECT_THAT(problem("m,a=1 a=2"), HasSubstr("has 'a' twice"));
   EXPECT_THAT(problem("m,=1 a=2"), HasSubstr("has an empty name or value"));
-  EXPECT_THAT(problem("{\"a\": 1}"), HasSubstr("has no fields"));
+  EXPECT_THAT(problem("{\"a\": 1}"), HasSubstr("has no value"));
 }
 
 constexpr const char* key_frame = R"({
