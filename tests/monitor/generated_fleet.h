@@ -88,7 +88,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
     view.now_ms = now_ms();
     view.started_ms = started_ms_;
     view.fit = {"0123456789abcdef0123456789abcdef01234567", started_ms_ - 86'400'000, started_ms_};
-    view.webhook = WebhookView{12, 3, 1};
+    view.webhook = WebhookView{12, 3, 0};
     view.last_message_ms = last_ms_;
     return view;
   }
