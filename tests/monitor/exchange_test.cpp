@@ -85,7 +85,7 @@ TEST_F(Exchanges, MoveForecastsAndAlarms) {
   EXPECT_EQ(content_of(kept[1]), content_of(moved[0]));
 }
 
-// An alarm that both fits call for is neither reported again nor begins anew, and stays acknowledged.
+// An alarm that both fits call for is neither reported nor begun again, and stays acknowledged.
 TEST_F(Exchanges, KeepAlarmsThatStay) {
   source_.mapping = plain_mapping(tracker_, false);
   source_.mapping.unit = "machine";

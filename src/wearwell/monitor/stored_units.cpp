@@ -31,8 +31,8 @@ std::map<std::string, UnitRecord> stored_units(Store& store, const Population& p
       auto at = units.find(each.unit);
       if (at == units.end())
         at = units
-                 .emplace(each.unit,
-                          begun_record(each.unit, *population.tracker, events_of(events, each.unit)))
+                 .emplace(each.unit, begun_record(each.unit, *population.tracker,
+                                                  events_of(events, each.unit)))
                  .first;
       if (each.place > at->second.place) take(at->second, each, reported, store);
     }
