@@ -56,7 +56,7 @@ listen = "{url.removeprefix("http://")}"
     try:
         _wait_for(url, process)
         if lines:
-            request = urllib.request.Request(f"{url}/api/readings", data="\n".join(map(json.dumps, lines)).encode())
+            request = urllib.request.Request(f"{url}/api/v1/readings", data="\n".join(map(json.dumps, lines)).encode())
             request.add_header("Content-Type", "application/json")
             if token:
                 request.add_header("Authorization", f"Bearer {token}")

@@ -42,9 +42,9 @@ def until(work):
 def test_answers_are_those_of_the_api(url, fit, lines):  # noqa: F811
     monitor = ww.Monitor(url)
     assert until(lambda: len(monitor.units()) == 2 and monitor.units()["readings"].sum() == 12)
-    assert monitor.fleet()["limit"] == 100 and monitor.fleet()["units"] == answered(url, "/api/fleet")["units"]
+    assert monitor.fleet()["limit"] == 100 and monitor.fleet()["units"] == answered(url, "/api/v1/fleet")["units"]
     units = monitor.units()
-    for each in answered(url, "/api/units")["units"]:
+    for each in answered(url, "/api/v1/units")["units"]:
         row = units.loc[each["unit"]]
         assert [row[f"rul_{q}"] for q in ("q05", "q50", "q95")] == list(each["remaining"].values())
         assert row["risk"] == each["risk"] and row["alarm"] == each["alarm"] and row["at"] == each["at"]

@@ -89,7 +89,7 @@ class Monitor:
         >>> fleet["axis_unit"], fleet["units"]["all"]
         ('h', 2)
         """
-        return self._get("/api/fleet")
+        return self._get("/api/v1/fleet")
 
     def units(self, search=""):
         """All units by risk, highest first.
@@ -125,7 +125,7 @@ class Monitor:
         fleet, rows = self.fleet(), {}
         while True:
             query = urllib.parse.urlencode({"search": search, "offset": len(rows), "count": _at_once})
-            page = self._get(f"/api/units?{query}")
+            page = self._get(f"/api/v1/units?{query}")
             before = len(rows)
             rows.update((each["unit"], _row(each)) for each in page["units"])
             if len(rows) >= page["matching"] or len(rows) == before:
@@ -162,7 +162,7 @@ class Monitor:
         >>> monitor.unit(monitor.units().index[0])["quality"]["readings"]
         3
         """
-        return self._get("/api/units/" + urllib.parse.quote(str(name), safe=""))
+        return self._get("/api/v1/units/" + urllib.parse.quote(str(name), safe=""))
 
     def send(self, readings):
         """Send readings to the store of the monitor.
@@ -213,7 +213,8 @@ class Monitor:
         **fields
             ``by``, who reports it; perhaps ``note``; ``key``, the place among the unit's readings (as in ``moments`` of
             ``unit()``); and by the names of the study's columns what the event needs: the use on the counter, the offset of a
-            sensor, all values of a corrected reading. ``number`` of the event that is cancelled.
+            sensor, all values of a corrected reading. ``number`` of the event that is cancelled, ``alarm_ms`` of the alarm that is
+            acknowledged (both as ``unit()`` has them).
 
         Returns
         -------
@@ -237,7 +238,7 @@ class Monitor:
         1
         """
         body = json.dumps({"event": event, **{key: _plain(value, key, 1) for key, value in fields.items()}}).encode()
-        return self._post(body, f"/api/units/{urllib.parse.quote(str(unit), safe='')}/events")
+        return self._post(body, f"/api/v1/units/{urllib.parse.quote(str(unit), safe='')}/events")
 
     def events(self):
         """Changes as they come.
@@ -262,7 +263,7 @@ class Monitor:
         True
         """
         beat = 10
-        with self._open("/api/events", timeout=self._timeout + 2 * beat) as answer:
+        with self._open("/api/v1/events", timeout=self._timeout + 2 * beat) as answer:
             kind = ""
             for line in _lines(answer, self.url):
                 name, _, value = line.partition(": ")
@@ -292,7 +293,7 @@ class Monitor:
         except urllib.error.HTTPError as error:
             raise self._refusal(error) from None
 
-    def _post(self, body, path="/api/readings"):
+    def _post(self, body, path="/api/v1/readings"):
         try:
             with self._open(path, body) as answer, _reading(self.url):
                 return json.load(answer)

@@ -110,7 +110,7 @@ async function looks(browser, {name, ...options}) {
   check(/more than/.test(await page.textContent('.tiles')), `${name}: an interval without end is not told`);
   await page.screenshot({path: join(screenshots, `monitor-${name}-unheard.png`)});
   // One whose forecast is in doubt: why stands above the forecast.
-  const {units} = await (await fetch(`${address}api/units?count=500`)).json();
+  const {units} = await (await fetch(`${address}api/v1/units?count=500`)).json();
   const doubted = units.find((each) => each.alarm === 'doubt');
   await page.goto(`${address}#unit=${encodeURIComponent(doubted.unit)}`);
   await page.waitForSelector(`#detail[data-unit="${doubted.unit}"] .callout.doubt`);
@@ -131,7 +131,7 @@ async function lively(browser) {
   const page = await open(context, address, complaints);
   await live(page);
   // Machine 20 reports: its plots and the count of messages go on, without a look at anything else.
-  const name = await (await fetch(`${address}api/units?search=M1020`)).json().then(({units}) => units[0].unit);
+  const name = await (await fetch(`${address}api/v1/units?search=M1020`)).json().then(({units}) => units[0].unit);
   await page.goto(`${address}#unit=${name}`);
   await page.waitForSelector(`#detail[data-unit="${name}"] .tally`);
   const before = await page.textContent('#detail .facts');

@@ -65,7 +65,7 @@ async function report(step) {
     lines.push(JSON.stringify({laser: `L${String(i).padStart(2, '0')}`, ts: begin + 60 * step, hours: 250 * step,
                                increase: Number((step * (0.9 - 0.05 * i)).toFixed(3))}));
   }
-  const answer = await fetch(`${address}api/readings`, {method: 'POST', body: lines.join('\n')});
+  const answer = await fetch(`${address}api/v1/readings`, {method: 'POST', body: lines.join('\n')});
   return {status: answer.status, ...await answer.json()};
 }
 
@@ -87,13 +87,13 @@ try {
   }
   const again = await report(10);
   check(again.status === 200 && again.repeated === lasers, 'the same again is not found as repeated');
-  const wrong = await fetch(`${address}api/readings`, {method: 'POST', body: '{"laser": "L00", "hours": "many"}'});
+  const wrong = await fetch(`${address}api/v1/readings`, {method: 'POST', body: '{"laser": "L00", "hours": "many"}'});
   check(wrong.status === 400, `nonsense is answered with ${wrong.status}`);
   // All of it arrives by events, with nobody touching the page.
   const arrived = () => [...document.querySelectorAll('.row')].length === 12 && document.querySelector('.row[id="row-0"]').dataset.unit === 'L00';
   await page.waitForFunction(arrived, null, {timeout: 60000}).catch(() => faults.push('twelve lasers do not show'));
   await page.goto(`${address}#unit=L00`);
-  const known = await fetch(`${address}api/units/L00`).then((answer) => answer.json());
+  const known = await fetch(`${address}api/v1/units/L00`).then((answer) => answer.json());
   const ahead = known.path.filter((each) => each.at > known.at);
   check(ahead.length > 20 && ahead.every((each, i) => each.level.q05 <= each.level.q50 && each.level.q50 <= each.level.q95 &&
                                                       (i === 0 || each.level.q50 >= ahead[i - 1].level.q50)), 'the path ahead is none');
@@ -104,7 +104,7 @@ try {
   check(await page.evaluate(() => document.querySelectorAll('#detail figure').length) === 3, 'not all of three plots are drawn');
   check(/Of 9 earlier forecasts/.test(await page.textContent('.tally')), 'forecasts that were judged are not told');
   const risk = await page.evaluate(() => document.querySelector('.lead').textContent);
-  const view = await (await fetch(`${address}api/units/L00`)).json();
+  const view = await (await fetch(`${address}api/v1/units/L00`)).json();
   check(risk.includes(`${(100 * view.risk).toFixed(0)}\u202f%`) || view.risk > 0.999, `"${risk}", and the risk is ${view.risk}`);
   await page.screenshot({path: join(folder, 'page.png')});
 
@@ -120,13 +120,13 @@ try {
       .catch(() => faults.push('the reported event does not show'));
   check((await page.textContent('.events-list')).includes('A. <b>Smith</b>'), 'who reported it does not show as text');
   check((await page.textContent('.named')).includes('part 2'), 'the part is not named');
-  const replaced = await (await fetch(`${address}api/units/L00`)).json();
+  const replaced = await (await fetch(`${address}api/v1/units/L00`)).json();
   check(replaced.part === 2 && replaced.events[0].use === 2500 && replaced.quality.readings === 0, `part ${replaced.part} after the replacement`);
-  const event = (body) => fetch(`${address}api/units/L00/events`, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
+  const event = (body) => fetch(`${address}api/v1/units/L00/events`, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
   check((await event({event: 'cancelled', number: 1})).status === 400, 'an event that names no one is taken');
   check((await event({event: 'cancelled', number: 1, by: 'x'})).status === 200, 'an event cannot be cancelled');
   await page.waitForFunction(() => document.querySelector('.events-list li.cancelled'), null, {timeout: 60000}).catch(() => faults.push('a cancelled event does not show'));
-  const back = await (await fetch(`${address}api/units/L00`)).json();
+  const back = await (await fetch(`${address}api/v1/units/L00`)).json();
   check(back.part === 1 && back.risk === view.risk && back.quality.readings === 10, 'a cancelled event changes the forecast');
   await page.screenshot({path: join(folder, 'events.png'), fullPage: true});
 } finally {

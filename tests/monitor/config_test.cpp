@@ -199,5 +199,104 @@ TEST_F(Configs, OfSparkplug) {
   EXPECT_THAT(refusal_of(text, "Hall 2", "a/b"), HasSubstr("'a/b' is not a level of a topic"));
 }
 
+TEST_F(Configs, AllProblemsAreReportedTogether) {
+  std::string text = good;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, text.npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  replace("horizon = \"2 h\"\n", "");
+  replace("kind = \"stdin\"", "kind = \"mqtt\"");
+  text +=
+      "[source.second]\nkind = \"folder\"\nfolder = \"none\"\n[http]\ntoken = "
+      "\"short\"\n[webhook]\n"
+      "url = \"ftp://x\"\n[limits]\nunits = 0\n[store]\nurl = \"redis://x\"\n";
+  const std::string message = message_of<InputError>([&] { read(text); });
+  for (const char* each : {"horizon", "broker", "no such file or folder", "16 random ones",
+                           "https://HOST/PATH", "units", "neither a file nor postgresql"})
+    EXPECT_THAT(message, HasSubstr(each));
+  // Each with its place.
+  std::size_t places = 0;
+  for (std::size_t at = 0; (at = message.find("c.toml:", at)) != message.npos; ++at) ++places;
+  EXPECT_GE(places, 7U) << message;
+}
+
+TEST_F(Configs, HaveAWebhook) {
+  const auto webhook = [&](const std::string& lines) {
+    return *read(good + ("[webhook]\n" + lines)).webhook;
+  };
+  const WebhookSettings whole =
+      webhook("url = \"https://alarms.example:8443/in?site=2\"\nafter = \"5 min\"\n");
+  EXPECT_EQ(whole.host, "alarms.example");
+  EXPECT_EQ(whole.port, "8443");
+  EXPECT_EQ(whole.target, "/in?site=2");
+  EXPECT_TRUE(whole.tls);
+  EXPECT_EQ(whole.lasting, std::chrono::minutes(5));
+  const WebhookSettings plain = webhook("url = \"http://[::1]\"\n");
+  EXPECT_EQ(plain.host, "::1");
+  EXPECT_EQ(plain.port, "80");
+  EXPECT_EQ(plain.target, "/");
+  EXPECT_EQ(plain.lasting, std::chrono::minutes(1));
+  write("token", "secret\n");
+  EXPECT_EQ(webhook("url = \"http://127.0.0.1:1/\"\ntoken_file = \"token\"\n").token, "secret");
+  const auto problem = [&](const std::string& lines) {
+    return message_of<InputError>([&] { webhook(lines); });
+  };
+  EXPECT_THAT(problem("url = \"http://far.example/\"\ntoken_file = \"token\"\n"),
+              HasSubstr("would be sent unencrypted"));
+  EXPECT_THAT(problem("url = \"http://me:word@far.example/\"\n"), HasSubstr("use token_file"));
+  EXPECT_THAT(problem("url = \"http://x/a b\"\n"), HasSubstr("percent-encoded"));
+  EXPECT_THAT(problem("url = \"http://x:99999/\"\n"), HasSubstr("is not HOST:PORT"));
+  EXPECT_THAT(problem("url = \"http://x/\"\nafter = \"8 d\"\n"), HasSubstr("between 0 s and 7 d"));
+  EXPECT_THAT(problem("url = \"http://x/\"\nlater = 5\n"), HasSubstr("later"));
+}
+
+TEST_F(Configs, HaveTokensWithRoles) {
+  const std::string own =
+      "[http.tokens.gateway]\ntoken = \"0123456789abcdef\"\nroles = [\"write\"]\n";
+  const HttpSettings http = *read(good + ("[http]\n" + own)).http;
+  ASSERT_EQ(http.tokens.size(), 1U);
+  EXPECT_EQ(http.tokens[0].name, "gateway");
+  EXPECT_EQ(http.tokens[0].roles, role_write);
+  EXPECT_TRUE(http.needs_token());
+  const auto problem = [&](const std::string& lines) {
+    return message_of<InputError>([&] { read(good + ("[http]\n" + lines)); });
+  };
+  EXPECT_THAT(problem("token = \"0123456789abcdef\"\n" + own),
+              HasSubstr("is another one's token too"));
+  EXPECT_THAT(problem("[http.tokens.a]\ntoken = \"0123456789abcdef\"\n"), HasSubstr("roles"));
+  EXPECT_THAT(problem("[http.tokens.a]\ntoken = \"0123456789abcdef\"\nroles = \"admin\"\n"),
+              HasSubstr("'admin' is not a role: read, write or operate"));
+  EXPECT_THAT(problem("[http.tokens.a]\ntoken = \"short\"\nroles = \"read\"\n"),
+              HasSubstr("has 5 characters"));
+}
+
+TEST_F(Configs, HaveFormsOfMessages) {
+  const auto of = [&](const std::string& lines) {
+    std::string text = good;
+    const std::string from = "kind = \"stdin\"\n";
+    text.replace(text.find(from), from.size(), from + lines);
+    return text;
+  };
+  const MessageFormat influx =
+      read(of("format = \"influx\"\nprecision = \"us\"\n")).sources[0].format;
+  EXPECT_EQ(influx.form, Form::influx);
+  EXPECT_EQ(influx.per_second, 1'000'000);
+  EXPECT_EQ(read(of("format = \"opc ua\"\n")).sources[0].format.form, Form::opc_ua);
+  EXPECT_THAT(message_of<InputError>([&] { read(of("format = \"influx\"\n")); }),
+              HasSubstr("precision: is missing"));
+  EXPECT_THAT(message_of<InputError>([&] { read(of("precision = \"s\"\n")); }),
+              HasSubstr("is for format = \"influx\""));
+  // Times of the lines themselves.
+  std::string text = of("format = \"influx\"\nprecision = \"s\"\n");
+  const std::string time = "time = \"t\"\ntime_format = \"iso 8601\"\n";
+  text.replace(text.find(time), time.size(), "time = \"{timestamp}\"\ntime_format = \"unix ms\"\n");
+  EXPECT_EQ(read(text).sources[0].mapping.time, "{timestamp}");
+  const std::string form = "format = \"influx\"\nprecision = \"s\"\n";
+  text.replace(text.find(form), form.size(), "");
+  EXPECT_THAT(message_of<InputError>([&] { read(text); }), HasSubstr("{timestamp}"));
+}
+
 }  // namespace
 }  // namespace wearwell::monitor

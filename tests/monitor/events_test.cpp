@@ -273,7 +273,8 @@ TEST_F(Events, AreInWhatAStoreTells) {
   fleet_->save();
   report("a", "replaced", R"("n": 11, "time": 500)");
   report("new", "removed", R"("n": 20)");
-  const auto units = stored_units(*store_, {tracker_, "population", true});
+  const auto units =
+      stored_units(*store_, {std::make_shared<const GrowthTracker>(), "population", true, 0});
   EXPECT_EQ(units.at("a").events->part().number, 2);
   EXPECT_EQ(units.at("new").events->part().service, Service::removed);
   catch_up();

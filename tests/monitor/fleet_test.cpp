@@ -433,7 +433,7 @@ class FailingStore : public Store {
   enum class Fails { never, before, after };
   explicit FailingStore(std::unique_ptr<Store> store) : store_(std::move(store)) {}
   Fails adds = Fails::never;
-  bool reads = true;
+  bool reads = true, fails_events = false;
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override {
     if (adds == Fails::before) throw StoreError("the disk is full");
@@ -460,7 +460,7 @@ class FailingStore : public Store {
   }
   std::uint64_t count() override { return store_->count(); }
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override {
-    if (adds == Fails::before) throw StoreError("the disk is full");
+    if (adds == Fails::before || fails_events) throw StoreError("the disk is full");
     auto kept = store_->add_events(events);
     if (adds == Fails::after) throw StoreError("the connection was lost");
     return kept;
@@ -468,6 +468,19 @@ class FailingStore : public Store {
   std::vector<UnitEvent> events_after(std::int64_t number) override {
     look();
     return store_->events_after(number);
+  }
+  std::vector<UnitEvent> events_of(const std::string& unit) override {
+    look();
+    return store_->events_of(unit);
+  }
+  std::vector<StoredFit> fits() override { return store_->fits(); }
+  void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) override {
+    store_->begin_fit(fit, moved);
+  }
+  std::vector<MovedForecast> moved(std::int64_t fit) override { return store_->moved(fit); }
+  std::map<std::string, Alarm> sent_alarms() override { return store_->sent_alarms(); }
+  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override {
+    store_->note_sent(unit, alarm, time_ms);
   }
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override {
@@ -500,6 +513,29 @@ class FailingFleets : public FleetRig {
   }
   FailingStore* failing_ = nullptr;
 };
+
+// Readings that are stored before their events cannot be are counted, once.
+TEST_F(FailingFleets, CountReadingsWhoseEventsWait) {
+  source_.mapping = plain_mapping(tracker_, false);
+  source_.mapping.unit = "machine";
+  source_.mapping.sequence = "n";
+  open();
+  const std::string both =
+      message("a", 1, 10, 10) + "\n" +
+      R"({"machine": "a", "event": "replaced", "by": "B", "n": 2, "time": 10})";
+  failing_->fails_events = true;
+  EXPECT_FALSE(deliver(both).stored);
+  catch_up();
+  EXPECT_EQ(fleet_->fleet().stored, 1U);
+  failing_->fails_events = false;
+  const Delivery again = deliver(both);
+  EXPECT_TRUE(again.stored);
+  EXPECT_EQ(again.repeated, 1U);
+  EXPECT_EQ(again.events, 1U);
+  catch_up();
+  EXPECT_EQ(fleet_->fleet().stored, 1U);
+  EXPECT_EQ(store_->count(), 1U);
+}
 
 TEST_F(FailingFleets, LoseNothing) {
   open();

@@ -87,6 +87,8 @@ class GeneratedFleet : public FleetReader, public Inbox {
     view.stored = messages_;
     view.now_ms = now_ms();
     view.started_ms = started_ms_;
+    view.fit = {"0123456789abcdef0123456789abcdef01234567", started_ms_ - 86'400'000, started_ms_};
+    view.webhook = WebhookView{12, 3, 0};
     view.last_message_ms = last_ms_;
     return view;
   }
@@ -129,6 +131,33 @@ class GeneratedFleet : public FleetReader, public Inbox {
       detail.survival.push_back({x, 1 - reached(*at, x)});
     }
     return detail;
+  }
+
+  std::optional<UnitView> view(const std::string& name) const override {
+    const std::scoped_lock lock(mutex_);
+    const auto at = std::find_if(units_.begin(), units_.end(),
+                                 [&](const Unit& each) { return each.name == name; });
+    if (at == units_.end()) return {};
+    return view_of(*at);
+  }
+
+  /// Nine units, whose remaining useful life is forecast a tenth longer than before.
+  std::vector<MovedForecast> moved(std::size_t offset, std::size_t count,
+                                   std::uint64_t* all) const override {
+    const std::scoped_lock lock(mutex_);
+    constexpr std::size_t most = 9;
+    std::vector<MovedForecast> moved;
+    if (all) *all = std::min(most, units_.size());
+    for (std::size_t i = offset; i < std::min(most, units_.size()) && moved.size() < count; ++i) {
+      const UnitView now = view_of(units_[i]);
+      const Interval& to = now.remaining;
+      moved.push_back({now.unit,
+                       now.last_key,
+                       "h",
+                       {Alarm::watch, true, {to.q05 / 1.1, to.q50 / 1.1, to.q95 / 1.1}, now.risk},
+                       {now.alarm, true, to, now.risk}});
+    }
+    return moved;
   }
 
   std::uint64_t version() const override { return version_; }

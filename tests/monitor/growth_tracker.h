@@ -12,6 +12,8 @@ namespace wearwell {
 /// any reading; readings are good to 5 m. Its posterior is two sums, which are added in the order of the readings.
 class GrowthUnit : public prognosis::TrackedUnit {
  public:
+  /// `rate`: the mean before any reading, m/h.
+  explicit GrowthUnit(double rate = 1) : weighted_(rate / (0.3 * 0.3)) {}
   prognosis::UpdateResult update(const prognosis::Reading& reading,
                                  const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
@@ -100,13 +102,23 @@ class GrowthUnit : public prognosis::TrackedUnit {
   static constexpr double noise = 5;
   double mean() const { return weighted_ / precision_; }
   double sd() const { return 1 / std::sqrt(precision_); }
-  double precision_ = 1 / (0.3 * 0.3), weighted_ = 1 / (0.3 * 0.3), now_ = 0;
+  double precision_ = 1 / (0.3 * 0.3), weighted_, now_ = 0;
   std::size_t readings_ = 0;
 };
 
 /// In units that are their own SI here: wear in metres, so that tests see the numbers that they send.
 class GrowthTracker : public prognosis::Tracker {
  public:
+  GrowthTracker() = default;
+  /// Another fit: another mean rate. Perhaps another threshold, or one without the unit "only".
+  explicit GrowthTracker(double rate, double limit = GrowthUnit::limit, std::string refused = {})
+      : rate_(rate), refused_(std::move(refused)) {
+    limit_.value = limit;
+  }
+  std::string refusal(const std::string& unit) const override {
+    return !refused_.empty() && unit == refused_ ? "'" + unit + "' is not a unit of this study"
+                                                 : "";
+  }
   std::span<const prognosis::ReadingColumn> columns() const override { return columns_; }
   std::span<const std::string> labels() const override { return {}; }
   const prognosis::ReadingColumn& axis() const override { return columns_[1]; }
@@ -120,13 +132,15 @@ class GrowthTracker : public prognosis::Tracker {
     return reading.numbers[1] >= 0 ? "" : "time is negative";
   }
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string&) const override {
-    return std::make_unique<GrowthUnit>();
+    return std::make_unique<GrowthUnit>(rate_);
   }
   std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
     return GrowthUnit::restore(bytes);
   }
 
  private:
+  double rate_ = 1;
+  std::string refused_ = {};
   std::vector<prognosis::ReadingColumn> columns_ = {{"wear", read_unit("m", "m"), true},
                                                     {"time", read_unit("h", "s"), false}};
   Quantity limit_ = {GrowthUnit::limit, read_unit("m", "m")};

@@ -67,15 +67,15 @@ TEST_F(HttpAccessTest, PagesFromElsewhereAreHeldOff) {
   for (const std::string ours :
        {"localhost", "LocalHost:", "127.0.0.1:", "[::1]:", "wear.example.org", "192.168.1.7:"}) {
     const std::string host = ours + (ours.back() == ':' ? port : "");
-    EXPECT_EQ(status("GET /api/fleet", "Host: " + host + "\r\n"), 200) << host;
+    EXPECT_EQ(status("GET /api/v1/fleet", "Host: " + host + "\r\n"), 200) << host;
   }
   for (const char* other : {"evil.example.com", "127.0.0.1.evil.example.com", "localhost.evil.com",
                             "example.org", "", "[evil]", "1"}) {
-    EXPECT_NE(status("GET /api/fleet", std::string("Host: ") + other + "\r\n"), 200) << other;
+    EXPECT_NE(status("GET /api/v1/fleet", std::string("Host: ") + other + "\r\n"), 200) << other;
   }
   const std::string here = "Host: localhost:" + port + "\r\n", reading = "{}";
   const auto from = [&](const std::string& fields) {
-    return status("POST /api/readings", here + fields, reading);
+    return status("POST /api/v1/readings", here + fields, reading);
   };
   EXPECT_EQ(from(""), 400);  // it is read: no browser sends it
   EXPECT_EQ(from("Origin: http://localhost:" + port + "\r\n"), 400);
@@ -86,7 +86,7 @@ TEST_F(HttpAccessTest, PagesFromElsewhereAreHeldOff) {
   EXPECT_EQ(from("Sec-Fetch-Site: cross-site\r\n"), 403);
   EXPECT_EQ(from("Sec-Fetch-Site: same-site\r\n"), 403);
   EXPECT_EQ(from("Sec-Fetch-Site: same-origin\r\n"), 400);
-  EXPECT_EQ(status("GET /api/fleet", here + "Sec-Fetch-Site: cross-site\r\n"), 403);
+  EXPECT_EQ(status("GET /api/v1/fleet", here + "Sec-Fetch-Site: cross-site\r\n"), 403);
   EXPECT_EQ(status("GET /", here + "Sec-Fetch-Site: cross-site\r\n"), 200);  // a link
 }
 
@@ -94,8 +94,8 @@ TEST_F(HttpAccessTest, ATokenIsAskedForEverywhere) {
   const HttpServer server(settings_of(token), fleet_, &fleet_);
   const unsigned short port = server.port();
   const std::string bearer = "Authorization: Bearer " + token + "\r\n";
-  for (const char* path :
-       {"/api/fleet", "/api/units", "/api/units/M1010", "/api/events", "/metrics", "/nothing"}) {
+  for (const char* path : {"/api/v1/fleet", "/api/v1/units", "/api/v1/units/M1010",
+                           "/api/v1/events", "/metrics", "/nothing"}) {
     const HttpReply refused = get(port, path);
     EXPECT_EQ(refused.status, 401) << path;
     EXPECT_THAT(refused.field("WWW-Authenticate"), StartsWith("Bearer")) << path;
@@ -103,8 +103,8 @@ TEST_F(HttpAccessTest, ATokenIsAskedForEverywhere) {
     EXPECT_EQ(get(port, path, "Authorization: Bearer \r\n").status, 401);
     EXPECT_EQ(get(port, path, "Authorization: Basic " + token + "\r\n").status, 401);
   }
-  EXPECT_EQ(post(port, "/api/readings", "{}").status, 401);
-  EXPECT_EQ(post(port, "/api/readings", "{}", bearer).status, 400);
+  EXPECT_EQ(post(port, "/api/v1/readings", "{}").status, 401);
+  EXPECT_EQ(post(port, "/api/v1/readings", "{}", bearer).status, 400);
   EXPECT_EQ(get(port, "/metrics", bearer).status, 200);
   EXPECT_EQ(get(port, "/metrics", "Authorization: bearer " + token + "\r\n").status, 200);
   EXPECT_EQ(get(port, "/health").status, 200);
@@ -125,7 +125,7 @@ TEST_F(HttpAccessTest, ThePageIsSignedInByACookie) {
   EXPECT_EQ(cookie.find(token), std::string::npos);
   const std::string value = cookie.substr(0, cookie.find(';'));
   const auto status = [&](const std::string& with) {
-    return get(port, "/api/fleet", "Cookie: " + with + "\r\n").status;
+    return get(port, "/api/v1/fleet", "Cookie: " + with + "\r\n").status;
   };
   EXPECT_EQ(status(value), 200);
   EXPECT_EQ(status("other=1; " + value + "; more=2"), 200);
@@ -143,13 +143,51 @@ TEST_F(HttpAccessTest, ThePageIsSignedInByACookie) {
 TEST_F(HttpAccessTest, ACookieEndsWithItsTimeAndItsToken) {
   const HttpAccess access(settings_of(token), {});
   HttpRequest question;
-  const std::string cookie = access.cookie(1000);
+  const std::string cookie = access.cookie(token, 1000);
   question.cookie = cookie.substr(0, cookie.find(';'));
   constexpr std::int64_t month = 30 * 24 * 3600;
-  EXPECT_TRUE(access.authorized(question, 1000));
-  EXPECT_TRUE(access.authorized(question, 1000 + month));
-  EXPECT_FALSE(access.authorized(question, 1001 + month));
-  EXPECT_FALSE(HttpAccess(settings_of(token + "2"), {}).authorized(question, 1000));
+  EXPECT_TRUE(access.roles(question, 1000));
+  EXPECT_TRUE(access.roles(question, 1000 + month));
+  EXPECT_FALSE(access.roles(question, 1001 + month));
+  EXPECT_FALSE(HttpAccess(settings_of(token + "2"), {}).roles(question, 1000));
+}
+
+// Each token may do what its roles say, by its header and by its cookie.
+TEST_F(HttpAccessTest, TokensHaveRoles) {
+  HttpSettings settings = settings_of(token);
+  settings.port = 0;
+  const std::string reads = "reads-0123456789", writes = "writes-0123456789",
+                    operates = "operates-0123456789";
+  settings.tokens = {{"a", reads, role_read},
+                     {"b", writes, role_write},
+                     {"c", operates, role_read | role_operate}};
+  GeneratedFleet fleet(20);
+  HttpServer server(settings, fleet, &fleet, &fleet);
+  const unsigned short port = server.port();
+  const auto bearer = [](const std::string& of) { return "Authorization: Bearer " + of + "\r\n"; };
+  const std::string reading = R"({"unit": "M1010", "at": 5000, "wear": 31.5})";
+  const std::string path = "/api/v1/units/M1010/events";
+  struct Expected {
+    std::string token;
+    int read, write, operate;
+  };
+  for (const Expected& each : {Expected{token, 200, 200, 400}, Expected{reads, 200, 403, 403},
+                               Expected{writes, 403, 200, 403}, Expected{operates, 200, 403, 400},
+                               Expected{"nobody-0123456789", 401, 401, 401}}) {
+    const std::string field = bearer(each.token);
+    EXPECT_EQ(get(port, "/api/v1/fleet", field).status, each.read) << each.token;
+    EXPECT_EQ(get(port, "/metrics", field).status, each.read) << each.token;
+    EXPECT_EQ(post(port, "/api/v1/readings", reading, field).status, each.write) << each.token;
+    EXPECT_EQ(post(port, path, "{}", field).status, each.operate) << each.token;
+    EXPECT_EQ(get(port, "/health", field).status, 200);
+  }
+  EXPECT_THAT(post(port, path, "{}", bearer(reads)).body,
+              HasSubstr("this needs the role operate; the token has read"));
+  EXPECT_EQ(post(port, "/login", "token=" + writes).status, 403);
+  const std::string cookie = post(port, "/login", "token=" + reads).field("Set-Cookie");
+  const std::string field = "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n";
+  EXPECT_EQ(get(port, "/api/v1/fleet", field).status, 200);
+  EXPECT_EQ(post(port, path, "{}", field).status, 403);
 }
 
 TEST_F(HttpAccessTest, BeyondLoopbackATokenAndTlsMustBe) {
@@ -210,16 +248,16 @@ TEST_F(HttpAccessTest, TlsIsSpokenUnderTheNamesOfTheCertificate) {
                        token + "' " + arguments);
   };
   const std::string address = "https://machine.example.org:" + port;
-  const CommandResult fleet = curl(address + "/api/fleet");
+  const CommandResult fleet = curl(address + "/api/v1/fleet");
   EXPECT_EQ(fleet.exit_code, 0) << fleet.err;
   EXPECT_EQ(nlohmann::json::parse(fleet.out)["units"]["all"], 12);
   EXPECT_THAT(curl("-i " + address + "/").out, HasSubstr("Strict-Transport-Security"));
   EXPECT_THAT(curl("-i -d token=" + token + " " + address + "/login").out, HasSubstr("; Secure"));
   EXPECT_EQ(curl("https://127.0.0.1:" + port + "/health").exit_code, 0);
-  EXPECT_THAT(curl("-H 'Host: evil.example.com' " + address + "/api/fleet").out,
+  EXPECT_THAT(curl("-H 'Host: evil.example.com' " + address + "/api/v1/fleet").out,
               HasSubstr("is not a name of this server"));
   EXPECT_NE(curl("--tls-max 1.1 " + address + "/health").exit_code, 0);
-  EXPECT_THAT(curl("--max-time 2 -N " + address + "/api/events").out, HasSubstr("event: fleet"));
+  EXPECT_THAT(curl("--max-time 2 -N " + address + "/api/v1/events").out, HasSubstr("event: fleet"));
   // Plain HTTP, and half a handshake, lead nowhere and hurt nobody.
   EXPECT_EQ(ask(server.port(), request_of("GET /health")).status, 0);
   HttpClient half(server.port());

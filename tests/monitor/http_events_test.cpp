@@ -40,7 +40,7 @@ class Listener {
   explicit Listener(unsigned short port, const std::string& last = "", int buffer = 0)
       : client_(port, buffer) {
     client_.send(
-        request_of("GET /api/events", last.empty() ? "" : "Last-Event-ID: " + last + "\r\n"));
+        request_of("GET /api/v1/events", last.empty() ? "" : "Last-Event-ID: " + last + "\r\n"));
   }
   /// Nothing but its head.
   std::string head() { return client_.until("\r\n\r\n"); }
@@ -133,8 +133,8 @@ TEST_F(HttpEventsTest, ReachAllButNotMoreThanAllowed) {
     listeners.push_back(std::make_unique<Listener>(server_.port()));
     listeners.back()->next();
   }
-  EXPECT_EQ(get(server_.port(), "/api/events").status, 503);
-  EXPECT_EQ(get(server_.port(), "/api/fleet").status, 200);
+  EXPECT_EQ(get(server_.port(), "/api/v1/events").status, 503);
+  EXPECT_EQ(get(server_.port(), "/api/v1/fleet").status, 200);
   for (int round = 0; round < 5; ++round) {
     const std::string name = fleet_.advance(round);
     for (const auto& each : listeners) {
@@ -146,7 +146,7 @@ TEST_F(HttpEventsTest, ReachAllButNotMoreThanAllowed) {
   for (int i = 0; i < 200 && reply.status != 200; ++i) {
     std::this_thread::sleep_for(milliseconds(20));
     HttpClient client(server_.port());
-    client.send(request_of("GET /api/events"));
+    client.send(request_of("GET /api/v1/events"));
     reply = client.reply(false);
   }
   EXPECT_EQ(reply.status, 200);
@@ -155,7 +155,7 @@ TEST_F(HttpEventsTest, ReachAllButNotMoreThanAllowed) {
 // One who listens but does not read: the others go on, and it is cut off when it has not taken an event in time.
 TEST_F(HttpEventsTest, WaitForNobody) {
   HttpClient deaf(server_.port(), 1024);
-  deaf.send(request_of("GET /api/events"));
+  deaf.send(request_of("GET /api/v1/events"));
   Listener listener(server_.port());
   listener.next();
   const auto streams = [&] {

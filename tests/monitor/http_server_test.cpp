@@ -35,7 +35,7 @@ class HttpServerTest : public testing::Test {
     return monitor::get(server_.port(), target, fields);
   }
   HttpReply post(const std::string& body, const std::string& fields = {}) const {
-    return monitor::post(server_.port(), "/api/readings", body, fields);
+    return monitor::post(server_.port(), "/api/v1/readings", body, fields);
   }
   bool is_well() const { return get("/health").status == 200; }
 
@@ -46,9 +46,9 @@ class HttpServerTest : public testing::Test {
 TEST_F(HttpServerTest, AnswersEveryPath) {
   const std::vector<std::pair<std::string, std::string>> paths = {
       {"/", "text/html; charset=utf-8"},
-      {"/api/fleet", "application/json"},
-      {"/api/units", "application/json"},
-      {"/api/units/M1010", "application/json"},
+      {"/api/v1/fleet", "application/json"},
+      {"/api/v1/units", "application/json"},
+      {"/api/v1/units/M1010", "application/json"},
       {"/metrics", "text/plain; version=0.0.4; charset=utf-8"},
       {"/health", "application/json"}};
   for (const auto& [path, type] : paths) {
@@ -73,10 +73,10 @@ TEST_F(HttpServerTest, AnswersEveryPath) {
 }
 
 TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
-  const json fleet = json::parse(get("/api/fleet").body);
+  const json fleet = json::parse(get("/api/v1/fleet").body);
   EXPECT_EQ(fleet["units"]["all"], 30);
   EXPECT_EQ(fleet["limit"], 80.0);
-  const json all = json::parse(get("/api/units?count=500").body);
+  const json all = json::parse(get("/api/v1/units?count=500").body);
   ASSERT_EQ(all["units"].size(), 30u);
   EXPECT_EQ(all["matching"], 30);
   // By risk; in doubt as if just to act on, beyond the threshold first.
@@ -91,16 +91,16 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
   EXPECT_EQ(all["units"][0]["alarm"], "act");
   EXPECT_GT(fleet["units"]["doubt"], 0);
   // A page of it is a piece of it.
-  const json page = json::parse(get("/api/units?offset=10&count=7").body);
+  const json page = json::parse(get("/api/v1/units?offset=10&count=7").body);
   ASSERT_EQ(page["units"].size(), 7u);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(page["units"][i], all["units"][10 + i]);
-  EXPECT_EQ(json::parse(get("/api/units?offset=29").body)["units"].size(), 1u);
-  EXPECT_EQ(json::parse(get("/api/units?offset=30").body)["units"].size(), 0u);
+  EXPECT_EQ(json::parse(get("/api/v1/units?offset=29").body)["units"].size(), 1u);
+  EXPECT_EQ(json::parse(get("/api/v1/units?offset=30").body)["units"].size(), 0u);
   // All of a unit's view stands in its detail.
   const json& first = *std::find_if(
       page["units"].begin(), page["units"].end(),
       [](const json& unit) { return unit["unit"].get<std::string>().starts_with("M"); });
-  const json detail = json::parse(get("/api/units/" + first["unit"].get<std::string>()).body);
+  const json detail = json::parse(get("/api/v1/units/" + first["unit"].get<std::string>()).body);
   for (const auto& [key, value] : first.items()) EXPECT_EQ(detail[key], value) << key;
   EXPECT_EQ(detail["path"].size(), 81u);
   EXPECT_GE(detail["forecasts"]["judged"], detail["forecasts"]["held"]);
@@ -108,23 +108,23 @@ TEST_F(HttpServerTest, TellsOfTheFleetAndItsUnits) {
 
 TEST_F(HttpServerTest, NamesMayHoldAnything) {
   const auto found = [&](const std::string& encoded) {
-    const HttpReply reply = get("/api/units/" + encoded);
+    const HttpReply reply = get("/api/v1/units/" + encoded);
     return reply.status == 200 ? std::string(json::parse(reply.body)["unit"]) : reply.body;
   };
   EXPECT_EQ(found("hall%202%2Fline%207%20100%25"), "hall 2/line 7 100%");
   EXPECT_EQ(found("%3Cimg%20src=x%20onerror=alert(1)%3E"), "<img src=x onerror=alert(1)>");
   EXPECT_EQ(found("Pumpe%20S%C3%BCd%20%223%22%20%5C%20%C2%B5"), "Pumpe Süd \"3\" \\ µ");
-  EXPECT_EQ(json::parse(get("/api/units?search=s%C3%BCd+%223").body)["matching"], 1);
-  EXPECT_EQ(get("/api/units/nobody%22%1b[2J").status, 404);
-  EXPECT_EQ(std::string(json::parse(get("/api/units/nobody%22%1b[2J").body)["error"]),
+  EXPECT_EQ(json::parse(get("/api/v1/units?search=s%C3%BCd+%223").body)["matching"], 1);
+  EXPECT_EQ(get("/api/v1/units/nobody%22%1b[2J").status, 404);
+  EXPECT_EQ(std::string(json::parse(get("/api/v1/units/nobody%22%1b[2J").body)["error"]),
             "\"nobody\"\\x1b[2J\" is not a unit");
   for (const char* bad : {"%zz", "%4", "%", "a%ff"}) {
-    EXPECT_EQ(get(std::string("/api/units/") + bad).status, 400) << bad;
+    EXPECT_EQ(get(std::string("/api/v1/units/") + bad).status, 400) << bad;
   }
 }
 
 TEST_F(HttpServerTest, WhatIsNotFiniteIsNull) {
-  const json unit = json::parse(get("/api/units/never%20heard%20of").body);
+  const json unit = json::parse(get("/api/v1/units/never%20heard%20of").body);
   EXPECT_TRUE(unit["remaining"]["q95"].is_null());
   EXPECT_TRUE(unit["remaining"]["q50"].is_number());
 }
@@ -132,19 +132,19 @@ TEST_F(HttpServerTest, WhatIsNotFiniteIsNull) {
 TEST_F(HttpServerTest, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(get("/api").status, 404);
   EXPECT_EQ(get("/../../etc/passwd").status, 404);
-  EXPECT_EQ(get("/api/readings").status, 405);
-  EXPECT_EQ(get("/api/readings").field("Allow"), "POST");
-  EXPECT_EQ(ask(server_.port(), request_of("POST /api/fleet", "", "{}")).status, 405);
-  EXPECT_EQ(ask(server_.port(), request_of("OPTIONS /api/readings")).status, 405);
-  EXPECT_EQ(ask(server_.port(), request_of("DELETE /api/units/M1010")).status, 405);
+  EXPECT_EQ(get("/api/v1/readings").status, 405);
+  EXPECT_EQ(get("/api/v1/readings").field("Allow"), "POST");
+  EXPECT_EQ(ask(server_.port(), request_of("POST /api/v1/fleet", "", "{}")).status, 405);
+  EXPECT_EQ(ask(server_.port(), request_of("OPTIONS /api/v1/readings")).status, 405);
+  EXPECT_EQ(ask(server_.port(), request_of("DELETE /api/v1/units/M1010")).status, 405);
   for (const char* query :
        {"count=501", "count=-1", "count=1e3", "count=", "offset=1000000001",
         "offset=99999999999999999999", "limit=5", "count=5&count=6", "search=%f", "search=%c3"}) {
-    const HttpReply reply = get(std::string("/api/units?") + query);
+    const HttpReply reply = get(std::string("/api/v1/units?") + query);
     EXPECT_EQ(reply.status, 400) << query;
     EXPECT_TRUE(json::parse(reply.body).contains("error")) << query;
   }
-  EXPECT_EQ(std::string(json::parse(get("/api/units?count=501").body)["error"]),
+  EXPECT_EQ(std::string(json::parse(get("/api/v1/units?count=501").body)["error"]),
             "count = \"501\": must be a whole number from 0 to 500");
 }
 
@@ -155,7 +155,7 @@ TEST_F(HttpServerTest, TakesReadingsOrSaysWhyNot) {
   EXPECT_EQ(taken.status, 200);
   EXPECT_EQ(json::parse(taken.body)["readings"], 1);
   EXPECT_EQ(fleet_.fleet().messages, before + 1);
-  EXPECT_EQ(json::parse(get("/api/units/M1010").body)["at"], 5000.0);
+  EXPECT_EQ(json::parse(get("/api/v1/units/M1010").body)["at"], 5000.0);
 
   const HttpReply partly = post(reading + "\nnonsense\n");
   EXPECT_EQ(partly.status, 200);
@@ -163,8 +163,9 @@ TEST_F(HttpServerTest, TakesReadingsOrSaysWhyNot) {
   EXPECT_EQ(std::string(json::parse(partly.body)["problem"]), "\"nonsense\" is no reading");
 
   EXPECT_EQ(post("nonsense").status, 400);
-  EXPECT_EQ(ask(server_.port(), request_of("POST /api/readings", "Content-Length: 0\r\n")).status,
-            400);
+  EXPECT_EQ(
+      ask(server_.port(), request_of("POST /api/v1/readings", "Content-Length: 0\r\n")).status,
+      400);
   EXPECT_EQ(post(reading, "Content-Type: multipart/form-data\r\n").status, 415);
   EXPECT_EQ(post(reading, "Content-Encoding: gzip\r\n").status, 415);
 
@@ -180,14 +181,14 @@ TEST_F(HttpServerTest, TakesBodiesInPiecesAndOnDemand) {
   const std::string reading = R"({"unit": "M1010", "at": 5000, "wear": 41.5})";
   HttpClient pieces(server_.port());
   pieces.send(
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n");
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n");
   for (const char each : reading) pieces.send(std::string("1\r\n") + each + "\r\n");
   pieces.send("0\r\n\r\n");
   EXPECT_EQ(pieces.reply().status, 200);
 
   HttpClient careful(server_.port());
   careful.send(
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\n"
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\n"
       "Content-Length: " +
       std::to_string(reading.size()) + "\r\n\r\n");
   EXPECT_EQ(careful.until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
@@ -197,7 +198,7 @@ TEST_F(HttpServerTest, TakesBodiesInPiecesAndOnDemand) {
 
 TEST_F(HttpServerTest, KeepsConnectionsAsTheyAskFor) {
   HttpClient client(server_.port());
-  client.send(request_of("GET /health") + request_of("GET /api/fleet") +
+  client.send(request_of("GET /health") + request_of("GET /api/v1/fleet") +
               request_of("GET /nothing"));
   EXPECT_EQ(client.reply().status, 200);
   EXPECT_THAT(client.reply().body, HasSubstr("Pumps of hall 2"));
@@ -224,7 +225,9 @@ TEST_F(HttpServerTest, AnswersManyAtOnce) {
     clients.emplace_back([&, i] {
       HttpClient client(server_.port());
       for (int j = 0; j < 100; ++j) {
-        const char* target = (i + j) % 3 == 0 ? "/api/units" : (i + j) % 3 == 1 ? "/metrics" : "/";
+        const char* target = (i + j) % 3 == 0   ? "/api/v1/units"
+                             : (i + j) % 3 == 1 ? "/metrics"
+                                                : "/";
         client.send(request_of(std::string("GET ") + target));
         if (client.reply().status != 200) ++wrong;
         fleet_.advance();
@@ -269,14 +272,14 @@ TEST_F(HttpLimitsTest, BodiesEndSomewhere) {
   EXPECT_EQ(post(std::string(10'001, 'x')).status, 413);
   // By its length alone, before it is sent.
   EXPECT_EQ(
-      ask(server_.port(), request_of("POST /api/readings", "Content-Length: 10001\r\n")).status,
+      ask(server_.port(), request_of("POST /api/v1/readings", "Content-Length: 10001\r\n")).status,
       413);
   EXPECT_EQ(ask(server_.port(),
-                request_of("POST /api/readings", "Content-Length: 18446744073709551615\r\n"))
+                request_of("POST /api/v1/readings", "Content-Length: 18446744073709551615\r\n"))
                 .status,
             413);
   HttpClient pieces(server_.port());
-  pieces.send(request_of("POST /api/readings", "Transfer-Encoding: chunked\r\n"));
+  pieces.send(request_of("POST /api/v1/readings", "Transfer-Encoding: chunked\r\n"));
   const std::string piece = "1000\r\n" + std::string(0x1000, 'x') + "\r\n";
   for (int i = 0; i < 10; ++i) pieces.send(piece);
   EXPECT_EQ(pieces.reply().status, 413);
@@ -285,7 +288,7 @@ TEST_F(HttpLimitsTest, BodiesEndSomewhere) {
 
 TEST_F(HttpLimitsTest, LargeBodiesTakeTurns) {
   // Of unknown length, they might become large.
-  const std::string begin = request_of("POST /api/readings", "Transfer-Encoding: chunked\r\n");
+  const std::string begin = request_of("POST /api/v1/readings", "Transfer-Encoding: chunked\r\n");
   std::vector<std::unique_ptr<HttpClient>> senders;
   for (int i = 0; i < 3; ++i) {
     senders.push_back(std::make_unique<HttpClient>(server_.port()));
@@ -306,7 +309,7 @@ TEST_F(HttpLimitsTest, WhoSendsLittleByLittleIsCutOff) {
   // As many as there are places, each a byte at a time, for ever.
   std::vector<std::unique_ptr<HttpClient>> slow;
   for (int i = 0; i < 12; ++i) slow.push_back(std::make_unique<HttpClient>(server_.port()));
-  for (const auto& each : slow) each->send("POST /api/readings HTTP/1.1\r\n");
+  for (const auto& each : slow) each->send("POST /api/v1/readings HTTP/1.1\r\n");
   std::size_t cut = 0;
   for (int i = 0; i < 400 && cut < slow.size(); ++i) {
     cut = 0;
@@ -318,7 +321,7 @@ TEST_F(HttpLimitsTest, WhoSendsLittleByLittleIsCutOff) {
   EXPECT_EQ(cut, slow.size());
   // The same with a body.
   HttpClient body(server_.port());
-  body.send(request_of("POST /api/readings", "Content-Length: 5000\r\n"));
+  body.send(request_of("POST /api/v1/readings", "Content-Length: 5000\r\n"));
   bool open = true;
   for (int i = 0; i < 400 && open; ++i) {
     open = body.send("x");
@@ -335,7 +338,7 @@ TEST_F(HttpLimitsTest, OneConnectionTooManyIsTurnedAway) {
     open.back()->send(request_of("GET /health"));
     EXPECT_EQ(open.back()->reply().status, 200);
   }
-  const HttpReply refused = get("/api/fleet");
+  const HttpReply refused = get("/api/v1/fleet");
   EXPECT_EQ(refused.status, 503);
   EXPECT_EQ(refused.field("Retry-After"), "10");
   EXPECT_EQ(get("/health").status, 200);
@@ -375,12 +378,12 @@ TEST_F(HttpFairnessTest, OneClientTakesNothingFromTheOthers) {
     idle.push_back(std::make_unique<HttpClient>(server_.port()));
     if (i % 10 == 9) {
       EXPECT_EQ(get("/health").status, 200) << i;
-      EXPECT_EQ(ask_from("127.0.0.2", request_of("GET /api/fleet")).status, 200) << i;
+      EXPECT_EQ(ask_from("127.0.0.2", request_of("GET /api/v1/fleet")).status, 200) << i;
     }
   }
   EXPECT_EQ(get("/metrics").status, 200);
-  EXPECT_EQ(get("/api/fleet").status, 503);
-  EXPECT_EQ(get("/api/events").status, 503);
+  EXPECT_EQ(get("/api/v1/fleet").status, 503);
+  EXPECT_EQ(get("/api/v1/events").status, 503);
   EXPECT_EQ(post("{}").status, 503);
   EXPECT_EQ(get("/").status, 503);
   // No kept connection: the next request may be any.
@@ -392,7 +395,7 @@ TEST_F(HttpFairnessTest, OneClientTakesNothingFromTheOthers) {
   idle.clear();
   bool served = false;
   for (int i = 0; i < 200 && !served; ++i) {
-    served = get("/api/fleet").status == 200;
+    served = get("/api/v1/fleet").status == 200;
     std::this_thread::sleep_for(milliseconds(20));
   }
   EXPECT_TRUE(served);
@@ -404,7 +407,7 @@ TEST_F(HttpFairnessTest, AllPlacesAreTakenButThoseOfSupervision) {
   for (int i = 0; i < 20; ++i)
     idle.push_back(std::make_unique<HttpClient>(server_.port(), 0,
                                                 ("127.0.0." + std::to_string(10 + i)).c_str()));
-  EXPECT_EQ(ask_from("127.0.0.99", request_of("GET /api/fleet")).status, 503);
+  EXPECT_EQ(ask_from("127.0.0.99", request_of("GET /api/v1/fleet")).status, 503);
   for (int i = 0; i < 10; ++i)
     EXPECT_EQ(ask_from("127.0.0.99", request_of("GET /health")).status, 200);
 }
@@ -412,7 +415,7 @@ TEST_F(HttpFairnessTest, AllPlacesAreTakenButThoseOfSupervision) {
 // What is no HTTP gets 400 or nothing, and harms nobody.
 TEST_F(HttpServerTest, BearsWhatIsNoRequest) {
   const std::string chunked =
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
   const std::vector<std::string> hostile = {
       chunked + "-2\r\nabc\r\n0\r\n\r\n",
       chunked + "zz\r\nabc\r\n0\r\n\r\n",
@@ -420,12 +423,12 @@ TEST_F(HttpServerTest, BearsWhatIsNoRequest) {
       chunked + "3\r\nabcdef\r\n0\r\n\r\n",
       chunked + "3;" + std::string(100'000, 'x') + "\r\nabc\r\n0\r\n\r\n",
       chunked + " 3\r\nabc\r\n0\r\n\r\n",
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n"
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n"
       "Content-Length: 3\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\nContent-Length: "
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\nContent-Length: "
       "4\r\n\r\nabcd",
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\nabcd",
-      "POST /api/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0x3\r\n\r\nabc",
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\nabcd",
+      "POST /api/v1/readings HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0x3\r\n\r\nabc",
       "GET /health HTTP/1.1\r\n\r\n",
       "GET /health HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n",
       "GET http://localhost/health HTTP/1.1\r\nHost: localhost\r\n\r\n",
@@ -456,10 +459,13 @@ TEST_F(HttpServerTest, BearsWhatIsNoRequest) {
 TEST_F(HttpServerTest, BearsRequestsThatAreChangedAtRandom) {
   std::mt19937 engine(5);
   const std::vector<std::string> seeds = {
-      request_of("POST /api/readings", "Content-Type: text/csv\r\n", "unit,at,wear\nM1010,1,2\n"),
-      request_of("GET /api/units?search=a%20b&offset=3&count=9", "Cookie: a=b; wearwell=1.2\r\n"),
-      request_of("GET /api/units/M%31010", "If-None-Match: \"x\"\r\nOrigin: http://localhost\r\n"),
-      "POST /api/readings HTTP/1.1\r\nHost: [::1]:80\r\nTransfer-Encoding: chunked\r\n\r\n"
+      request_of("POST /api/v1/readings", "Content-Type: text/csv\r\n",
+                 "unit,at,wear\nM1010,1,2\n"),
+      request_of("GET /api/v1/units?search=a%20b&offset=3&count=9",
+                 "Cookie: a=b; wearwell=1.2\r\n"),
+      request_of("GET /api/v1/units/M%31010",
+                 "If-None-Match: \"x\"\r\nOrigin: http://localhost\r\n"),
+      "POST /api/v1/readings HTTP/1.1\r\nHost: [::1]:80\r\nTransfer-Encoding: chunked\r\n\r\n"
       "3\r\nabc\r\n0\r\n\r\n"};
   for (int i = 0; i < 3000; ++i) {
     std::string text = seeds[engine() % seeds.size()];
@@ -492,8 +498,8 @@ TEST_F(HttpServerTest, StopsAtOnceWhateverIsOpen) {
   std::vector<std::unique_ptr<HttpClient>> open;
   for (int i = 0; i < 30; ++i) {
     open.push_back(std::make_unique<HttpClient>(server_.port()));
-    open.back()->send(i % 3 == 0   ? request_of("GET /api/events")
-                      : i % 3 == 1 ? request_of("POST /api/readings", "Content-Length: 99\r\n")
+    open.back()->send(i % 3 == 0   ? request_of("GET /api/v1/events")
+                      : i % 3 == 1 ? request_of("POST /api/v1/readings", "Content-Length: 99\r\n")
                                    : "GET /hea");
   }
   open[0]->until("event: fleet");

@@ -1,9 +1,14 @@
 // What both stores promise: a reading once and for good, the order of storage, and what they refuse.
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <thread>
+
 #include "monitor/fleet_rig.h"
+#include "support/messages.h"
 #include "support/servers.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/monitor/backup.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -60,6 +65,95 @@ TEST_P(Stores, KeepAReadingOnce) {
   store->of_unit("b", first[0].place, INT64_MAX,
                  [&](const StoredReading& each) { of_b += std::to_string(each.key); });
   EXPECT_EQ(of_b, "233");
+}
+
+TEST_P(Stores, KeepFitsAndWhatTheyMoved) {
+  auto store = open();
+  EXPECT_TRUE(store->fits().empty());
+  const MovedForecast one{
+      "b \"ü\"",
+      7,
+      "km",
+      {Alarm::watch, true, {1, 2.5, std::numeric_limits<double>::infinity()}, 0.25},
+      {Alarm::act, true, {0.5, 1.0 / 3, 4}, 0.75}};
+  const MovedForecast other{
+      "a", 0, "km", {Alarm::unknown, false, {}, 0}, {Alarm::ok, true, {1, 2, 3}, 0}};
+  store->begin_fit({0, "first", 10, 5, true}, {});
+  store->begin_fit({0, "second", 20, 0, false}, {one, other});
+  store = nullptr;
+  store = open();
+  const auto fits = store->fits();
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_EQ(fits[0].population, "first");
+  EXPECT_EQ(fits[0].written_ms, 5);
+  EXPECT_EQ(fits[1].since_ms, 20);
+  EXPECT_TRUE(fits[0].trusted);
+  EXPECT_FALSE(fits[1].trusted);
+  EXPECT_TRUE(store->moved(fits[0].number).empty());
+  const auto moved = store->moved(fits[1].number);
+  ASSERT_EQ(moved.size(), 2U);
+  EXPECT_EQ(content_of(moved[0]), content_of(other));
+  EXPECT_EQ(content_of(moved[1]), content_of(one));
+  EXPECT_EQ(moved[1].unit, one.unit);
+  EXPECT_TRUE(std::isinf(moved[1].before.remaining.q95));
+  EXPECT_FALSE(moved[0].before.known);
+}
+
+TEST_P(Stores, KeepWhatWasSent) {
+  auto store = open();
+  EXPECT_TRUE(store->sent_alarms().empty());
+  store->note_sent("a", Alarm::act, 5);
+  store->note_sent("b", Alarm::unknown, 6);
+  store->note_sent("a", Alarm::watch, 7);
+  store = nullptr;
+  store = open();
+  EXPECT_EQ(store->sent_alarms(),
+            (std::map<std::string, Alarm>{{"a", Alarm::watch}, {"b", Alarm::unknown}}));
+}
+
+TEST_P(Stores, ReadTheEventsOfOneUnit) {
+  auto store = open();
+  UnitEvent event{0, "a", EventKind::acknowledged, 0, 5, "J. Doe", "seen"};
+  event.alarm_ms = 77;
+  UnitEvent other{0, "b", EventKind::withdrawn, 3, 6, "J. Doe", ""};
+  EXPECT_THAT(store->add_events({event, other, event}),
+              ElementsAre(Kept::stored, Kept::stored, Kept::repeated));
+  ASSERT_EQ(store->events_of("a").size(), 1U);
+  EXPECT_EQ(store->events_of("a")[0].alarm_ms, 77);
+  EXPECT_EQ(store->events_of("a")[0].kind, EventKind::acknowledged);
+  EXPECT_EQ(store->events_of("b")[0].number, 2);
+  EXPECT_TRUE(store->events_of("c").empty());
+}
+
+// A copy while another connection writes has all of one moment, and is a store.
+TEST_P(Stores, AreBackedUpWhileTheyAreInUse) {
+  const StoreColumns columns{{"wear", "time"}, {"site"}, true};
+  auto store = open(columns);
+  for (int i = 1; i <= 200; ++i) store->add({reading("a", i, i)});
+  const auto target = folder() / "copy.sqlite";
+  if (server_) {
+    EXPECT_THAT(message_of<InputError>([&] { backup_store(url(), folder(), columns, target); }),
+                HasSubstr("use pg_dump"));
+    return;
+  }
+  {
+    std::jthread writer([&](const std::stop_token& stop) {
+      for (int i = 201; !stop.stop_requested(); ++i) store->add({reading("a", i, i)});
+    });
+    backup_store(url(), folder(), columns, target);
+  }
+  const auto copy = open_store("copy.sqlite", folder(), columns, Access::write);
+  const auto readings = copy->after(0, SIZE_MAX / 2);
+  ASSERT_GE(readings.size(), 200U);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    EXPECT_EQ(readings[i].key, static_cast<std::int64_t>(i) + 1);
+  EXPECT_LE(readings.size(), store->count());
+  EXPECT_THAT(message_of<InputError>([&] { backup_store(url(), folder(), columns, target); }),
+              HasSubstr("exists already"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { backup_store("none", folder(), columns, folder() / "x"); }),
+      HasSubstr("is not a store yet"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x"));
 }
 
 TEST_P(Stores, KeepStatesOfOnePopulation) {
@@ -226,7 +320,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   const StoreColumns columns{{"wear", "time"}, {"site"}, true};
   // Who only reads changes nothing, and another result's columns neither.
   EXPECT_THAT(message_of<InputError>([&] { open(columns, Access::read); }),
-              HasSubstr("is a store of version 1, and this wearwell reads version 3"));
+              HasSubstr("is a store of version 1, and this wearwell reads version 4"));
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear"}, {"site"}, true});
               }),
@@ -234,7 +328,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   std::vector<std::string> reported;
   const auto tell = [&](const std::string& what) { reported.push_back(what); };
   auto store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 3")));
+  EXPECT_THAT(reported, ElementsAre(HasSubstr("had version 1 and is now upgraded to version 4")));
   EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
   ASSERT_EQ(store->states("p").size(), 1U);
   EXPECT_EQ(store->states("p")[0].bytes, "old");
@@ -248,6 +342,10 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   store->log({{"a", 9, Alarm::act, 0.5, 8}});
   EXPECT_EQ(store->alarms()[0].place, 8);
   EXPECT_THAT(store->add({reading("a", 4, 1)}), ElementsAre(Kept::stored));
+  store->begin_fit({0, "p", 5, 0, true}, {});
+  store->note_sent("a", Alarm::act, 9);
+  EXPECT_EQ(store->fits().size(), 1U);
+  EXPECT_EQ(store->sent_alarms().size(), 1U);
   EXPECT_GT(store->after(7, 1)[0].place, 7);
   store = nullptr;
   store = open_store(url(), folder(), columns, Access::write, tell);
@@ -274,12 +372,12 @@ TEST_P(OldStores, StayAsTheyWereWhereAStepFails) {
 TEST_P(OldStores, OfLaterVersionsAreRefused) {
   if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
   run(old_tables());
-  for (const char* version : {"4", "0", "-1", "2.5", "", "two"}) {
+  for (const char* version : {"5", "0", "-1", "2.5", "", "two"}) {
     run(fmt::format("UPDATE wearwell SET value = '{}' WHERE name = 'version';", version));
     if (server_ && !*version) continue;  // no store at all
     EXPECT_THAT(message_of<InputError>([&] { open(); }),
                 HasSubstr(fmt::format("is a store of version '{}'; this wearwell reads versions 1 "
-                                      "to 3",
+                                      "to 4",
                                       version)));
   }
 }

@@ -25,8 +25,7 @@ void read_fleet(const std::filesystem::path& path, Models models, LivesInput& in
   MonitoredFleet fleet = monitored_fleet(path, models);
   try {
     input.store = store_to_read(fleet);
-    input.stored =
-        monitor::stored_units(*input.store, {*fleet.tracker, fleet.fingerprint, fleet.trusted});
+    input.stored = monitor::stored_units(*input.store, fleet.population());
   } catch (const monitor::StoreError& error) {
     throw MachineError(error.what());
   }

@@ -19,7 +19,7 @@ namespace wearwell {
 /// The lives that a question rests on, with what they were read from: `lives` refers to it.
 struct LivesInput {
   prognosis::KnownLives lives;
-  std::unique_ptr<const prognosis::Tracker> tracker = {};  ///< of a result or a monitored fleet
+  std::shared_ptr<const prognosis::Tracker> tracker = {};  ///< of a result or a monitored fleet
   std::unique_ptr<monitor::Store> store = {};              ///< of a monitored fleet
   std::map<std::string, monitor::UnitRecord> stored = {};
 

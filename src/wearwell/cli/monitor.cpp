@@ -10,6 +10,7 @@
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/monitored.h"
+#include "wearwell/monitor/backup.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
@@ -20,7 +21,7 @@ namespace wearwell {
 namespace {
 
 struct MonitorCommand {
-  std::filesystem::path config, exported, exported_lives;
+  std::filesystem::path config, exported, exported_lives, backup;
   monitor::MonitorOptions run;
   bool check = false, json = false, quiet = false;
 };
@@ -52,6 +53,12 @@ void export_lives(const MonitoredFleet& read, const MonitorCommand& command) {
     fmt::print("the lives of {} parts are in {}\n", count, command.exported_lives.string());
 }
 
+void back_up(const MonitoredFleet& read, const MonitorCommand& command) {
+  monitor::backup_store(read.config.store, read.config.folder,
+                        monitor::store_columns(read.config, *read.tracker), command.backup);
+  if (!command.quiet) fmt::print("a backup of the store is in {}\n", command.backup.string());
+}
+
 std::string in_json(const monitor::FleetReader& fleet) {
   nlohmann::ordered_json json = monitor::json_of(fleet.fleet());
   auto& units = json["list"] = nlohmann::ordered_json::array();
@@ -62,14 +69,14 @@ std::string in_json(const monitor::FleetReader& fleet) {
 }
 
 void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
-  const auto started = [&](const monitor::Fleet& fleet, const std::string& address) {
+  const auto started = [&](const monitor::FleetReader& fleet, const std::string& address) {
     if (command.quiet || command.json || command.run.once) return;
     fmt::print("monitoring {} units, {} readings stored{}\n", fleet.fleet().units,
                fleet.fleet().stored,
                address.empty() ? "" : fmt::format("; the page is {}", address));
     std::fflush(stdout);
   };
-  const auto ended = [&](const monitor::Fleet& fleet) {
+  const auto ended = [&](const monitor::FleetReader& fleet) {
     if (command.json) {
       fmt::print("{}\n", in_json(fleet));
     } else if (!command.quiet) {
@@ -77,8 +84,7 @@ void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
     }
   };
   try {
-    monitor::run_monitor(read.config, {*read.tracker, read.fingerprint, read.trusted}, command.run,
-                         started, ended);
+    monitor::run_monitor(read.config, read.population(), read.result, command.run, started, ended);
   } catch (const monitor::StoreError& error) {
     throw MachineError(error.what());
   }
@@ -90,8 +96,10 @@ void run(const MonitorCommand& command, Models models) {
     const std::size_t sources = read.config.sources.size();
     fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,
                sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
-  } else if (!command.exported.empty() || !command.exported_lives.empty()) {
+  } else if (!command.exported.empty() || !command.exported_lives.empty() ||
+             !command.backup.empty()) {
     try {
+      if (!command.backup.empty()) back_up(read, command);
       if (!command.exported.empty()) export_readings(read, command);
       if (!command.exported_lives.empty()) export_lives(read, command);
     } catch (const monitor::StoreError& error) {
@@ -114,7 +122,9 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
       "--once", command->run.once,
       "Process the files and standard input, print the fleet and end; no page, no topics");
   CLI::Option* check =
-      monitor->add_flag("--check", command->check, "Check the configuration and end")
+      monitor
+          ->add_flag("--check", command->check,
+                     "Check the configuration, report everything that is wrong or missing, and end")
           ->excludes(once);
   monitor
       ->add_option("--export", command->exported,
@@ -132,6 +142,13 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
       ->excludes(once)
       ->excludes(check);
   monitor
+      ->add_option("--backup", command->backup,
+                   "Write the store as it is at one moment to this new file and end; a monitor may "
+                   "be running (PostgreSQL: pg_dump)")
+      ->type_name("FILE")
+      ->excludes(once)
+      ->excludes(check);
+  monitor
       ->add_option("--threads", command->run.threads,
                    "Threads (default: all); results do not depend on the number")
       ->check(CLI::Range(1, 1024));
@@ -142,12 +159,14 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
       "Sources are standard input, folders of files, MQTT, Sparkplug B and HTTP POST. It ends on "
       "SIGINT or SIGTERM, and at the end of standard input if there is no other source. "
       "Acknowledged\n"
-      "readings are stored and survive a kill.\n\n"
+      "readings are stored and survive a kill. Another fit of the study that is written to the "
+      "folder of the result takes the place of the present one (SIGHUP: look now).\n\n"
       "Examples:\n"
       "  wearwell monitor fleet.toml\n"
       "  wearwell monitor fleet.toml --once < readings.jsonl\n"
       "  wearwell monitor fleet.toml --export readings.parquet\n"
-      "  wearwell monitor fleet.toml --export-lives lives.csv\n\n"
+      "  wearwell monitor fleet.toml --export-lives lives.csv\n"
+      "  wearwell monitor fleet.toml --backup fleet-2026-11-22.sqlite\n\n"
       "Exit codes: 0 ended as requested; 2 the configuration is wrong, nothing was started; 3 the "
       "machine failed.");
   monitor->callback([command, models, &exit_code] {

@@ -3,17 +3,38 @@
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/monitor/monitor_run.h"
+#include "wearwell/monitor/result_watch.h"
 
 namespace wearwell {
 
+namespace {
+
+monitor::Population population_in(const std::filesystem::path& result, Models models) {
+  // Before it is read: what is written meanwhile is newer.
+  const std::int64_t written = monitor::written_ms(result);
+  const prognosis::CarriedState state = read_carried(result);
+  return {tracker_of(state, result, models), prognosis::fingerprint_of(state), state.trusted,
+          written};
+}
+
+}  // namespace
+
+monitor::Population MonitoredFleet::population() const {
+  return {tracker, fingerprint, trusted, written_ms};
+}
+
 MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models models) {
   const TomlReader root = TomlReader::parse_file(config);
-  const std::filesystem::path result = monitor::read_result_path(root);
-  const prognosis::CarriedState state = read_carried(result);
   MonitoredFleet fleet;
-  fleet.tracker = tracker_of(state, result, models);
-  fleet.fingerprint = prognosis::fingerprint_of(state);
-  fleet.trusted = state.trusted;
+  fleet.result.folder = monitor::read_result_path(root);
+  fleet.result.read = [folder = fleet.result.folder, models] {
+    return population_in(folder, models);
+  };
+  const monitor::Population population = fleet.result.read();
+  fleet.tracker = population.tracker;
+  fleet.fingerprint = population.fingerprint;
+  fleet.trusted = population.trusted;
+  fleet.written_ms = population.written_ms;
   fleet.config = monitor::read_monitor_config(root, *fleet.tracker);
   return fleet;
 }

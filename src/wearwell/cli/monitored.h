@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "wearwell/monitor/monitor_config.h"
+#include "wearwell/monitor/population.h"
 #include "wearwell/monitor/store.h"
 #include "wearwell/prognosis/tracker.h"
 #include "wearwell/study/model.h"
@@ -13,10 +15,14 @@ namespace wearwell {
 
 /// A monitor's configuration, with the tracker of its units.
 struct MonitoredFleet {
-  std::unique_ptr<const prognosis::Tracker> tracker;
+  std::shared_ptr<const prognosis::Tracker> tracker;
   std::string fingerprint;  ///< of the fit
   bool trusted = true;
+  std::int64_t written_ms = 0;  ///< Unix time of its file
   monitor::MonitorConfig config;
+  monitor::ResultSource result;  ///< from which another fit may come; refers to the models
+
+  monitor::Population population() const;
 };
 
 /// Throws InputError.

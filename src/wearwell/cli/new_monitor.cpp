@@ -87,7 +87,8 @@ kind = "stdin"            # which a service does not have
 # broker = "mqtts://broker:8883"
 # topic  = "plant/wear"   # "plant/{{unit}}/wear": the topic names the {0}; then reading.unit is left out
 # [source.post]
-# kind   = "http"         # POST /api/readings
+# kind   = "http"         # POST /api/v1/readings
+# format = "influx"       # lines of InfluxDB, of any source; then also precision = "ns"; or "opc ua"
 
 # Risk: the probability that {5} reaches {6:.6g} {7} within the horizon.
 [alarm]
@@ -98,8 +99,13 @@ act     = "20 %"
 
 [http]
 listen = "127.0.0.1:8080"  # the page; beyond this machine with token, certificate and key
+# [http.tokens.dashboard]   # who may do what: read, write (readings), operate (events, alarms)
+# token_file = "dashboard.token"
+# roles = ["read"]
 # [publish]
 # broker = "mqtt://broker"  # every change of a {0}
+# [webhook]
+# url = "https://HOST/PATH"  # POST of each alarm that lasts for a minute
 )",
       noun, toml_text(fmt::format("All {}s", noun)), toml_text(result.generic_string()),
       toml_text(noun), column_lines(tracker), tracker.limited(), tracker.limit().value,

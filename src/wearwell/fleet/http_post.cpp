@@ -123,6 +123,7 @@ void exchange(Driver& driver, Stream& stream, const HttpPlace& place, const Http
   parser.body_limit(boost::none);
   demand(driver.run([&](auto done) { http::async_read_header(stream, buffer, parser, done); },
                     cancel));
+  if (parser.is_done()) take(parser.get().result_int(), {});  // no body, but a status
   std::array<char, 1 << 16> piece;
   while (!parser.is_done()) {
     parser.get().body().data = piece.data();

@@ -33,7 +33,7 @@ struct HttpRequest {
 };
 
 /// Sends a request on its own connection and passes on the pieces of the answer as they arrive,
-/// with its status. Throws HttpBroken, perhaps after some pieces, and exceptions of `wait` and
+/// with its status; without a body one empty piece. Throws HttpBroken, perhaps after some pieces, and exceptions of `wait` and
 /// `take`.
 void http_post(const HttpPlace& place, const HttpRequest& request,
                const std::function<void(int status, std::string_view piece)>& take);

@@ -45,7 +45,7 @@ Tcp::endpoint endpoint_of(const HttpSettings& settings, net::io_context* io) {
 void check_reach(const HttpSettings& settings, const Tcp::endpoint& endpoint) {
   if (endpoint.address().is_loopback()) return;
   std::string missing;
-  if (settings.token.empty()) missing = "a token";
+  if (!settings.needs_token()) missing = "a token";
   if (settings.certificate.empty()) {
     missing += missing.empty() ? "" : " and ";
     missing += "TLS (certificate and key)";

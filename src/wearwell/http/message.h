@@ -8,7 +8,7 @@ namespace wearwell {
 
 /// The parts of a request that answers depend on. Missing fields are "".
 struct HttpRequest {
-  std::string method, target;  ///< "GET", "/api/units?count=20"
+  std::string method, target;  ///< "GET", "/api/v1/units?count=20"
   std::string host, origin, fetch_site, authorization, cookie, content_type, content_encoding;
   std::string last_event_id, if_none_match;
   std::string body;

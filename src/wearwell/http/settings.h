@@ -28,17 +28,29 @@ struct HttpLimits {
   std::chrono::milliseconds beat{10'000};   ///< interval of beats on a stream without news
 };
 
+/// What a token may do: to read, to send readings, to report events and acknowledge alarms.
+enum HttpRole : unsigned { role_read = 1, role_write = 2, role_operate = 4, role_all = 7 };
+
+/// A token with its own roles.
+struct HttpToken {
+  std::string name, token;
+  unsigned roles = 0;  ///< of HttpRole
+};
+
 /// Address and access rules of the server.
 struct HttpSettings {
   std::string host = "127.0.0.1";                    ///< an address, or a name of this machine
   int port = 8080;                                   ///< 0: any free port
   std::string token = {};                            ///< clients must know it; "": no token needed
+  std::vector<HttpToken> tokens = {};                ///< further ones
   std::filesystem::path certificate = {}, key = {};  ///< PEM, for TLS; both or none
   /// Further names of the server: of a proxy, or of this machine. Names in the certificate are
   /// included.
   std::vector<std::string> names = {};
   bool events = true;  ///< whether events of units are accepted
   HttpLimits limits = {};
+
+  bool needs_token() const { return !token.empty() || !tokens.empty(); }
 };
 
 }  // namespace wearwell

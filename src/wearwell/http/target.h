@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// "/api/units?search=J%207&count=20", parsed.
+/// "/api/v1/units?search=J%207&count=20", parsed.
 struct HttpTarget {
   std::string path;                          ///< as received, with percent signs
   std::map<std::string, std::string> query;  ///< decoded

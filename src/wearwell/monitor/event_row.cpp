@@ -44,10 +44,12 @@ UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingM
   event.kind = kind_of(fields, mapping);
   const bool corrected = event.kind == EventKind::corrected;
   const bool cancelled = event.kind == EventKind::cancelled;
-  // An event needs no time beside a sequence number, and a cancellation neither.
+  const bool acknowledged = event.kind == EventKind::acknowledged;
+  // An event needs no time beside a sequence number, and one that is not at a reading neither.
   ReadingMapping identity = mapping;
-  if (cancelled || !identity.sequence.empty()) identity.time = "";
-  if (cancelled) identity.sequence = "";
+  const bool has_no_key = cancelled || acknowledged;
+  if (has_no_key || !identity.sequence.empty()) identity.time = "";
+  if (has_no_key) identity.sequence = "";
   const StoredReading at = corrected ? reading_of(fields, unit, identity, received_ms)
                                      : identity_of(fields, unit, identity, received_ms);
   event.unit = at.unit;
@@ -63,6 +65,13 @@ UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingM
     if (!number || !number->whole || number->integer < 1)
       throw InputError("number must be a whole number: of the event that is cancelled");
     event.cancels = number->integer;
+  } else if (acknowledged) {
+    const Field* since = find_field(fields, "alarm_ms");
+    if (!since || !since->whole || since->integer < 1)
+      throw InputError(
+          "alarm_ms must be a whole number: since when the alarm that is acknowledged holds, as "
+          "the unit reports it");
+    event.alarm_ms = since->integer;
   } else if (event.kind == EventKind::sensor) {
     // A difference of levels, whatever the zero of the unit is.
     if (mapping.watched.level) {

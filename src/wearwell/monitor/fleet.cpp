@@ -22,7 +22,9 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
       settings_(std::move(settings)),
       reported_(tracker),
       columns_(prognosis::watched_columns(tracker)),
-      started_ms_(unix_ms_now()) {
+      started_ms_(settings_.start ? settings_.start->time_ms : unix_ms_now()),
+      beside_(settings_.beside),
+      fit_since_ms_(settings_.fit.since_ms) {
   place_ = store_.all_up_to(settings_.population);
   events_ = events_of_units(store_, tracker_);
   for (const auto& [unit, events] : events_) last_event_ = std::max(last_event_, events->last());
@@ -42,15 +44,19 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
   for (const AlarmChange& each : store_.alarms()) {
     Unit& unit = unit_named(each.unit);
     unit.by_risk = unit.alarm = unit.shown = unit.logged = each.alarm;
+    unit.alarm_ms = each.time_ms;
+    // What was unknown before the start is not news after it.
+    if (!unit.lost) unit.shown = shown_alarm(unit, unit.alarm, Clock::now());
     if (unit.lost) any_lost_ = true;
   }
   for (const auto& [name, events] : events_) {
     Unit& unit = unit_named(name);
+    if (events->part().service != Service::in_service) unit.shown = Alarm::unknown;
     if (!unit.lost) continue;
     any_lost_ = true;
     if (events->part().number > 1) unit.by_risk = Alarm::ok;  // as in take_events
   }
-  stored_before_ = store_.count();
+  stored_before_ = settings_.start ? settings_.start->readings : store_.count();
 }
 
 Fleet::~Fleet() = default;
@@ -125,10 +131,18 @@ void Fleet::take_events() {
     list.push_back(std::move(each));
   }
   for (auto& [name, list] : lists) {
-    const std::int64_t part = events_of(events_, name)->part().number;
+    const std::shared_ptr<const UnitEvents> before = events_of(events_, name);
+    const std::int64_t part = before->part().number;
     events_[name] = std::make_shared<const UnitEvents>(std::move(list), columns_);
     Unit& unit = unit_named(name);
     const std::lock_guard lock(unit.moving);
+    // An acknowledgement changes no state: it is shown with the next forecast.
+    if (!unit.lost && events_[name]->last_of_state() == before->last_of_state()) {
+      unit.record.events = events_[name];
+      unit.stale = true;
+      if (!std::exchange(unit.queued, true)) stale_.push_back(&unit);
+      continue;
+    }
     unit.lost = any_lost_ = true;
     // A new part knows nothing of earlier alarms.
     if (events_[name]->part().number != part) unit.by_risk = Alarm::ok;
@@ -234,10 +248,22 @@ void Fleet::publish(std::vector<Unit*>& units) {
   for (Unit* unit : units) {
     const Alarm before = unit->shown, alarm = shown_alarm(*unit, unit->alarm, now);
     auto seen = std::make_shared<Seen>(*unit->seen);
+    const std::string& name = unit->record.unit;
+    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk, seen->place};
+    const bool is_logged =
+        !beside_ && alarm != before && alarm != Alarm::unknown && alarm != unit->logged;
+    if (is_logged) {
+      unlogged_.push_back(change);
+      unit->logged = alarm;
+      unit->alarm_ms = change.time_ms;
+    }
     seen->view.alarm = alarm;
+    seen->view.alarm_ms = unit->alarm_ms;
+    const bool calls = alarm != Alarm::ok && alarm != Alarm::unknown;
+    seen->view.acknowledged_by =
+        calls && unit->alarm_ms > 0 ? seen->events->acknowledged_by(unit->alarm_ms) : std::string();
     unit->seen = seen;
     unit->shown = alarm;
-    const std::string& name = unit->record.unit;
     {
       const std::lock_guard lock(lock_);
       seen_[name] = seen;
@@ -246,14 +272,34 @@ void Fleet::publish(std::vector<Unit*>& units) {
       version = ++version_;
       changes_.emplace(version, name);
     }
-    if (alarm == before) continue;
-    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk, seen->place};
-    if (alarm != Alarm::unknown && alarm != unit->logged) {
-      unlogged_.push_back(change);
-      unit->logged = alarm;
-    }
-    if (settings_.on_alarm) settings_.on_alarm(change, before, seen->view);
+    if (alarm != before && !beside_ && settings_.on_alarm)
+      settings_.on_alarm(change, before, seen->view);
   }
+}
+
+void Fleet::take_over(const Fleet& before) {
+  std::vector<Unit*> all;
+  for (const auto& [name, unit] : units_) {
+    const auto found = before.units_.find(name);
+    if (found != before.units_.end()) {
+      const Unit& old = *found->second;
+      unit->shown = old.shown;
+      unit->logged = old.logged;
+      unit->alarm_ms = old.alarm_ms;
+      unit->heard = old.heard;
+    }
+    if (unit->seen) all.push_back(unit.get());
+  }
+  beside_ = false;
+  live_ = true;
+  publish(all);
+}
+
+void Fleet::set_moved(std::int64_t since_ms, std::vector<MovedForecast> moved) {
+  fit_since_ms_ = since_ms;
+  moved_ = std::move(moved);
+  moved_at_.clear();
+  for (std::size_t i = 0; i < moved_.size(); ++i) moved_at_[moved_[i].unit] = i;
 }
 
 void Fleet::fall_silent() {

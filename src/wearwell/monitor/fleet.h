@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,8 +25,21 @@ struct FleetSettings {
   bool keys_are_times = false;  ///< not sequence numbers
   bool trusted = true;          ///< the result that the population comes from
   std::string population;       ///< SHA-1 of the population
+  FitView fit = {};             ///< the same population, for readers
   AlarmSettings alarm;
   int threads = 1;
+  /// Of a fleet that takes the place of another one: when the monitor was started, and with how
+  /// many readings. Without it: now, with those in the store.
+  struct Start {
+    std::int64_t time_ms = 0;
+    std::uint64_t readings = 0;
+  };
+  std::optional<Start> start = {};
+  /// Whether another fleet of the same store is the one that readers see: until `take_over`, alarms
+  /// are neither reported nor stored.
+  bool beside = false;
+  /// What is sent elsewhere; empty: nothing.
+  std::function<WebhookView()> webhook = {};
   /// Called with a change of alarm, the previous alarm, and the unit.
   std::function<void(const AlarmChange& change, Alarm before, const UnitView& unit)> on_alarm = {};
 };
@@ -51,11 +65,20 @@ class Fleet : public FleetReader {
   /// Saves the states of changed units to the store. Throws StoreError.
   void save();
   std::int64_t place() const { return place_; }
+  FleetSettings::Start start() const { return {started_ms_, stored_before_}; }
+  /// The present alarms of the units follow those of `before`, the fleet that readers see now, as if
+  /// it had gone on. To be called before readers see this one.
+  void take_over(const Fleet& before);
+  /// How its fit has moved the forecasts, for readers. To be called before they see it.
+  void set_moved(std::int64_t since_ms, std::vector<MovedForecast> moved);
 
   FleetView fleet() const override;
   std::vector<UnitView> units(const std::string& search, std::size_t offset, std::size_t count,
                               std::uint64_t* matching = nullptr) const override;
   std::optional<UnitDetail> unit(const std::string& name) const override;
+  std::optional<UnitView> view(const std::string& name) const override;
+  std::vector<MovedForecast> moved(std::size_t offset, std::size_t count,
+                                   std::uint64_t* all = nullptr) const override;
   std::uint64_t version() const override;
   std::vector<std::string> changed_since(std::uint64_t version) const override;
 
@@ -82,6 +105,10 @@ class Fleet : public FleetReader {
   const TrackerUnits reported_;
   const prognosis::WatchedColumns columns_;
   const std::int64_t started_ms_;
+  bool beside_;
+  std::int64_t fit_since_ms_ = 0;
+  std::vector<MovedForecast> moved_;
+  std::unordered_map<std::string, std::size_t> moved_at_;  ///< by unit
 
   std::unordered_map<std::string, std::unique_ptr<Unit>> units_;
   EventsOfUnits events_;

@@ -3,7 +3,7 @@
 (() => {
   const {element, given, quantity, range, probability, unit: words} = wearwell;
   const detail = document.getElementById('detail');
-  let fleet = null, opened = '', serial = 0, waiting = null, shown = null, form = null;
+  let fleet = null, opened = '', serial = 0, waiting = null, shown = null, form = null, acknowledgement = null;
 
   const finite = (x) => typeof x === 'number' && Number.isFinite(x);
   const name = (what, unit) => (words(unit) ? `${wearwell.capital(what)} (${words(unit)})` : wearwell.capital(what));
@@ -153,7 +153,7 @@
     return element('div', {class: 'head'},
         element('a', {class: 'back', href: '#'}, '← Fleet'),
         element('div', {class: 'named'}, element('h2', {id: 'unit-name'}, view.unit), wearwell.badge(view.alarm, wearwell.stateOf(view)), view.part > 1 ? element('span', {class: 'note'}, `part ${view.part}`) : null),
-        ...warnings(view), lead(view), tiles(view));
+        ...warnings(view), lead(view), tiles(view), wearwell.fits.moved(view));
   }
 
   // A plot stays while the user reads it, and a form while it is filled in; the values above are updated.
@@ -181,9 +181,13 @@
     }
     waiting = null;
     const focused = document.activeElement?.closest?.('figure')?.id;
-    if (!same || !form) form = wearwell.eventForm(fleet, () => shown, load);
+    if (!same || !form) {
+      form = wearwell.eventForm(fleet, () => shown, load);
+      acknowledgement = wearwell.acknowledgement(() => shown, load);
+    }
+    acknowledgement.update(view);
     detail.dataset.unit = view.unit;
-    detail.replaceChildren(head(view), figures(view), tally(view.forecasts), wearwell.eventSection(fleet, view, form), quality(view.quality));
+    detail.replaceChildren(head(view), acknowledgement.element, figures(view), tally(view.forecasts), wearwell.eventSection(fleet, view, form), quality(view.quality));
     if (same && focused) document.querySelector(`#${focused} svg`)?.focus({preventScroll: true});
     if (!same) detail.scrollTop = 0;
   }
@@ -191,7 +195,7 @@
   async function load() {
     const mine = ++serial, unit = opened;
     try {
-      const view = await wearwell.ask(`/api/units/${encodeURIComponent(unit)}`);
+      const view = await wearwell.ask(`/api/v1/units/${encodeURIComponent(unit)}`);
       if (mine === serial) draw(view);
     } catch (error) {
       if (mine !== serial) return;

@@ -5,12 +5,14 @@
   const meanings = {
     replaced: 'a new part is installed', removed: 'taken out of service', failed: 'failed', sensor: 'sensor exchanged',
     corrected: 'reading corrected', withdrawn: 'reading withdrawn', cancelled: 'event cancelled',
+    acknowledged: 'alarm acknowledged',
   };
   const byTime = (fleet) => fleet.keys === 'time';
   const keyText = (fleet, key) => (byTime(fleet) ? clock(key) : `no. ${wearwell.count(key)}`);
 
   function description(fleet, each) {
     if (each.event === 'cancelled') return `event ${each.cancels} cancelled`;
+    if (each.event === 'acknowledged') return `alarm since ${clock(each.alarm_ms)} acknowledged`;
     const more = each.use !== undefined ? `, ${fleet.axis} ${quantity(each.use, fleet.axis_unit)}`
         : each.values ? `: ${Object.entries(each.values).map(([name, value]) => `${name} ${wearwell.number(value, 6)}`).join(', ')}`
         : each.offset !== undefined ? `, shows ${quantity(each.offset, fleet.level_unit)} too much` : '';
@@ -74,7 +76,7 @@
   // One form a unit: it stays as it is while the values around it change. `latest` is the unit as it is now.
   wearwell.eventForm = (fleet, latest, done) => {
     const {unit} = latest();
-    const kinds = Object.keys(meanings).filter((kind) => kind !== 'sensor' || fleet.level_column);
+    const kinds = Object.keys(meanings).filter((kind) => kind !== 'acknowledged' && (kind !== 'sensor' || fleet.level_column));
     const kind = element('select', {name: 'event', id: 'event-kind'}, ...kinds.map((each) => element('option', {value: each}, meanings[each])));
     const own = element('div', {class: 'fields'});
     const message = element('p', {class: 'note', role: 'status'});
@@ -91,7 +93,7 @@
       message.className = 'note';
       message.textContent = 'Sending';
       try {
-        const answer = await wearwell.send(`/api/units/${encodeURIComponent(unit)}/events`, bodyOf(form));
+        const answer = await wearwell.send(`/api/v1/units/${encodeURIComponent(unit)}/events`, bodyOf(form));
         message.textContent = answer.events ? 'Stored. The forecast follows in a moment.' : answer.problem || 'This event is stored already.';
         choose();
         document.activeElement?.blur();  // the list above may change again
@@ -104,6 +106,40 @@
     const report = element('details', {class: 'report'}, element('summary', {}, 'Report an event'), form);
     report.addEventListener('toggle', () => { if (report.open) choose(); });
     return report;
+  };
+
+  // One a unit, as above: it says who has acknowledged the alarm, or asks.
+  wearwell.acknowledgement = (latest, done) => {
+    const message = element('p', {class: 'note', role: 'status'}), by = element('p', {class: 'note'});
+    const form = element('form', {class: 'event-form'},
+        element('div', {class: 'fields'}, field('Your name', element('input', {name: 'by', required: true, maxlength: 200, autocomplete: 'name'})),
+                field('Note', element('input', {name: 'note', maxlength: 1000, autocomplete: 'off'})), element('button', {}, 'Acknowledge alarm')), message);
+    form.addEventListener('submit', async (event) => {
+      event.preventDefault();
+      const {unit, alarm_ms: since} = latest();
+      try {
+        await wearwell.send(`/api/v1/units/${encodeURIComponent(unit)}/events`, {...bodyOf(form), event: 'acknowledged', alarm_ms: since});
+        message.className = 'note';
+        message.textContent = 'Stored.';
+        document.activeElement?.blur();
+        done();
+      } catch (error) {
+        message.className = 'wrong';
+        message.textContent = error.message;
+      }
+    });
+    const all = element('section', {class: 'acknowledgement'}, by, form);
+    return {
+      element: all,
+      update: (view) => {
+        const calls = ['watch', 'act', 'doubt'].includes(view.alarm) && view.alarm_ms > 0;
+        all.hidden = !calls;
+        by.hidden = !view.acknowledged_by;
+        by.textContent = view.acknowledged_by ? `Alarm acknowledged by ${view.acknowledged_by}.` : '';
+        form.hidden = Boolean(view.acknowledged_by);
+        if (form.hidden) message.textContent = '';
+      },
+    };
   };
 
   wearwell.eventSection = (fleet, view, form) => element('section', {class: 'events'}, element('h3', {}, 'Events'), listed(fleet, view), form);

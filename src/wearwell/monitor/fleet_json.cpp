@@ -40,6 +40,9 @@ Json json_of_event(const EventView& view) {
   Json json = {{"number", event.number}, {"event", name(event.kind)}};
   if (event.kind == EventKind::cancelled) {
     json["cancels"] = event.cancels;
+  } else if (event.kind == EventKind::acknowledged) {
+    json["alarm_ms"] = event.alarm_ms;
+    json["cancelled"] = view.cancelled;
   } else {
     json["key"] = event.key;
     json["cancelled"] = view.cancelled;
@@ -53,7 +56,20 @@ Json json_of_event(const EventView& view) {
   return json;
 }
 
+Json json_of_side(const MovedForecast::Side& side) {
+  return {{"alarm", name(side.alarm)},
+          {"risk", side.known ? number(side.risk) : Json(nullptr)},
+          {"remaining", side.known ? json_of_interval(side.remaining) : Json(nullptr)}};
+}
+
 }  // namespace
+
+Json json_of(const MovedForecast& moved) {
+  return {{"last_key", moved.last_key},
+          {"axis_unit", moved.axis_unit},
+          {"before", json_of_side(moved.before)},
+          {"after", json_of_side(moved.after)}};
+}
 
 Json json_of(const FleetView& fleet) {
   Json columns = Json::array();
@@ -72,6 +88,14 @@ Json json_of(const FleetView& fleet) {
           {"columns", std::move(columns)},
           {"level_column", fleet.level_column ? Json(fleet.level_column->name) : Json(nullptr)},
           {"trusted", fleet.trusted},
+          {"fit",
+           {{"fingerprint", fleet.fit.fingerprint},
+            {"written_ms", fleet.fit.written_ms},
+            {"since_ms", fleet.fit.since_ms}}},
+          {"webhook", fleet.webhook ? Json{{"sent", fleet.webhook->sent},
+                                           {"failed", fleet.webhook->failed},
+                                           {"waiting", fleet.webhook->waiting}}
+                                    : Json(nullptr)},
           {"units",
            {{"all", fleet.units},
             {"act", fleet.act},
@@ -93,6 +117,9 @@ Json json_of(const FleetView& fleet) {
 Json json_of(const UnitView& unit) {
   return {{"unit", unit.unit},
           {"alarm", name(unit.alarm)},
+          {"alarm_ms", unit.alarm_ms},
+          {"acknowledged_by",
+           unit.acknowledged_by.empty() ? Json(nullptr) : Json(unit.acknowledged_by)},
           {"known", unit.known},
           {"at", json_of_known(unit, unit.at)},
           {"last_key", unit.last_key},
@@ -133,6 +160,7 @@ Json json_of(const UnitDetail& detail) {
   json["path"] = std::move(path);
   json["survival"] = std::move(survival);
   json["forecasts"] = {{"judged", detail.judged}, {"held", detail.held}};
+  json["moved"] = detail.moved ? json_of(*detail.moved) : Json(nullptr);
   return json;
 }
 

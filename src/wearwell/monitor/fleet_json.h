@@ -12,6 +12,7 @@ namespace wearwell::monitor {
 nlohmann::ordered_json json_of(const FleetView& fleet);
 nlohmann::ordered_json json_of(const UnitView& unit);
 nlohmann::ordered_json json_of(const UnitDetail& detail);
+nlohmann::ordered_json json_of(const MovedForecast& moved);  ///< without the unit
 nlohmann::ordered_json json_of(const Delivery& delivery);
 
 /// On one line. Bytes in names that are not UTF-8 become U+FFFD.

@@ -12,7 +12,7 @@
 
   const height = () => (phone.matches ? 74 : 46);
   const unit = (i) => pages.get(Math.floor(i / page))?.[i % page];
-  const path = (number) => `/api/units?search=${encodeURIComponent(search.value)}&offset=${number * page}&count=${page}`;
+  const path = (number) => `/api/v1/units?search=${encodeURIComponent(search.value)}&offset=${number * page}&count=${page}`;
 
   // Position of a life relative to the horizon: the horizon in the middle, infinity at the right.
   const place = (x) => (x === null ? 100 : 100 * Math.max(0, x) / (Math.max(0, x) + fleet.horizon || 1));
@@ -43,7 +43,7 @@
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
       wearwell.badge(each.alarm, wearwell.stateOf(each)),
-      element('span', {class: 'name'}, each.unit),
+      element('span', {class: 'name'}, each.unit, each.acknowledged_by ? element('span', {class: 'note'}, ` acknowledged: ${each.acknowledged_by}`) : null),
       element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
       element('span', {class: past ? 'life past' : 'life'}, past || !each.known || each.doubt ? null : interval(each.remaining),
               element('span', {class: 'unseen'}, 'remaining useful life '), element('span', {class: 'range'}, life)),

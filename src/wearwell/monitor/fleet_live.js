@@ -40,6 +40,7 @@
     if (lost) all.push(['fail', 'Connection lost.', `The page shows the state of ${wearwell.clock(lost)} and tries to reconnect.`]);
     if (fleet && !fleet.trusted) all.push(['warn', 'Not trusted.', 'The result that the population comes from did not pass its checks: the values here may be wrong.']);
     if (fleet && fleet.units.all > 0 && fleet.units.unknown === fleet.units.all) all.push(['warn', 'No news.', `No ${fleet.noun} has reported for a long time.`]);
+    if (fleet && fleet.webhook && fleet.webhook.waiting > 0 && fleet.webhook.failed > 0) all.push(['warn', 'Alarms are not sent.', `The webhook has not accepted the alarms of ${wearwell.count(fleet.webhook.waiting)} ${fleet.webhook.waiting === 1 ? fleet.noun : wearwell.plural(fleet.noun)}; the monitor tries again.`]);
     if (fleet && fleet.messages.lag_ms > 5000) all.push(['warn', 'Behind.', `Readings arrive faster than they are processed: the page lags behind the stored readings.`]);
     // An alert is announced once, not whenever something else changes.
     const text = JSON.stringify(all);
@@ -57,6 +58,7 @@
     document.getElementById('subtitle').textContent = `${wearwell.count(fleet.units.all)} ${noun}, ` +
         (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : `no message since the start ${wearwell.age(wearwell.now() - fleet.started_ms)} ago`);
     complaints();
+    wearwell.fits.refresh(fleet);
   }
 
   function take(view) {
@@ -96,7 +98,7 @@
   // If no event stream is free, the page polls.
   async function poll() {
     try {
-      news(await wearwell.ask('/api/fleet'), true, []);
+      news(await wearwell.ask('/api/v1/fleet'), true, []);
       alive();
     } catch {
       cut();
@@ -105,7 +107,7 @@
 
   function listen() {
     source?.close();
-    source = new EventSource('/api/events');
+    source = new EventSource('/api/v1/events');
     source.addEventListener('open', () => {
       clearInterval(polling);
       polling = 0;
@@ -161,7 +163,7 @@
 
   async function begin() {
     try {
-      take(await wearwell.ask('/api/fleet'));
+      take(await wearwell.ask('/api/v1/fleet'));
       const first = await wearwell.list.begin(fleet);
       if (!chosen() && wide.matches && first !== undefined) history.replaceState(null, '', `#unit=${encodeURIComponent(first)}`);
       show();

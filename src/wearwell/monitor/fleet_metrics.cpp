@@ -84,6 +84,19 @@ void add_fleet(const FleetView& fleet, Text* text) {
   text->family("wearwell_last_message_timestamp_seconds", "gauge",
                "Time of the last message, Unix time; 0: none yet.");
   text->sample("", seconds(fleet.last_message_ms));
+  if (fleet.webhook) {
+    count("wearwell_webhook_sent_total", "Alarms that the webhook's server has accepted.",
+          fleet.webhook->sent);
+    count("wearwell_webhook_failures_total", "Attempts to send an alarm that failed.",
+          fleet.webhook->failed);
+    text->family("wearwell_webhook_waiting", "gauge", "Units whose alarm is still to be sent.");
+    text->sample("", static_cast<double>(fleet.webhook->waiting));
+  }
+  text->family("wearwell_fit_info", "gauge", "The fit that forecasts come from; always 1.");
+  text->sample(fmt::format("fingerprint={}", quoted(fleet.fit.fingerprint)), 1);
+  text->family("wearwell_fit_since_timestamp_seconds", "gauge",
+               "Time from which forecasts come from it, Unix time.");
+  text->sample("", seconds(fleet.fit.since_ms));
   text->family("wearwell_start_timestamp_seconds", "gauge", "Start of the monitor, Unix time.");
   text->sample("", seconds(fleet.started_ms));
 }
@@ -134,6 +147,8 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
   text->sample("", static_cast<double>(units.size()));
   gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, 3: doubt, -1: unknown.",
         [](const UnitView& unit) { return code(unit.alarm); });
+  gauge("wearwell_unit_acknowledged", "Whether someone has acknowledged the alarm, 1 or 0.",
+        [](const UnitView& unit) { return unit.acknowledged_by.empty() ? 0.0 : 1.0; });
   gauge("wearwell_unit_doubt", "Whether the readings do not follow the forecast, 1 or 0.",
         [](const UnitView& unit) { return unit.doubt.empty() ? 0.0 : 1.0; });
   gauge("wearwell_unit_beyond",

@@ -36,6 +36,7 @@ ServedPage fleet_page(bool token) {
                       {of::monitor_plot_js(), of::monitor_plot_js_sha256()},
                       {of::monitor_list_js(), of::monitor_list_js_sha256()},
                       {of::monitor_events_js(), of::monitor_events_js_sha256()},
+                      {of::monitor_fits_js(), of::monitor_fits_js_sha256()},
                       {of::monitor_detail_js(), of::monitor_detail_js_sha256()},
                       {of::monitor_live_js(), of::monitor_live_js_sha256()}});
 }

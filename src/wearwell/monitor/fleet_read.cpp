@@ -43,6 +43,9 @@ FleetView Fleet::fleet() const {
   for (const std::string& each : tracker_.labels()) view.columns.push_back({each, ""});
   if (columns_.level) view.level_column = view.columns[*columns_.level];
   view.trusted = settings_.trusted;
+  view.fit = settings_.fit;
+  view.fit.since_ms = fit_since_ms_;
+  if (settings_.webhook) view.webhook = settings_.webhook();
   const Tally::Total total = tally_.total();
   view.messages = total.messages;
   view.stored = stored_before_ + total.stored;
@@ -94,6 +97,26 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
   return views;
 }
 
+std::optional<UnitView> Fleet::view(const std::string& name) const {
+  std::shared_ptr<const Seen> seen;
+  {
+    const std::lock_guard lock(lock_);
+    const auto found = seen_.find(name);
+    if (found == seen_.end()) return {};
+    seen = found->second;
+  }
+  return counted(seen->view, tally_);
+}
+
+std::vector<MovedForecast> Fleet::moved(std::size_t offset, std::size_t count,
+                                        std::uint64_t* all) const {
+  if (all) *all = moved_.size();
+  const std::size_t first = std::min(offset, moved_.size());
+  const std::size_t last = first + std::min(count, moved_.size() - first);
+  return {moved_.begin() + static_cast<std::ptrdiff_t>(first),
+          moved_.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
 std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   std::shared_ptr<const Seen> seen;
   {
@@ -137,6 +160,8 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
     if (each.at > view.at) detail.path.push_back(each);
   }
   detail.survival = *seen->survival;
+  if (const auto at = moved_at_.find(name); at != moved_at_.end())
+    detail.moved = moved_[at->second];
   return detail;
 }
 

@@ -17,6 +17,7 @@ struct Fleet::Unit {
   Alarm by_risk = Alarm::ok;  ///< of its risk alone
   Alarm alarm = Alarm::ok;
   Alarm shown = Alarm::ok, logged = Alarm::ok;
+  std::int64_t alarm_ms = 0;  ///< Unix time of the change to `logged`
   Clock::time_point heard = {}, forecast_at = {};
   std::shared_ptr<const Seen> seen;
 };

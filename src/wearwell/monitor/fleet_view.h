@@ -41,7 +41,9 @@ struct UnitView {
   double passed = 0;           ///< probability that it is already reached
   std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
   bool beyond = false;         ///< the last reading measures a level beyond the threshold
-  std::int64_t part = 1;       ///< which one it is: later ones are installed by `replaced`
+  std::int64_t alarm_ms = 0;   ///< Unix time since which the alarm holds; 0: from the start on
+  std::string acknowledged_by = {};  ///< who has acknowledged this alarm; empty: no one
+  std::int64_t part = 1;             ///< which one it is: later ones are installed by `replaced`
   Service service = Service::in_service;  ///< else the alarm is unknown
   Quality quality;
 };
@@ -67,6 +69,27 @@ struct EventView {
   bool cancelled = false;
 };
 
+/// The forecast of a unit by two fits, from the same readings, as one took the place of the other.
+struct MovedForecast {
+  struct Side {
+    Alarm alarm = Alarm::unknown;
+    bool known = false;  ///< as in UnitView
+    Interval remaining = {};
+    double risk = 0;
+  };
+  std::string unit;
+  std::int64_t last_key = 0;  ///< of the unit's readings then
+  std::string axis_unit;      ///< of `remaining`
+  Side before, after;
+};
+
+/// The fit that forecasts come from.
+struct FitView {
+  std::string fingerprint;      ///< SHA-1
+  std::int64_t written_ms = 0;  ///< Unix time of its file; 0: unknown
+  std::int64_t since_ms = 0;    ///< Unix time from which forecasts come from it; 0: unknown
+};
+
 struct UnitDetail {
   UnitView view;
   std::vector<UnitMoment> moments;  ///< thinned to some hundred, first and last kept
@@ -82,12 +105,19 @@ struct UnitDetail {
   /// Earlier forecasts of `level` (5 to 95 %) compared with the next reading: number covered,
   /// number in all.
   std::uint64_t held = 0, judged = 0;
-  std::vector<EventView> events = {};  ///< in the order of their arrival
+  std::vector<EventView> events = {};       ///< in the order of their arrival
+  std::optional<MovedForecast> moved = {};  ///< by the present fit, when it came
 };
 
 /// A column of a reading, for those who report corrections.
 struct ColumnView {
   std::string name, unit;  ///< unit empty: a label
+};
+
+/// Messages about alarms that are sent elsewhere, since the start.
+struct WebhookView {
+  std::uint64_t sent = 0, failed = 0;  ///< accepted; attempts without success
+  std::uint64_t waiting = 0;           ///< units whose alarm is still to be sent
 };
 
 /// The properties common to all units.
@@ -105,6 +135,8 @@ struct FleetView {
   std::int64_t lag_ms =
       0;  ///< age in the store of the last processed reading; 0: all are processed
   std::int64_t last_message_ms = 0;  ///< time of the last one, for any outcome; 0: none yet
+  FitView fit = {};
+  std::optional<WebhookView> webhook = {};  ///< if there is one
 };
 
 /// The data that the page, the API and the metrics read: any thread may ask; answers are copies.
@@ -118,6 +150,12 @@ class FleetReader {
                                       std::size_t count,
                                       std::uint64_t* matching = nullptr) const = 0;
   virtual std::optional<UnitDetail> unit(const std::string& name) const = 0;
+  /// The same unit without its history and plots: as cheap as a look-up.
+  virtual std::optional<UnitView> view(const std::string& name) const = 0;
+  /// How the present fit moved the forecasts when it came, the largest change first; empty if it
+  /// was there from the start. `*all`: their number.
+  virtual std::vector<MovedForecast> moved(std::size_t offset, std::size_t count,
+                                           std::uint64_t* all = nullptr) const = 0;
   /// Increases with every change; `changed_since` names the units that changed after it.
   virtual std::uint64_t version() const = 0;
   virtual std::vector<std::string> changed_since(std::uint64_t version) const = 0;

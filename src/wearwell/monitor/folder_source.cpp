@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 /// One file and the position read so far.
 struct GrowingFile {
-  explicit GrowingFile(const ReadingMapping& mapping) : feed(needed_fields(mapping)) {}
+  explicit GrowingFile(const SourceSettings& source)
+      : feed(needed_fields(source.mapping), source.format.form == Form::any) {}
   LineFeed feed;
   std::int64_t offset = 0;  ///< of the stored part
   std::int64_t noted = 0;   ///< the part recorded in the store
@@ -49,9 +50,11 @@ class FolderReader {
   std::set<std::string> seen_;
 };
 
-bool is_lines(const fs::path& path) {
+bool is_lines(const fs::path& path, Form form) {
   static const std::set<std::string> endings = {".csv", ".jsonl", ".ndjson", ".json"};
-  return endings.contains(path.extension().string()) && !path.filename().string().starts_with('.');
+  static const std::set<std::string> endings_of_influx = {".lp", ".influx", ".txt"};
+  const auto& of_form = form == Form::influx ? endings_of_influx : endings;
+  return of_form.contains(path.extension().string()) && !path.filename().string().starts_with('.');
 }
 
 void FolderReader::look() {
@@ -59,7 +62,7 @@ void FolderReader::look() {
   std::vector<fs::path> paths;
   for (fs::directory_iterator at(context_.settings.folder, error), end; !error && at != end;
        at.increment(error)) {
-    if (is_lines(at->path())) paths.push_back(at->path());
+    if (is_lines(at->path(), context_.settings.format.form)) paths.push_back(at->path());
   }
   if (error)
     context_.notices.tell(
@@ -88,7 +91,7 @@ void FolderReader::read_file(const fs::path& path) {
   const std::string key = fmt::format("{}/{}#{}", context_.settings.name,
                                       valid_utf8(path.filename().string()), about.st_ino);
   seen_.insert(key);
-  auto [at, fresh] = files_.try_emplace(key, context_.settings.mapping);
+  auto [at, fresh] = files_.try_emplace(key, context_.settings);
   GrowingFile& state = at->second;
   if (fresh) {
     if (const auto noted = noted_.find(key); noted != noted_.end()) {
@@ -100,7 +103,7 @@ void FolderReader::read_file(const fs::path& path) {
     context_.notices.tell(
         "source." + context_.settings.name,
         fmt::format("{} has become shorter; it is read again from its beginning", path.string()));
-    state = GrowingFile(context_.settings.mapping);
+    state = GrowingFile(context_.settings);
   }
   while (state.offset < about.st_size && read_on(path, file, state, about.st_size)) {
   }
@@ -117,7 +120,7 @@ void FolderReader::resume(const Descriptor& file, GrowingFile& state) {
 // One piece; returns whether there may be more.
 bool FolderReader::read_on(const fs::path& path, const Descriptor& file, GrowingFile& state,
                            std::int64_t size) {
-  if (state.resumed) resume(file, state);
+  if (state.resumed && context_.settings.format.form == Form::any) resume(file, state);
   state.resumed = false;
   std::string bytes(LineFeed::piece_size, '\0');
   const ssize_t count = pread(file.get(), bytes.data(), bytes.size(), state.offset);

@@ -52,10 +52,35 @@ void check_token(const std::string& token) {
   }
 }
 
+namespace {
+
+constexpr std::pair<HttpRole, std::string_view> named_roles[] = {
+    {role_read, "read"}, {role_write, "write"}, {role_operate, "operate"}};
+
+}  // namespace
+
+std::optional<unsigned> role_named(std::string_view name) {
+  for (const auto& [role, text] : named_roles) {
+    if (text == name) return role;
+  }
+  return {};
+}
+
+std::string role_names(unsigned roles) {
+  std::string text;
+  for (const auto& [role, name] : named_roles) {
+    if (roles & role) text += fmt::format("{}{}", text.empty() ? "" : " and ", name);
+  }
+  return text;
+}
+
 HttpAccess::HttpAccess(const HttpSettings& settings,
                        std::function<bool(const std::string&)> covered)
-    : token_(settings.token), covered_(std::move(covered)), secure_(!settings.certificate.empty()) {
-  if (!token_.empty()) check_token(token_);
+    : tokens_(settings.tokens),
+      covered_(std::move(covered)),
+      secure_(!settings.certificate.empty()) {
+  if (!settings.token.empty()) tokens_.push_back({"token", settings.token, role_all});
+  for (const HttpToken& each : tokens_) check_token(each.token);
   names_ = {"localhost", lower(settings.host)};
   for (const std::string& each : settings.names) names_.push_back(lower(each));
 }
@@ -94,35 +119,44 @@ std::optional<HttpResponse> HttpAccess::refuse(const HttpRequest& question) cons
   return {};
 }
 
-bool HttpAccess::is_token(std::string_view text) const {
-  return equal_in_constant_time(text, token_);
+// All are compared, so that the time says nothing about which one it is.
+unsigned HttpAccess::roles_of_token(std::string_view text) const {
+  unsigned roles = 0;
+  for (const HttpToken& each : tokens_) {
+    if (equal_in_constant_time(text, each.token)) roles = each.roles;
+  }
+  return roles;
 }
 
-bool HttpAccess::authorized(const HttpRequest& question, std::int64_t now) const {
-  if (token_.empty()) return true;
+unsigned HttpAccess::roles(const HttpRequest& question, std::int64_t now) const {
+  if (tokens_.empty()) return role_all;
   constexpr std::string_view scheme = "bearer ";
   const std::string& field = question.authorization;
   if (lower(field.substr(0, scheme.size())) == scheme) {
-    return is_token(std::string_view(field).substr(scheme.size()));
+    return roles_of_token(std::string_view(field).substr(scheme.size()));
   }
   const std::string_view value = cookie_value(question.cookie, cookie_name);
   std::int64_t until = 0;
   const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), until);
-  if (error != std::errc{} || until < now) return false;
-  return equal_in_constant_time(value, seal(until));
+  if (error != std::errc{} || until < now) return 0;
+  unsigned roles = 0;
+  for (const HttpToken& each : tokens_) {
+    if (equal_in_constant_time(value, seal(each.token, until))) roles = each.roles;
+  }
+  return roles;
 }
 
-std::string HttpAccess::seal(std::int64_t until) const {
+std::string HttpAccess::seal(std::string_view token, std::int64_t until) {
   std::string out = fmt::format("{}.", until);
-  for (const unsigned byte : hmac(token_, fmt::format("wearwell session until {}", until))) {
+  for (const unsigned byte : hmac(token, fmt::format("wearwell session until {}", until))) {
     out += fmt::format("{:02x}", byte);
   }
   return out;
 }
 
-std::string HttpAccess::cookie(std::int64_t now) const {
+std::string HttpAccess::cookie(std::string_view token, std::int64_t now) const {
   return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Lax{}", cookie_name,
-                     seal(now + cookie_seconds), cookie_seconds, secure_ ? "; Secure" : "");
+                     seal(token, now + cookie_seconds), cookie_seconds, secure_ ? "; Secure" : "");
 }
 
 std::string HttpAccess::no_cookie() const {

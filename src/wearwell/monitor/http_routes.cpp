@@ -9,6 +9,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/fleet_json.h"
+#include "wearwell/monitor/message.h"
+#include "wearwell/monitor/page_resources.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -19,27 +21,8 @@ constexpr std::size_t units_at_once = 500;
 constexpr std::size_t units_measured = 10'000;
 /// With more changes an event says only that many units changed, not which.
 constexpr std::size_t names_at_once = 200;
-constexpr std::string_view unit_prefix = "/api/units/", events_suffix = "/events";
-
-/// "/api/units/NAME/events"; a slash of a name is encoded.
-bool is_events_of_unit(std::string_view path) {
-  return path.starts_with(unit_prefix) && path.ends_with(events_suffix) &&
-         path.size() > unit_prefix.size() + events_suffix.size();
-}
-
 std::string_view path_of(const HttpRequest& question) {
   return std::string_view(question.target).substr(0, question.target.find('?'));
-}
-
-/// The methods of a path; "" if there is no such path.
-std::string methods_of(std::string_view path) {
-  if (path == "/api/events") return "GET";
-  if (path == "/api/readings" || path == "/logout" || is_events_of_unit(path)) return "POST";
-  if (path == "/login") return "GET, HEAD, POST";
-  static constexpr std::string_view shown[] = {"/", "/api/fleet", "/api/units", "/metrics",
-                                               "/health"};
-  const bool known = std::find(std::begin(shown), std::end(shown), path) != std::end(shown);
-  return known || path.starts_with(unit_prefix) ? "GET, HEAD" : "";
 }
 
 bool is_taken(const std::string& methods, const std::string& method) {
@@ -86,6 +69,24 @@ HttpResponse answer_of(Delivery delivery) {
   return answer;
 }
 
+/// Why an acknowledgement is of an alarm that the unit does not have; empty if it has, or if this is
+/// another event.
+std::string not_the_alarm(const std::string& body, const UnitView& unit) {
+  Fields fields;
+  try {
+    fields = fields_of_json(body);
+  } catch (const InputError&) {
+    return {};  // the inbox refuses it, with the reason
+  }
+  const Field* event = find_field(fields, "event");
+  const Field* since = find_field(fields, "alarm_ms");
+  if (!event || event->text != name(EventKind::acknowledged) || !since || !since->whole) return {};
+  const bool calls = unit.alarm != Alarm::ok && unit.alarm != Alarm::unknown;
+  if (calls && since->integer == unit.alarm_ms) return {};
+  return fmt::format("\"{}\" has another alarm by now: {} since {}", shortened(unit.unit),
+                     name(unit.alarm), unit.alarm_ms);
+}
+
 std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
   if (!question.content_encoding.empty() && question.content_encoding != "identity") {
     return refusal(415, "the body is compressed; send it uncompressed");
@@ -120,7 +121,7 @@ HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbo
       started_ms_(reader.fleet().started_ms) {}
 
 bool HttpRoutes::is_events(const HttpRequest& question) const {
-  return question.method == "GET" && path_of(question) == "/api/events";
+  return question.method == "GET" && path_of(question) == "/api/v1/events";
 }
 
 bool HttpRoutes::is_supervision(const HttpRequest& question) const {
@@ -129,28 +130,34 @@ bool HttpRoutes::is_supervision(const HttpRequest& question) const {
 }
 
 bool HttpRoutes::is_delivery(const HttpRequest& question) const {
-  return path_of(question) == "/api/readings" || is_events_of_unit(path_of(question));
+  return path_of(question) == "/api/v1/readings" || is_events_of_unit(path_of(question));
 }
 
 std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) const {
   if (auto refused = access_.refuse(question)) return refused;
   const std::string_view path = path_of(question);
-  const std::string methods = methods_of(path);
-  const bool open = path == "/health" || path == "/login";
-  if (!open && !access_.authorized(question, now_seconds())) {
+  const HttpRoute* route = route_of(path);
+  const unsigned needed = route ? route->role : role_read;
+  const unsigned roles = access_.roles(question, now_seconds());
+  if (needed && !roles) {
     if (path == "/") return moved("/login");
     HttpResponse answer =
         refusal(401, "the token is missing or wrong: Authorization: Bearer TOKEN");
     answer.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"wearwell\"");
     return answer;
   }
-  if (methods.empty()) {
+  if (!route) {
     return refusal(404, fmt::format("there is nothing at {}", shortened(std::string(path))));
   }
+  const std::string methods(route->methods);
   if (!is_taken(methods, question.method)) {
     HttpResponse answer = refusal(405, fmt::format("{} takes {}", path, methods));
     answer.fields.emplace_back("Allow", methods);
     return answer;
+  }
+  if (needed && !(roles & needed)) {
+    return refusal(403, fmt::format("this needs the role {}; the token has {}", role_names(needed),
+                                    role_names(roles)));
   }
   if (question.method == "POST") return refuse_kind(question);
   return {};
@@ -169,18 +176,18 @@ HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& h
     }
     if (path == "/health") return {200, "application/json", "{\"status\":\"ok\"}\n"};
     if (path == "/metrics") return metrics(http);
-    if (path == "/api/fleet") {
+    if (path == "/api/v1/fleet") {
       nlohmann::ordered_json json = {{"version", reader_.version()}};
       json.update(json_of(reader_.fleet()));
       return {200, "application/json", text_of(json)};
     }
-    if (path == "/api/units") return units(target);
-    if (path == "/api/readings") return readings(question.body);
-    if (is_events_of_unit(path)) {
-      const std::size_t around = unit_prefix.size() + events_suffix.size();
-      return event_of_unit(path.substr(unit_prefix.size(), path.size() - around), question.body);
-    }
-    return unit(path.substr(unit_prefix.size()));
+    if (path == "/api/v1/units") return units(target);
+    if (path == "/api/v1/fits") return fits(target);
+    if (path == "/api/v1/openapi.json")
+      return {200, "application/json", std::string(resource::monitor_openapi())};
+    if (path == "/api/v1/readings") return readings(question.body);
+    if (is_events_of_unit(path)) return event_of_unit(unit_in(path), question.body);
+    return unit(unit_in(path));
   } catch (const InputError& error) {
     return refusal(400, error.what());
   } catch (const std::exception& error) {
@@ -200,9 +207,11 @@ HttpResponse HttpRoutes::login(const HttpRequest& question) const {
   if (question.method != "POST") return as_page(login_);
   const auto fields = form_fields(question.body);
   const auto token = fields.find("token");
-  if (token == fields.end() || !access_.is_token(token->second)) return as_page(wrong_, 403);
+  // The page is for those who may read it.
+  if (token == fields.end() || !(access_.roles_of_token(token->second) & role_read))
+    return as_page(wrong_, 403);
   HttpResponse answer = moved("/");
-  answer.fields.emplace_back("Set-Cookie", access_.cookie(now_seconds()));
+  answer.fields.emplace_back("Set-Cookie", access_.cookie(token->second, now_seconds()));
   return answer;
 }
 
@@ -225,6 +234,29 @@ HttpResponse HttpRoutes::units(const HttpTarget& target) const {
   return {200, "application/json", text_of(json)};
 }
 
+HttpResponse HttpRoutes::fits(const HttpTarget& target) const {
+  for (const auto& [key, value] : target.query) {
+    if (key != "offset" && key != "count")
+      throw InputError(fmt::format("{}: use offset and count", shortened(key)));
+  }
+  const std::size_t offset = target.number("offset", 0, 1'000'000'000);
+  const std::size_t count = target.number("count", 50, units_at_once);
+  std::uint64_t all = 0;
+  nlohmann::ordered_json moved = nlohmann::ordered_json::array();
+  for (const MovedForecast& each : reader_.moved(offset, count, &all)) {
+    nlohmann::ordered_json json = {{"unit", each.unit}};
+    json.update(json_of(each));
+    moved.push_back(std::move(json));
+  }
+  const FleetView fleet = reader_.fleet();
+  const nlohmann::ordered_json json = {{"fit", json_of(fleet)["fit"]},
+                                       {"trusted", fleet.trusted},
+                                       {"all", all},
+                                       {"offset", offset},
+                                       {"moved", std::move(moved)}};
+  return {200, "application/json", text_of(json)};
+}
+
 HttpResponse HttpRoutes::unit(const std::string& encoded) const {
   const std::string name = percent_decoded(encoded);
   const std::uint64_t version = reader_.version();
@@ -243,8 +275,9 @@ HttpResponse HttpRoutes::readings(const std::string& body) const {
 HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::string& body) const {
   if (!events_) return refusal(404, "this monitor takes no events by HTTP");
   const std::string name = percent_decoded(encoded);
-  if (!reader_.unit(name))
-    return refusal(404, fmt::format("\"{}\" is not a unit", shortened(name)));
+  const std::optional<UnitView> unit = reader_.view(name);
+  if (!unit) return refusal(404, fmt::format("\"{}\" is not a unit", shortened(name)));
+  if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
   return answer_of(events_->deliver(name, body));
 }
 

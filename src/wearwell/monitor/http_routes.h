@@ -10,6 +10,7 @@
 #include "wearwell/monitor/fleet_page.h"
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/http_access.h"
+#include "wearwell/monitor/http_route.h"
 
 namespace wearwell::monitor {
 
@@ -42,6 +43,7 @@ class HttpRoutes final : public HttpHandler {
   HttpResponse page(const HttpRequest& question) const;
   HttpResponse login(const HttpRequest& question) const;
   HttpResponse units(const HttpTarget& target) const;
+  HttpResponse fits(const HttpTarget& target) const;
   HttpResponse unit(const std::string& encoded) const;
   HttpResponse readings(const std::string& body) const;
   HttpResponse event_of_unit(const std::string& encoded, const std::string& body) const;

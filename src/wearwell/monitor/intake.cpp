@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/event_row.h"
+#include "wearwell/monitor/foreign_message.h"
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/unit_events.h"
 
@@ -33,6 +36,9 @@ Delivery Intake::deliver(const SourceSettings& source, std::span<const Row> rows
 Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
   Delivery delivery;
   if (!batch.readings.empty()) commit(batch);
+  // They are stored even if the events that follow cannot be, and then come again as repeats.
+  const auto stored = std::count(batch.kept.begin(), batch.kept.end(), Kept::stored);
+  tally_.stored(static_cast<std::uint64_t>(stored));
   // After the readings: an event may be of one in the same message.
   if (!batch.events.empty() && batch.trouble.empty()) commit_events(batch);
   if (!batch.trouble.empty()) {
@@ -63,7 +69,6 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
   for (std::size_t i = 0; i < batch.kept_events.size(); ++i)
     ++(batch.kept_events[i] == Kept::stored ? delivery.events : delivery.repeated);
   if (delivery.problem.empty()) delivery.problem = batch.remark;
-  tally_.stored(delivery.readings);
   return delivery;
 }
 
@@ -99,7 +104,14 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
     unit = *named;
   }
   const auto row = [&](const Fields& fields) { read_row(source, fields, unit, now, batch); };
-  for_each_row(message.payload, row, refuse_message, message.form);
+  const MessageFormat& format = source.format;
+  if (format.form == Form::influx) {
+    read_influx(message.payload, format.per_second, row, refuse_message);
+  } else if (format.form == Form::opc_ua) {
+    read_opc_ua(message.payload, row, refuse_message);
+  } else {
+    for_each_row(message.payload, row, refuse_message, message.form);
+  }
 }
 
 void Intake::read_row(const SourceSettings& source, const Fields& fields, const std::string& unit,
@@ -147,19 +159,14 @@ std::string Intake::missing_reference(const UnitEvent& event) {
     return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),
                        event.unit, event.key);
   }
-  for (const UnitEvent& each : store_.events_after(event.cancels - 1)) {
-    if (each.number != event.cancels) break;
-    if (each.unit == event.unit && each.kind != EventKind::cancelled) return {};
+  for (const UnitEvent& each : store_.events_of(event.unit)) {
+    if (each.number == event.cancels && each.kind != EventKind::cancelled) return {};
   }
   return fmt::format("cancelled: unit '{}' has no event with number {}", event.unit, event.cancels);
 }
 
 std::string Intake::not_in_force(const UnitEvent& event) {
-  std::vector<UnitEvent> of_unit;
-  for (UnitEvent& each : store_.events_after(0)) {
-    if (each.unit == event.unit) of_unit.push_back(std::move(each));
-  }
-  return UnitEvents(std::move(of_unit), {}).not_in_force(event);
+  return UnitEvents(store_.events_of(event.unit), {}).not_in_force(event);
 }
 
 void Intake::commit_events(Batch& batch) {

@@ -84,6 +84,7 @@ class Intake {
 class EventInbox : public Inbox {
  public:
   EventInbox(Intake& intake, const prognosis::Tracker& tracker, bool keys_are_times);
+  ReadingMapping& mapping() { return source_.mapping; }
   Delivery deliver(const std::string& unit, const std::string& payload) override;
 
  private:

@@ -16,7 +16,9 @@ class LineFeed {
  public:
   /// `needed`: the required fields of a row; a line that contains all of them is a heading of CSV.
   /// Lines before JSON or a heading are refused one by one.
-  explicit LineFeed(std::vector<std::string> needed) : needed_(std::move(needed)) {}
+  /// `has_heading`: false for a form without: all lines are messages.
+  explicit LineFeed(std::vector<std::string> needed, bool has_heading = true)
+      : needed_(std::move(needed)), begun_(!has_heading) {}
   void push(std::string_view bytes) { text_ += bytes; }
   /// Largest number of bytes read before `next` is called.
   static constexpr std::size_t piece_size = longest_message / 8;

@@ -37,8 +37,15 @@ Fields fields_of_json(std::string_view text);
 /// InputError for an unclosed quote.
 std::vector<std::string> cells_of(std::string_view line);
 
-/// The context of a message: none, or a stream that began with JSON.
-enum class Form { any, json_lines };
+/// How a message is written: JSON or CSV, by its content; JSON, in a stream that began with it; the
+/// line protocol of InfluxDB; JSON of OPC UA PubSub.
+enum class Form { any, json_lines, influx, opc_ua };
+
+/// The form of a source's messages.
+struct MessageFormat {
+  Form form = Form::any;
+  std::int64_t per_second = 1'000'000'000;  ///< of `influx`: the unit of times
+};
 
 /// Calls `row` with the fields of each object or line, and `bad` with the error of an unreadable
 /// one; the others still count. A message is an object of JSON, lines of such objects, or CSV with

@@ -1,18 +1,44 @@
 #include "wearwell/monitor/monitor_config.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <functional>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/text_file.h"
+#include "wearwell/monitor/foreign_message.h"
+#include "wearwell/monitor/http_access.h"
 #include "wearwell/monitor/sparkplug_metrics.h"
 #include "wearwell/monitor/sparkplug_topic.h"
 #include "wearwell/monitor/store.h"
 
+// Longer than others: one file, read from its beginning to its end.
 namespace wearwell::monitor {
 namespace {
+
+/// The problems of a file's parts, all of them.
+class Problems {
+ public:
+  void in(const std::function<void()>& part) {
+    try {
+      part();
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      if (std::find(all_.begin(), all_.end(), text) == all_.end()) all_.push_back(text);
+    }
+  }
+  bool empty() const { return all_.empty(); }
+  void finish() const {
+    if (!all_.empty()) throw InputError(fmt::format("{}", fmt::join(all_, "\n")));
+  }
+
+ private:
+  std::vector<std::string> all_;
+};
 
 std::filesystem::path folder_of(const TomlReader& reader) {
   return std::filesystem::path(reader.file()).parent_path();
@@ -111,6 +137,7 @@ void read_sparkplug_source(const TomlReader& table, const std::string& name,
 /// Keys for topics and properties, which only a source of Sparkplug B may have.
 void check_braces(const TomlReader& reading, const SourceSettings& source) {
   const bool sparkplug = source.kind == SourceKind::sparkplug;
+  const bool stamped = source.format.form == Form::influx || source.format.form == Form::opc_ua;
   for (const ColumnField& column : source.mapping.columns) {
     if (column.unit_of_message && !sparkplug)
       reading.fail("columns",
@@ -119,6 +146,7 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
   }
   const ReadingMapping& mapping = source.mapping;
   const auto check = [&](const char* key, const std::string& field) {
+    if (stamped && is_place_of(source.format.form, field)) return false;
     bool by_topic = field == timestamp_field;
     std::string fault;
     try {
@@ -141,6 +169,30 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
       reading.fail("time_format", "must be \"unix ms\" for {timestamp}");
   }
   for (const std::string& label : mapping.labels) check("columns", label);
+}
+
+/// How messages are written: JSON and CSV by themselves, other forms by name.
+void read_format(const TomlReader& table, SourceSettings& source) {
+  const auto format = table.choice("format", {"json or csv", "influx", "opc ua"});
+  const auto precision = table.choice("precision", {"ns", "us", "ms", "s"});
+  if (source.kind == SourceKind::sparkplug) {
+    if (format) table.fail("format", "is that of Sparkplug B; remove this");
+    return;
+  }
+  if (format == "opc ua") source.format.form = Form::opc_ua;
+  if (format == "influx") {
+    source.format.form = Form::influx;
+    if (!precision)
+      table.fail("precision",
+                 "is missing: the unit of the times in the lines, \"ns\", \"us\", \"ms\" or "
+                 "\"s\" (InfluxDB and Telegraf use ns)");
+    source.format.per_second = *precision == "ns"   ? 1'000'000'000
+                               : *precision == "us" ? 1'000'000
+                               : *precision == "ms" ? 1'000
+                                                    : 1;
+  } else if (precision) {
+    table.fail("precision", "is for format = \"influx\"");
+  }
 }
 
 SourceSettings read_source(const TomlReader& root, const TomlReader& table, const std::string& name,
@@ -169,6 +221,7 @@ SourceSettings read_source(const TomlReader& root, const TomlReader& table, cons
   } else if (*kind == "http") {
     source.kind = SourceKind::http;
   }
+  read_format(table, source);
   const auto own = table.table("reading");
   const TomlReader reading = own ? *own : root.required_table("reading");
   source.mapping = read_mapping(reading, tracker, source.topic.names_unit());
@@ -176,10 +229,12 @@ SourceSettings read_source(const TomlReader& root, const TomlReader& table, cons
   return source;
 }
 
-void read_sources(const TomlReader& root, const prognosis::Tracker& tracker,
-                  MonitorConfig& config) {
+void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, MonitorConfig& config,
+                  Problems& problems) {
   const TomlReader sources = root.required_table("source");
-  for (const std::string& name : sources.keys()) {
+  bool some = false;
+  const auto read_one = [&](const std::string& name) {
+    some = true;
     const SourceSettings source = read_source(root, sources.required_table(name), name, tracker);
     const auto same = [&](const SourceSettings& each) { return each.kind == source.kind; };
     const bool one_only = source.kind == SourceKind::stdin || source.kind == SourceKind::http;
@@ -192,8 +247,9 @@ void read_sources(const TomlReader& root, const prognosis::Tracker& tracker,
                    "versa; use one");
     config.sequence = sequence;
     config.sources.push_back(source);
-  }
-  if (config.sources.empty()) root.fail("source", "has no source: write [source.NAME] with a kind");
+  };
+  for (const std::string& name : sources.keys()) problems.in([&] { read_one(name); });
+  if (!some) root.fail("source", "has no source: write [source.NAME] with a kind");
 }
 
 AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& tracker) {
@@ -225,6 +281,85 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "::1" || host.starts_with("127.");
 }
 
+/// The first line of a file with a secret.
+std::string read_secret(const TomlReader& table, const char* key) {
+  std::string text = read_text_file(existing(table, key)).text;
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  if (text.empty() || text.find_first_of("\r\n") != text.npos)
+    table.fail(key, "must be a file with one line");
+  return text;
+}
+
+std::string read_token(const TomlReader& table, const char* key, const std::string& token) {
+  try {
+    check_token(token);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+  return token;
+}
+
+/// [http.tokens.NAME] with a token, or a file with it, and its roles.
+void read_tokens(const TomlReader& tokens, HttpSettings& http) {
+  for (const std::string& name : tokens.keys()) {
+    const TomlReader table = tokens.required_table(name);
+    HttpToken each{name, {}, 0};
+    const bool in_file = table.has("token_file");
+    if (in_file && table.has("token"))
+      table.fail("token_file", "is given, and token as well; use one");
+    each.token = in_file ? read_token(table, "token_file", read_secret(table, "token_file"))
+                         : read_token(table, "token", table.required_text("token"));
+    for (const std::string& role : table.texts("roles")) {
+      const auto known = role_named(role);
+      if (!known)
+        table.fail("roles", fmt::format("'{}' is not a role: read, write or operate", role));
+      each.roles |= *known;
+    }
+    if (each.roles == 0) table.fail("roles", "is missing: of read, write, operate");
+    const auto same = [&](const HttpToken& other) { return other.token == each.token; };
+    if (each.token == http.token || std::any_of(http.tokens.begin(), http.tokens.end(), same))
+      table.fail(in_file ? "token_file" : "token",
+                 "is another one's token too: who has it would not be known");
+    http.tokens.push_back(std::move(each));
+  }
+}
+
+WebhookSettings read_webhook(const TomlReader& table) {
+  WebhookSettings webhook;
+  webhook.url = table.required_text("url");
+  webhook.tls = webhook.url.starts_with("https://");
+  if (!webhook.tls && !webhook.url.starts_with("http://"))
+    table.fail("url", "is not a URL like https://HOST/PATH");
+  const std::string rest = webhook.url.substr(webhook.tls ? 8 : 7);
+  const std::size_t slash = std::min(rest.find_first_of("/?"), rest.size());
+  if (rest.substr(0, slash).find('@') != std::string::npos)
+    table.fail("url", "has a user; use token_file");
+  const HostAndPort address =
+      read_address(table, "url", rest.substr(0, slash), webhook.tls ? 443 : 80);
+  webhook.host = address.host;
+  webhook.port = fmt::format("{}", address.port);
+  webhook.target = rest.substr(slash);
+  if (!webhook.target.starts_with('/')) webhook.target = "/" + webhook.target;
+  const bool plain = std::all_of(webhook.target.begin(), webhook.target.end(),
+                                 [](char c) { return c > ' ' && c < '\x7f' && c != '#'; });
+  if (!plain) table.fail("url", "has characters that must be percent-encoded");
+  if (table.has("token_file")) {
+    webhook.token = read_secret(table, "token_file");
+    const bool visible = std::all_of(webhook.token.begin(), webhook.token.end(),
+                                     [](char c) { return c > ' ' && c < '\x7f'; });
+    if (!visible) table.fail("token_file", "has characters that no header can carry");
+    if (!webhook.tls && !is_loopback(webhook.host))
+      table.fail("token_file", "would be sent unencrypted; use https://");
+  }
+  if (const auto after = table.quantity("after", "s")) {
+    constexpr double longest = 7 * 86400;
+    if (!(after->si() >= 0 && after->si() <= longest))
+      table.fail("after", "must lie between 0 s and 7 d");
+    webhook.lasting = std::chrono::milliseconds(std::llround(1000 * after->si()));
+  }
+  return webhook;
+}
+
 HttpSettings read_http(const TomlReader& table) {
   HttpSettings http;
   const std::string listen = table.text("listen").value_or("127.0.0.1:8080");
@@ -234,9 +369,8 @@ HttpSettings read_http(const TomlReader& table) {
   http.names = table.texts("names");
   http.events = table.boolean("events").value_or(true);
   http.token = table.text("token").value_or("");
-  constexpr std::size_t shortest_token = 16;
-  if (table.has("token") && http.token.size() < shortest_token)
-    table.fail("token", fmt::format("must be at least {} bytes", shortest_token));
+  if (table.has("token")) read_token(table, "token", http.token);
+  if (const auto tokens = table.table("tokens")) read_tokens(*tokens, http);
   constexpr std::int64_t most = 10'000;  // each needs a descriptor
   if (const auto all = table.integer("connections", 1, most))
     http.limits.connections = static_cast<std::size_t>(*all);
@@ -246,12 +380,20 @@ HttpSettings read_http(const TomlReader& table) {
   if (table.has("key")) http.key = existing(table, "key");
   if (http.certificate.empty() != http.key.empty())
     table.fail(http.key.empty() ? "certificate" : "key", "certificate and key go together");
-  if (!is_loopback(http.host) && (http.token.empty() || http.key.empty()))
+  if (!is_loopback(http.host) && (!http.needs_token() || http.key.empty()))
     table.fail(
         "listen",
         fmt::format("{} is reachable from other machines: set a token, a certificate and its key",
                     http.host));
   return http;
+}
+
+PublishSettings read_publish(const TomlReader& table) {
+  PublishSettings publish{read_broker(table, "wearwell-publish"),
+                          table.text("prefix").value_or("wearwell")};
+  if (publish.prefix.find_first_of("+#") != std::string::npos || publish.prefix.empty())
+    table.fail("prefix", "is not a topic");
+  return publish;
 }
 
 }  // namespace
@@ -265,30 +407,38 @@ MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Track
   MonitorConfig config;
   config.folder = folder_of(root);
   root.has("result");
-  config.title = root.text("title").value_or("");
-  if (const auto store = root.table("store")) config.store = store->text("url").value_or("");
-  if (config.store.empty()) config.store = "fleet.sqlite";
-  if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
-    root.required_table("store").fail("url", "is neither a file nor postgresql://...");
-  read_sources(root, tracker, config);
-  config.alarm = read_alarm(root, tracker);
-  if (const auto http = root.table("http")) config.http = read_http(*http);
-  const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
-  if (!config.http && std::any_of(config.sources.begin(), config.sources.end(), posts))
-    root.fail("http", "is missing: a source of kind \"http\" needs a server, [http]");
-  if (const auto publish = root.table("publish")) {
-    config.publish = PublishSettings{read_broker(*publish, "wearwell-publish"),
-                                     publish->text("prefix").value_or("wearwell")};
-    if (config.publish->prefix.find_first_of("+#") != std::string::npos ||
-        config.publish->prefix.empty())
-      publish->fail("prefix", "is not a topic");
-  }
-  constexpr long long most = 10'000'000;
-  if (const auto limits = root.table("limits")) {
-    if (const auto units = limits->integer("units", 1, most))
-      config.most_units = static_cast<std::size_t>(*units);
-  }
-  root.finish();
+  Problems problems;
+  problems.in([&] { config.title = root.text("title").value_or(""); });
+  problems.in([&] {
+    if (const auto store = root.table("store")) config.store = store->text("url").value_or("");
+    if (config.store.empty()) config.store = "fleet.sqlite";
+    if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
+      root.required_table("store").fail("url", "is neither a file nor postgresql://...");
+  });
+  problems.in([&] { read_sources(root, tracker, config, problems); });
+  problems.in([&] { config.alarm = read_alarm(root, tracker); });
+  problems.in([&] {
+    if (const auto http = root.table("http")) config.http = read_http(*http);
+    const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
+    if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
+      root.fail("http", "is missing: a source of kind \"http\" needs a server, [http]");
+  });
+  problems.in([&] {
+    if (const auto publish = root.table("publish")) config.publish = read_publish(*publish);
+  });
+  problems.in([&] {
+    if (const auto webhook = root.table("webhook")) config.webhook = read_webhook(*webhook);
+  });
+  problems.in([&] {
+    constexpr long long most = 10'000'000;
+    if (const auto limits = root.table("limits")) {
+      if (const auto units = limits->integer("units", 1, most))
+        config.most_units = static_cast<std::size_t>(*units);
+    }
+  });
+  // Keys behind the first problem of a table were never requested, so they are not unknown.
+  if (problems.empty()) root.finish();
+  problems.finish();
   return config;
 }
 

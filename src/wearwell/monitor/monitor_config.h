@@ -10,6 +10,7 @@
 #include "wearwell/http/settings.h"
 #include "wearwell/monitor/reading_mapping.h"
 #include "wearwell/monitor/topic_pattern.h"
+#include "wearwell/monitor/webhook_settings.h"
 #include "wearwell/prognosis/tracker.h"
 
 namespace wearwell::monitor {
@@ -37,7 +38,8 @@ struct SourceSettings {
   std::filesystem::path folder = {};
   BrokerSettings broker = {};
   TopicPattern topic = {};
-  std::string host = {};  ///< of Sparkplug B: the host ID for its STATE; "": none
+  MessageFormat format = {};  ///< not of Sparkplug B
+  std::string host = {};      ///< of Sparkplug B: the host ID for its STATE; "": none
   bool births_are_readings =
       false;  ///< of Sparkplug B: whether birth certificates count as measurements
 };
@@ -57,6 +59,7 @@ struct MonitorConfig {
   AlarmSettings alarm;
   std::optional<HttpSettings> http;
   std::optional<PublishSettings> publish;
+  std::optional<WebhookSettings> webhook;
   std::size_t most_units = 100'000;  ///< further units are refused
   bool sequence = false;             ///< sequence numbers identify readings, else times
 };
@@ -65,7 +68,7 @@ struct MonitorConfig {
 std::filesystem::path read_result_path(const TomlReader& root);
 
 /// Everything else. Throws InputError with file, place and key: unknown keys with the nearest name,
-/// missing, contradictory or ambiguous values.
+/// missing, contradictory or ambiguous values; all of them, one below the other.
 MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker);
 
 }  // namespace wearwell::monitor

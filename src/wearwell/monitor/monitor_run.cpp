@@ -3,69 +3,29 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <condition_variable>
-#include <csignal>
 #include <deque>
 #include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/workers.h"
+#include "wearwell/monitor/current_fleet.h"
+#include "wearwell/monitor/fit_exchange.h"
+#include "wearwell/monitor/fleet.h"
 #include "wearwell/monitor/http_server.h"
 #include "wearwell/monitor/intake.h"
+#include "wearwell/monitor/monitor_signals.h"
 #include "wearwell/monitor/publisher.h"
 #include "wearwell/monitor/source.h"
+#include "wearwell/monitor/time_text.h"
+#include "wearwell/monitor/webhook.h"
 
+// Longer than others: the parts of a running monitor, and how they begin and end.
 namespace wearwell::monitor {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> signal_arrived = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-extern "C" void note_signal(int) {
-  signal_arrived = true;
-}
-
-/// While it lives, the signals that end a program are queued until polled. New threads leave them
-/// to it and are not interrupted; existing ones (workers that read the result) note those that
-/// reach them. An ignored signal stays ignored.
-class EndingSignals {
- public:
-  EndingSignals() {
-    signal_arrived = false;
-    struct sigaction noting = {};
-    noting.sa_handler = note_signal;
-    noting.sa_flags = SA_RESTART;
-    sigemptyset(&blocked_);
-    for (std::size_t i = 0; i < signals.size(); ++i) {
-      sigaction(signals[i], nullptr, &actions_before_[i]);
-      if (actions_before_[i].sa_handler == SIG_IGN) continue;
-      sigaction(signals[i], &noting, nullptr);
-      sigaddset(&blocked_, signals[i]);
-    }
-    pthread_sigmask(SIG_BLOCK, &blocked_, &mask_before_);
-  }
-  ~EndingSignals() {
-    for (std::size_t i = 0; i < signals.size(); ++i)
-      sigaction(signals[i], &actions_before_[i], nullptr);
-    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
-  }
-  EndingSignals(const EndingSignals&) = delete;
-  EndingSignals& operator=(const EndingSignals&) = delete;
-
-  bool arrived() const {
-    constexpr timespec at_once = {0, 0};
-    return signal_arrived || sigtimedwait(&blocked_, nullptr, &at_once) > 0;
-  }
-
- private:
-  static constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, signals.size()> actions_before_ = {};
-  sigset_t blocked_, mask_before_;
-};
 
 /// Waiting readers of the store are woken by its writers.
 class WakeSignal {
@@ -149,23 +109,164 @@ void Sources::stop() {
   threads_.clear();
 }
 
+/// The fleet, and what makes another one of it.
+class RunningFleet {
+ public:
+  RunningFleet(const MonitorConfig& config, const Population& population,
+               const MonitorOptions& options, Store& store, Tally& tally, Notices& notices);
+
+  Fleet& fleet() { return *fleet_; }
+  const CurrentFleet& readers() const { return *readers_; }
+  PopulationChecks& checks() { return checks_; }
+  WebhookCounts& webhook() { return webhook_; }
+  /// Processes what the store has, and notes the fit. States are saved on the way, and at the end:
+  /// a monitor that is killed again and again, each time before its regular save, would otherwise
+  /// start from ever older states.
+  void catch_up(MonitorSignals& signals);
+  std::shared_ptr<Fleet> make_beside(const Population& population);
+  /// Another fleet takes the place of the running one. Throws StoreError; it may be called again.
+  void exchange(const FitExchange::Ready& ready);
+
+ private:
+  FleetSettings settings_of(const Population& population) const;
+  std::shared_ptr<Fleet> make(const Population& population, FleetSettings settings);
+
+  const MonitorConfig& config_;
+  const MonitorOptions& options_;
+  Store& store_;
+  Tally& tally_;
+  Notices& notices_;
+  Population population_;
+  WebhookCounts webhook_;
+  PopulationChecks checks_;
+  std::shared_ptr<Fleet> fleet_;
+  FleetSettings::Start start_;  ///< of the monitor
+  std::unique_ptr<CurrentFleet> readers_;
+};
+
+RunningFleet::RunningFleet(const MonitorConfig& config, const Population& population,
+                           const MonitorOptions& options, Store& store, Tally& tally,
+                           Notices& notices)
+    : config_(config),
+      options_(options),
+      store_(store),
+      tally_(tally),
+      notices_(notices),
+      population_(population),
+      checks_(population.tracker),
+      fleet_(make(population, settings_of(population))),
+      start_(fleet_->start()),
+      readers_(std::make_unique<CurrentFleet>(fleet_)) {}
+
+FleetSettings RunningFleet::settings_of(const Population& population) const {
+  FleetSettings settings;
+  settings.title = config_.title;
+  settings.trusted = population.trusted;
+  settings.population = population.fingerprint;
+  settings.fit = {population.fingerprint, population.written_ms, 0};
+  settings.alarm = config_.alarm;
+  settings.threads = threads_or_all(options_.threads);
+  settings.keys_are_times = !config_.sequence;
+  if (config_.webhook) settings.webhook = [this] { return webhook_.view(); };
+  settings.on_alarm = [this](const AlarmChange& change, Alarm before, const UnitView& unit) {
+    if (options_.once) return;
+    notices_.tell(
+        fmt::format("unit '{}'", change.unit),
+        fmt::format("{} -> {}, risk {:.3g}{}{}{}", name(before), name(change.alarm), change.risk,
+                    unit.beyond ? ", the last reading is beyond the limit" : "",
+                    unit.doubt.empty() ? "" : "; in doubt: ", unit.doubt));
+  };
+  return settings;
+}
+
+/// The tracker lives as long as the fleet.
+std::shared_ptr<Fleet> RunningFleet::make(const Population& population, FleetSettings settings) {
+  struct Owned {
+    std::shared_ptr<const prognosis::Tracker> tracker;
+    Fleet fleet;
+  };
+  const auto owned = std::shared_ptr<Owned>(new Owned{
+      population.tracker, {*population.tracker, store_, tally_, notices_, std::move(settings)}});
+  return {owned, &owned->fleet};
+}
+
+std::shared_ptr<Fleet> RunningFleet::make_beside(const Population& population) {
+  FleetSettings settings = settings_of(population);
+  settings.start = start_;
+  settings.beside = true;
+  return make(population, std::move(settings));
+}
+
+void RunningFleet::catch_up(MonitorSignals& signals) {
+  constexpr auto between_saves = std::chrono::seconds(5);
+  const std::vector<StoredFit> fits = store_.fits();
+  StoredFit fit{0, population_.fingerprint, unix_ms_now(), population_.written_ms,
+                population_.trusted};
+  if (!fits.empty() && fits.back().population == fit.population) {
+    std::vector<MovedForecast> moved = store_.moved(fits.back().number);
+    sort_by_change(moved);
+    fleet_->set_moved(fits.back().since_ms, std::move(moved));
+  } else {
+    store_.begin_fit(fit, {});
+    fleet_->set_moved(fit.since_ms, {});
+  }
+  Clock::time_point saved = Clock::now();
+  while (fleet_->apply() > 0 && !signals.ends()) {
+    if (Clock::now() - saved < between_saves) continue;
+    fleet_->save();
+    saved = Clock::now();
+  }
+  fleet_->save();
+  fleet_->refresh(true);
+}
+
+void RunningFleet::exchange(const FitExchange::Ready& ready) {
+  Fleet& next = *ready.fleet;
+  // What came since it was built; the rest after the exchange.
+  constexpr int rounds = 10;
+  for (int i = 0; i < rounds && next.apply() > 0; ++i) {
+  }
+  next.refresh(true);
+  const std::vector<MovedForecast> moved = moved_forecasts(*fleet_, next);
+  const StoredFit fit{0, ready.population.fingerprint, unix_ms_now(), ready.population.written_ms,
+                      ready.population.trusted};
+  store_.begin_fit(fit, moved);
+  next.set_moved(fit.since_ms, moved);
+  next.take_over(*fleet_);
+  readers_->exchange(ready.fleet);
+  checks_.set(ready.population.tracker);
+  fleet_ = ready.fleet;
+  notices_.tell("result", fmt::format("forecasts come from the fit {} now, before {}; {}",
+                                      ready.population.fingerprint.substr(0, 7),
+                                      population_.fingerprint.substr(0, 7), moved_text(moved)));
+  population_ = ready.population;
+}
+
 /// Keeps a fleet up to date with its store.
 class Follower {
  public:
-  Follower(Fleet& fleet, Notices& notices) : fleet_(fleet), notices_(notices) {}
+  Follower(RunningFleet& running, Notices& notices) : running_(running), notices_(notices) {}
 
   /// One round; false if there is nothing to do now.
   bool round() {
     constexpr auto between_saves = std::chrono::seconds(30);
     bool busy = false;
     const bool good = guarded([&] {
-      busy = fleet_.apply() > 0;
-      busy = !fleet_.refresh() || busy;
+      Fleet& fleet = running_.fleet();
+      busy = fleet.apply() > 0;
+      busy = !fleet.refresh() || busy;
       if (Clock::now() - saved_ < between_saves) return;
       saved_ = Clock::now();
-      fleet_.save();
+      fleet.save();
     });
     return busy && good;
+  }
+
+  /// Takes the fleet of another fit, as soon as the store responds.
+  void take(FitExchange& exchange) {
+    if (auto ready = exchange.ready()) next_ = std::move(ready);
+    if (!next_) return;
+    if (guarded([&] { running_.exchange(*next_); })) next_.reset();
   }
 
   /// Processes all readings and then saves the states: with retries for a while, should the store
@@ -174,10 +275,11 @@ class Follower {
     constexpr int attempts = 20;
     for (int i = 0; i < attempts; ++i) {
       const bool good = guarded([&] {
-        while (fleet_.apply() > 0) {
+        Fleet& fleet = running_.fleet();
+        while (fleet.apply() > 0) {
         }
-        fleet_.refresh(true);
-        fleet_.save();
+        fleet.refresh(true);
+        fleet.save();
       });
       if (good) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -196,18 +298,21 @@ class Follower {
     }
   }
 
-  Fleet& fleet_;
+  RunningFleet& running_;
   Notices& notices_;
+  std::optional<FitExchange::Ready> next_;
   Clock::time_point saved_ = Clock::now();
 };
 
-/// The server and the publisher, while they live.
+/// The server, the publisher and the webhook, while they live.
 class Outlets {
  public:
-  Outlets(const MonitorConfig& config, const MonitorOptions& options, const Fleet& fleet,
-          Intake& intake, const prognosis::Tracker& tracker, Notices& notices)
+  Outlets(const MonitorConfig& config, const MonitorOptions& options, RunningFleet& running,
+          Intake& intake, const prognosis::Tracker& tracker, Store& store, Notices& notices)
       : events_(intake, tracker, !config.sequence) {
     if (options.once) return;
+    const FleetReader& fleet = running.readers();
+    running.checks().bind(events_.mapping());
     for (const SourceSettings& source : config.sources) {
       if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
     }
@@ -218,6 +323,10 @@ class Outlets {
       publisher_ = std::jthread([&](std::stop_token stop) {
         publish_states(fleet, *config.publish, notices, std::move(stop));
       });
+    if (config.webhook)
+      webhook_ = std::jthread([&](std::stop_token stop) {
+        send_alarms(fleet, *config.webhook, store, notices, running.webhook(), std::move(stop));
+      });
   }
   std::string address() const { return server_ ? server_->address() : std::string(); }
 
@@ -225,23 +334,8 @@ class Outlets {
   EventInbox events_;
   std::unique_ptr<SourceInbox> inbox_;
   std::unique_ptr<HttpServer> server_;
-  std::jthread publisher_;
+  std::jthread publisher_, webhook_;
 };
-
-/// Processes what the store has. States are saved on the way, and at the end: a monitor that is
-/// killed again and again, each time before its regular save, would otherwise start from ever
-/// older states.
-void catch_up(Fleet& fleet, const EndingSignals& signals) {
-  constexpr auto between_saves = std::chrono::seconds(5);
-  Clock::time_point saved = Clock::now();
-  while (fleet.apply() > 0 && !signals.arrived()) {
-    if (Clock::now() - saved < between_saves) continue;
-    fleet.save();
-    saved = Clock::now();
-  }
-  fleet.save();
-  fleet.refresh(true);
-}
 
 void refuse_endless_sources(const MonitorConfig& config) {
   for (const SourceSettings& source : config.sources) {
@@ -262,51 +356,47 @@ StoreColumns store_columns(const MonitorConfig& config, const prognosis::Tracker
   return columns;
 }
 
-void run_monitor(const MonitorConfig& config, const Population& population,
-                 const MonitorOptions& options, const Begun& started,
-                 const std::function<void(const Fleet&)>& ended) {
+void run_monitor(const MonitorConfig& configured, const Population& population,
+                 const ResultSource& result, const MonitorOptions& options, const Begun& started,
+                 const std::function<void(const FleetReader&)>& ended) {
+  MonitorConfig config = configured;
   if (options.once) refuse_endless_sources(config);
-  const EndingSignals signals;
+  MonitorSignals signals;
   Notices notices(stderr);
   Tally tally(config.most_units);
   const auto store =
-      open_store(config.store, config.folder, store_columns(config, population.tracker),
+      open_store(config.store, config.folder, store_columns(config, *population.tracker),
                  Access::write, [&](const std::string& what) { notices.tell("store", what); });
-  FleetSettings settings;
-  settings.title = config.title;
-  settings.trusted = population.trusted;
-  settings.population = population.fingerprint;
-  settings.alarm = config.alarm;
-  settings.threads = threads_or_all(options.threads);
-  settings.keys_are_times = !config.sequence;
-  const bool tells = !options.once;
-  settings.on_alarm = [&](const AlarmChange& change, Alarm before, const UnitView& unit) {
-    if (tells)
-      notices.tell(
-          fmt::format("unit '{}'", change.unit),
-          fmt::format("{} -> {}, risk {:.3g}{}{}{}", name(before), name(change.alarm), change.risk,
-                      unit.beyond ? ", the last reading is beyond the limit" : "",
-                      unit.doubt.empty() ? "" : "; in doubt: ", unit.doubt));
-  };
-  Fleet fleet(population.tracker, *store, tally, notices, std::move(settings));
-  catch_up(fleet, signals);
+  RunningFleet running(config, population, options, *store, tally, notices);
+  for (SourceSettings& source : config.sources) running.checks().bind(source.mapping);
+  running.catch_up(signals);
   WakeSignal wake;
   Intake intake(*store, tally, notices, [&] { wake.ring(); });
-  const Outlets outlets(config, options, fleet, intake, population.tracker, notices);
-  started(fleet, outlets.address());
+  const Outlets outlets(config, options, running, intake, *population.tracker, *store, notices);
+  started(running.readers(), outlets.address());
   Sources sources(config, options.once, intake, *store, notices, wake);
-  Follower follower(fleet, notices);
-  while (!signals.arrived()) {
+  Follower follower(running, notices);
+  std::optional<FitExchange> exchange;
+  if (!options.once)
+    exchange.emplace(
+        result, population, [&](const Population& next) { return running.make_beside(next); },
+        notices, [&] { wake.ring(); });
+  while (!signals.ends()) {
     constexpr auto patience = std::chrono::milliseconds(50);
     const bool over = sources.ended();
+    if (exchange) {
+      if (signals.reload()) exchange->request();
+      follower.take(*exchange);
+    }
     if (!follower.round()) {
       if (over) break;
       wake.wait(patience);
     }
   }
+  exchange.reset();
   sources.stop();
   follower.finish();
-  ended(fleet);
+  ended(running.readers());
 }
 
 }  // namespace wearwell::monitor

@@ -6,6 +6,7 @@
 /// hexadecimal digits.
 namespace wearwell::resource {
 
+std::string_view monitor_openapi();
 std::string_view monitor_html();
 std::string_view monitor_css();
 std::string_view monitor_css_sha256();
@@ -17,6 +18,8 @@ std::string_view monitor_list_js();
 std::string_view monitor_list_js_sha256();
 std::string_view monitor_events_js();
 std::string_view monitor_events_js_sha256();
+std::string_view monitor_fits_js();
+std::string_view monitor_fits_js_sha256();
 std::string_view monitor_detail_js();
 std::string_view monitor_detail_js_sha256();
 std::string_view monitor_live_js();

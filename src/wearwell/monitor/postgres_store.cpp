@@ -36,10 +36,18 @@ constexpr const char* event_table = R"(
     number bigserial PRIMARY KEY, unit text NOT NULL, event text NOT NULL, key bigint NOT NULL, received_ms bigint NOT NULL,
     author text NOT NULL, note text NOT NULL, content text NOT NULL, identity text NOT NULL UNIQUE))";
 
+constexpr const char* fit_tables = R"(
+  CREATE TABLE wearwell_fit (
+    number bigserial PRIMARY KEY, population text NOT NULL, since_ms bigint NOT NULL, written_ms bigint NOT NULL,
+    trusted boolean NOT NULL);
+  CREATE TABLE wearwell_moved (fit bigint NOT NULL, unit text NOT NULL, content text NOT NULL, PRIMARY KEY (fit, unit));
+  CREATE TABLE wearwell_sent (unit text PRIMARY KEY, alarm text NOT NULL, time_ms bigint NOT NULL))";
+
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
 constexpr const char* steps[] = {
-    "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0", event_table};
+    "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0", event_table,
+    fit_tables};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -52,6 +60,22 @@ StoredReading reading_in(const pqxx::row& row) {
           row[2].as<std::int64_t>(), row[3].as<std::int64_t>(),
           row[4].as<std::int64_t>(), numbers_of(row[5].c_str()),
           texts_of(row[6].c_str())};
+}
+
+std::vector<UnitEvent> events_in(const pqxx::result& rows) {
+  std::vector<UnitEvent> events;
+  for (const auto& row : rows) {
+    UnitEvent event{row[0].as<std::int64_t>(),
+                    row[1].c_str(),
+                    stored_event(row[2].c_str()),
+                    row[3].as<std::int64_t>(),
+                    row[4].as<std::int64_t>(),
+                    row[5].c_str(),
+                    row[6].c_str()};
+    read_content(row[7].c_str(), event);
+    events.push_back(std::move(event));
+  }
+  return events;
 }
 
 std::string value_of(pqxx::work& work, const char* name) {
@@ -79,12 +103,18 @@ class PostgresStore : public Store {
   std::uint64_t count() override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
+  std::vector<UnitEvent> events_of(const std::string& unit) override;
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override;
   std::vector<Checkpoint> states(const std::string& population) override;
   std::int64_t all_up_to(const std::string& population) override;
   void log(const std::vector<AlarmChange>& changes) override;
   std::vector<AlarmChange> alarms() override;
+  std::vector<StoredFit> fits() override;
+  void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) override;
+  std::vector<MovedForecast> moved(std::int64_t fit) override;
+  std::map<std::string, Alarm> sent_alarms() override;
+  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
@@ -114,6 +144,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     if (fresh) {
       work.exec(tables);
       work.exec(event_table);
+      work.exec(fit_tables);
       put(work, "version", fmt::format("{}", store_version));
       put(work, "numbers", json_of(columns.numbers));
       put(work, "labels", json_of(columns.labels));
@@ -273,23 +304,79 @@ std::vector<Kept> PostgresStore::add_events(const std::vector<UnitEvent>& events
 std::vector<UnitEvent> PostgresStore::events_after(std::int64_t number) {
   std::vector<UnitEvent> events;
   read_.run([&](pqxx::work& work) {
-    events.clear();
-    for (const auto& row : work.exec_params(
-             "SELECT number, unit, event, key, received_ms, author, note, content FROM "
-             "wearwell_event WHERE number > $1 ORDER BY number",
-             number)) {
-      UnitEvent event{row[0].as<std::int64_t>(),
-                      row[1].c_str(),
-                      stored_event(row[2].c_str()),
-                      row[3].as<std::int64_t>(),
-                      row[4].as<std::int64_t>(),
-                      row[5].c_str(),
-                      row[6].c_str()};
-      read_content(row[7].c_str(), event);
-      events.push_back(std::move(event));
-    }
+    events = events_in(
+        work.exec_params("SELECT number, unit, event, key, received_ms, author, note, content FROM "
+                         "wearwell_event WHERE number > $1 ORDER BY number",
+                         number));
   });
   return events;
+}
+
+std::vector<UnitEvent> PostgresStore::events_of(const std::string& unit) {
+  std::vector<UnitEvent> events;
+  read_.run([&](pqxx::work& work) {
+    events = events_in(
+        work.exec_params("SELECT number, unit, event, key, received_ms, author, note, content FROM "
+                         "wearwell_event WHERE unit = $1 ORDER BY number",
+                         unit));
+  });
+  return events;
+}
+
+std::vector<StoredFit> PostgresStore::fits() {
+  std::vector<StoredFit> fits;
+  read_.run([&](pqxx::work& work) {
+    fits.clear();
+    for (const auto& row : work.exec(
+             "SELECT number, population, since_ms, written_ms, trusted FROM wearwell_fit ORDER BY "
+             "number"))
+      fits.push_back({row[0].as<std::int64_t>(), row[1].c_str(), row[2].as<std::int64_t>(),
+                      row[3].as<std::int64_t>(), row[4].as<bool>()});
+  });
+  return fits;
+}
+
+void PostgresStore::begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) {
+  write_.run([&](pqxx::work& work) {
+    const auto number =
+        work.exec_params1(
+                "INSERT INTO wearwell_fit (population, since_ms, written_ms, trusted) VALUES ($1, "
+                "$2, $3, $4) RETURNING number",
+                fit.population, fit.since_ms, fit.written_ms, fit.trusted)[0]
+            .as<std::int64_t>();
+    for (const MovedForecast& each : moved)
+      work.exec_params("INSERT INTO wearwell_moved VALUES ($1, $2, $3)", number, each.unit,
+                       content_of(each));
+  });
+}
+
+std::vector<MovedForecast> PostgresStore::moved(std::int64_t fit) {
+  std::vector<MovedForecast> moved;
+  read_.run([&](pqxx::work& work) {
+    moved.clear();
+    for (const auto& row : work.exec_params(
+             "SELECT unit, content FROM wearwell_moved WHERE fit = $1 ORDER BY unit", fit))
+      moved.push_back(moved_forecast(row[0].c_str(), row[1].c_str()));
+  });
+  return moved;
+}
+
+std::map<std::string, Alarm> PostgresStore::sent_alarms() {
+  std::map<std::string, Alarm> sent;
+  read_.run([&](pqxx::work& work) {
+    for (const auto& row : work.exec("SELECT unit, alarm FROM wearwell_sent"))
+      sent[row[0].c_str()] = alarm_named(row[1].c_str());
+  });
+  return sent;
+}
+
+void PostgresStore::note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) {
+  write_.run([&](pqxx::work& work) {
+    work.exec_params(
+        "INSERT INTO wearwell_sent VALUES ($1, $2, $3) ON CONFLICT (unit) DO UPDATE SET alarm = "
+        "excluded.alarm, time_ms = excluded.time_ms",
+        unit, name(alarm), time_ms);
+  });
 }
 
 std::uint64_t PostgresStore::count() {

@@ -155,8 +155,9 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
   }
 }
 
-/// What a tracker says to readings and events, without fields.
-ReadingMapping mapping_for(const prognosis::Tracker& tracker) {
+}  // namespace
+
+ReadingMapping tracker_checks(const prognosis::Tracker& tracker) {
   ReadingMapping mapping;
   mapping.implausible = implausible_reading(tracker);
   mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
@@ -166,8 +167,6 @@ ReadingMapping mapping_for(const prognosis::Tracker& tracker) {
   mapping.watched = prognosis::watched_columns(tracker);
   return mapping;
 }
-
-}  // namespace
 
 double required_si(const TomlReader& table, const std::string& key, const Unit& like) {
   const Quantity quantity = table.required_quantity(key, like.text);
@@ -181,7 +180,7 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
 
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {
-  ReadingMapping mapping = mapping_for(tracker);
+  ReadingMapping mapping = tracker_checks(tracker);
   read_identity(reading, topic_names_unit, mapping);
   mapping.event = reading.text("event").value_or("");
   const TomlReader columns = reading.required_table("columns");
@@ -210,7 +209,7 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
 }
 
 ReadingMapping plain_mapping(const prognosis::Tracker& tracker, bool keys_are_times) {
-  ReadingMapping mapping = mapping_for(tracker);
+  ReadingMapping mapping = tracker_checks(tracker);
   (keys_are_times ? mapping.time : mapping.sequence) = "key";
   mapping.format = TimeFormat::unix_ms;
   mapping.event = "event";

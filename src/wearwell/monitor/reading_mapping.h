@@ -54,6 +54,9 @@ inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, o
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit);
 
+/// What a tracker says to readings and events, without fields. The tracker must outlive it.
+ReadingMapping tracker_checks(const prognosis::Tracker& tracker);
+
 /// The required fields of a row: its identifier, conditions and labels.
 std::vector<std::string> needed_fields(const ReadingMapping& mapping);
 

@@ -11,6 +11,7 @@
 #include "wearwell/monitor/alarm.h"
 #include "wearwell/monitor/sqlite_session.h"
 
+// Longer than others: the tables of one store and all its statements.
 namespace wearwell::monitor {
 namespace {
 
@@ -32,9 +33,16 @@ constexpr const char* event_table = R"(
     number INTEGER PRIMARY KEY, unit TEXT NOT NULL, event TEXT NOT NULL, key INTEGER NOT NULL, received_ms INTEGER NOT NULL,
     author TEXT NOT NULL, note TEXT NOT NULL, content TEXT NOT NULL, identity TEXT NOT NULL UNIQUE);)";
 
+constexpr const char* fit_tables = R"(
+  CREATE TABLE fit (
+    number INTEGER PRIMARY KEY, population TEXT NOT NULL, since_ms INTEGER NOT NULL, written_ms INTEGER NOT NULL,
+    trusted INTEGER NOT NULL);
+  CREATE TABLE moved (fit INTEGER NOT NULL, unit TEXT NOT NULL, content TEXT NOT NULL, PRIMARY KEY (fit, unit)) WITHOUT ROWID;
+  CREATE TABLE sent (unit TEXT PRIMARY KEY, alarm TEXT NOT NULL, time_ms INTEGER NOT NULL) WITHOUT ROWID;)";
+
 // Migrations from each version to the next. Never change an existing step: stores of it exist.
 constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
-                                 event_table};
+                                 event_table, fit_tables};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -43,6 +51,21 @@ StoredReading reading_in(const SqliteStatement& row) {
   return {row.integer(0),       row.text(1),    row.integer(2),
           row.integer(3),       row.integer(4), numbers_of(row.text(5)),
           texts_of(row.text(6))};
+}
+
+constexpr const char* event_columns =
+    "number, unit, event, key, received_ms, author, note, content";
+
+std::vector<UnitEvent> events_in(SqliteStatement& select) {
+  std::vector<UnitEvent> events;
+  while (select.next()) {
+    UnitEvent event{select.integer(0), select.text(1),    stored_event(select.text(2)),
+                    select.integer(3), select.integer(4), select.text(5),
+                    select.text(6)};
+    read_content(select.text(7), event);
+    events.push_back(std::move(event));
+  }
+  return events;
 }
 
 class SqliteStore : public Store {
@@ -58,12 +81,18 @@ class SqliteStore : public Store {
   std::uint64_t count() override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
+  std::vector<UnitEvent> events_of(const std::string& unit) override;
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override;
   std::vector<Checkpoint> states(const std::string& population) override;
   std::int64_t all_up_to(const std::string& population) override;
   void log(const std::vector<AlarmChange>& changes) override;
   std::vector<AlarmChange> alarms() override;
+  std::vector<StoredFit> fits() override;
+  void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) override;
+  std::vector<MovedForecast> moved(std::int64_t fit) override;
+  std::map<std::string, Alarm> sent_alarms() override;
+  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
@@ -133,6 +162,7 @@ void SqliteStore::begin_tables(const StoreColumns& columns) {
   SqliteTransaction transaction(write_);
   write_.run(tables);
   write_.run(event_table);
+  write_.run(fit_tables);
   put("version", fmt::format("{}", store_version));
   put("numbers", json_of(columns.numbers));
   put("labels", json_of(columns.labels));
@@ -249,19 +279,18 @@ std::vector<Kept> SqliteStore::add_events(const std::vector<UnitEvent>& events) 
 
 std::vector<UnitEvent> SqliteStore::events_after(std::int64_t number) {
   const std::lock_guard lock(read_lock_);
-  SqliteStatement select(read_,
-                         "SELECT number, unit, event, key, received_ms, author, note, content FROM "
-                         "event WHERE number > ? ORDER BY number");
+  SqliteStatement select(
+      read_, fmt::format("SELECT {} FROM event WHERE number > ? ORDER BY number", event_columns));
   select.bind(1, number);
-  std::vector<UnitEvent> events;
-  while (select.next()) {
-    UnitEvent event{select.integer(0), select.text(1),    stored_event(select.text(2)),
-                    select.integer(3), select.integer(4), select.text(5),
-                    select.text(6)};
-    read_content(select.text(7), event);
-    events.push_back(std::move(event));
-  }
-  return events;
+  return events_in(select);
+}
+
+std::vector<UnitEvent> SqliteStore::events_of(const std::string& unit) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(
+      read_, fmt::format("SELECT {} FROM event WHERE unit = ? ORDER BY number", event_columns));
+  select.bind(1, std::string_view(unit));
+  return events_in(select);
 }
 
 std::uint64_t SqliteStore::count() {
@@ -323,6 +352,58 @@ std::vector<AlarmChange> SqliteStore::alarms() {
     changes.push_back({select.text(0), select.integer(1), alarm_named(select.text(2)),
                        select.number(3), select.integer(4)});
   return changes;
+}
+
+std::vector<StoredFit> SqliteStore::fits() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(
+      read_, "SELECT number, population, since_ms, written_ms, trusted FROM fit ORDER BY number");
+  std::vector<StoredFit> fits;
+  while (select.next())
+    fits.push_back({select.integer(0), select.text(1), select.integer(2), select.integer(3),
+                    select.integer(4) != 0});
+  return fits;
+}
+
+void SqliteStore::begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) {
+  const std::lock_guard lock(write_lock_);
+  SqliteTransaction transaction(write_);
+  SqliteStatement insert(
+      write_, "INSERT INTO fit (population, since_ms, written_ms, trusted) VALUES (?, ?, ?, ?)");
+  insert.bind(1, std::string_view(fit.population)).bind(2, fit.since_ms).bind(3, fit.written_ms);
+  insert.bind(4, std::int64_t{fit.trusted}).run();
+  const std::int64_t number = sqlite3_last_insert_rowid(write_.get());
+  SqliteStatement each_moved(write_, "INSERT INTO moved VALUES (?, ?, ?)");
+  for (const MovedForecast& each : moved) {
+    const std::string content = content_of(each);
+    each_moved.bind(1, number).bind(2, std::string_view(each.unit));
+    each_moved.bind(3, std::string_view(content)).run();
+  }
+  transaction.commit();
+}
+
+std::vector<MovedForecast> SqliteStore::moved(std::int64_t fit) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT unit, content FROM moved WHERE fit = ? ORDER BY unit");
+  select.bind(1, fit);
+  std::vector<MovedForecast> moved;
+  while (select.next()) moved.push_back(moved_forecast(select.text(0), select.text(1)));
+  return moved;
+}
+
+std::map<std::string, Alarm> SqliteStore::sent_alarms() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT unit, alarm FROM sent");
+  std::map<std::string, Alarm> sent;
+  while (select.next()) sent[select.text(0)] = alarm_named(select.text(1));
+  return sent;
+}
+
+void SqliteStore::note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) {
+  const std::lock_guard lock(write_lock_);
+  SqliteStatement insert(write_, "INSERT OR REPLACE INTO sent VALUES (?, ?, ?)");
+  insert.bind(1, std::string_view(unit)).bind(2, std::string_view(name(alarm)));
+  insert.bind(3, time_ms).run();
 }
 
 void SqliteStore::note_file(const std::string& file, std::int64_t bytes) {

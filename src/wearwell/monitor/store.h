@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/monitor/fit_record.h"
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/unit_event.h"
 
@@ -79,6 +80,8 @@ class Store {
   virtual std::vector<Kept> add_events(const std::vector<UnitEvent>& events) = 0;
   /// Events with a larger number, in order.
   virtual std::vector<UnitEvent> events_after(std::int64_t number) = 0;
+  /// Those of one unit, in order.
+  virtual std::vector<UnitEvent> events_of(const std::string& unit) = 0;
 
   /// States of the units, of this population only (a SHA-1); `all_up_to`: all readings up to there
   /// are included.
@@ -90,6 +93,17 @@ class Store {
   virtual void log(const std::vector<AlarmChange>& changes) = 0;
   /// The last of each unit.
   virtual std::vector<AlarmChange> alarms() = 0;
+
+  /// The fits in the order of their use.
+  virtual std::vector<StoredFit> fits() = 0;
+  /// From now on forecasts come from this fit (its number is ignored), which has moved these.
+  virtual void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) = 0;
+  /// The forecasts that a fit has moved, by unit.
+  virtual std::vector<MovedForecast> moved(std::int64_t fit) = 0;
+
+  /// The alarm of each unit that the webhook has accepted last.
+  virtual std::map<std::string, Alarm> sent_alarms() = 0;
+  virtual void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) = 0;
 
   /// The position read so far in a file of a folder: bytes.
   virtual void note_file(const std::string& file, std::int64_t bytes) = 0;
@@ -123,8 +137,9 @@ std::string shown_store(const std::string& url);
 /// A URL of PostgreSQL without user and password.
 std::string shown_url(const std::string& url);
 
-/// The version of the tables that this program writes. 2: alarms have a place; 3: events of units.
-inline constexpr int store_version = 3;
+/// The version of the tables that this program writes. 2: alarms have a place; 3: events of units;
+/// 4: fits, moved forecasts, alarms that were sent.
+inline constexpr int store_version = 4;
 
 /// The version of the store `name` from its own text, if it is supported: 1 to `store_version`.
 /// Throws InputError.

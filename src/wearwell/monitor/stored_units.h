@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "wearwell/monitor/monitor_run.h"
+#include "wearwell/monitor/population.h"
 #include "wearwell/monitor/store.h"
 #include "wearwell/monitor/unit_record.h"
 

@@ -27,7 +27,7 @@ bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_tok
 }  // namespace
 
 void read_stream(SourceContext& context, int descriptor, std::stop_token stop) {
-  LineFeed feed(needed_fields(context.settings.mapping));
+  LineFeed feed(needed_fields(context.settings.mapping), context.settings.format.form == Form::any);
   std::vector<char> buffer(LineFeed::piece_size);
   while (!stop.stop_requested()) {
     constexpr int patience_ms = 100;

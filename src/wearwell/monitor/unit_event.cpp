@@ -16,7 +16,7 @@ constexpr std::pair<EventKind, const char*> event_list[] = {
     {EventKind::replaced, "replaced"},   {EventKind::removed, "removed"},
     {EventKind::failed, "failed"},       {EventKind::sensor, "sensor"},
     {EventKind::corrected, "corrected"}, {EventKind::withdrawn, "withdrawn"},
-    {EventKind::cancelled, "cancelled"}};
+    {EventKind::cancelled, "cancelled"}, {EventKind::acknowledged, "acknowledged"}};
 
 }  // namespace
 
@@ -32,6 +32,10 @@ std::optional<EventKind> event_named(std::string_view name) {
     if (text == name) return each;
   }
   return {};
+}
+
+bool changes_state(EventKind kind) {
+  return kind != EventKind::acknowledged;
 }
 
 bool needs_reference(EventKind kind) {
@@ -62,6 +66,7 @@ std::string content_of(const UnitEvent& event) {
   if (!std::isnan(event.use)) json["use"] = event.use;
   if (event.kind == EventKind::sensor) json["offset"] = event.offset;
   if (event.kind == EventKind::cancelled) json["cancels"] = event.cancels;
+  if (event.kind == EventKind::acknowledged) json["alarm_ms"] = event.alarm_ms;
   if (event.kind == EventKind::corrected) {
     json["numbers"] = json_of(event.numbers);
     json["labels"] = json_of(event.labels);
@@ -81,6 +86,7 @@ void read_content(const std::string& text, UnitEvent& event) {
     event.use = json.value("use", std::numeric_limits<double>::quiet_NaN());
     event.offset = json.value("offset", 0.0);
     event.cancels = json.value("cancels", std::int64_t{0});
+    event.alarm_ms = json.value("alarm_ms", std::int64_t{0});
     event.numbers = numbers_of(json.value("numbers", "[]"));
     event.labels = texts_of(json.value("labels", "[]"));
   } catch (const nlohmann::json::exception& error) {

@@ -11,16 +11,19 @@ namespace wearwell::monitor {
 
 /// What can happen to a unit, or to one of its stored readings.
 enum class EventKind {
-  replaced,   ///< a new part is installed
-  removed,    ///< the part is taken out of service
-  failed,     ///< the part has failed
-  sensor,     ///< the sensor is exchanged: from here on it shows the level plus an offset
-  corrected,  ///< a reading has other values
-  withdrawn,  ///< a reading is not valid
-  cancelled   ///< another event is not valid
+  replaced,     ///< a new part is installed
+  removed,      ///< the part is taken out of service
+  failed,       ///< the part has failed
+  sensor,       ///< the sensor is exchanged: from here on it shows the level plus an offset
+  corrected,    ///< a reading has other values
+  withdrawn,    ///< a reading is not valid
+  cancelled,    ///< another event is not valid
+  acknowledged  ///< someone has taken notice of the alarm
 };
 const char* name(EventKind kind);
 std::optional<EventKind> event_named(std::string_view name);
+/// Whether it changes what the readings say: an acknowledgement does not.
+bool changes_state(EventKind kind);
 /// Whether it is about a stored reading or another event.
 bool needs_reference(EventKind kind);
 /// The kind in a store. Throws StoreError for another text.
@@ -38,7 +41,7 @@ struct UnitEvent {
   std::string unit = {};
   EventKind kind = EventKind::replaced;
   /// Its place among the unit's readings: a key as theirs. Of `corrected` and `withdrawn`: the
-  /// reading's; of `cancelled`: 0.
+  /// reading's; of `cancelled` and `acknowledged`: 0.
   std::int64_t key = 0;
   std::int64_t received_ms = 0;  ///< Unix time of its arrival
   std::string author = {};       ///< who says so
@@ -50,6 +53,7 @@ struct UnitEvent {
   std::vector<double> numbers = {};      ///< of `corrected`: as StoredReading
   std::vector<std::string> labels = {};  ///< of `corrected`
   std::int64_t cancels = 0;              ///< of `cancelled`: the number of the other event
+  std::int64_t alarm_ms = 0;             ///< of `acknowledged`: UnitView::alarm_ms of the alarm
 };
 
 /// What an event says beside unit, kind, key, author and note, as JSON for a store.

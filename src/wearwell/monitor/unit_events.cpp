@@ -14,7 +14,8 @@ UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedCo
   }
   std::vector<const UnitEvent*> valid;
   for (const UnitEvent& each : events_) {
-    if (each.kind == EventKind::cancelled || is_cancelled(each.number)) continue;
+    if (each.kind == EventKind::cancelled || !changes_state(each.kind) || is_cancelled(each.number))
+      continue;
     valid.push_back(&each);
     if (each.kind == EventKind::sensor) offsets_[each.key] = each.offset;
     if (each.kind == EventKind::corrected || each.kind == EventKind::withdrawn)
@@ -26,6 +27,20 @@ UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedCo
 // Cancelling the cancellation of an event is not possible: the event is reported again.
 bool UnitEvents::is_cancelled(std::int64_t number) const {
   return cancelled_.contains(number);
+}
+
+std::int64_t UnitEvents::last_of_state() const {
+  const auto last = std::find_if(events_.rbegin(), events_.rend(),
+                                 [](const UnitEvent& each) { return changes_state(each.kind); });
+  return last == events_.rend() ? 0 : last->number;
+}
+
+std::string UnitEvents::acknowledged_by(std::int64_t alarm_ms) const {
+  const auto last = std::find_if(events_.rbegin(), events_.rend(), [&](const UnitEvent& each) {
+    return each.kind == EventKind::acknowledged && each.alarm_ms == alarm_ms &&
+           !is_cancelled(each.number);
+  });
+  return last == events_.rend() ? std::string() : last->author;
 }
 
 std::string UnitEvents::not_in_force(const UnitEvent& event) const {
@@ -46,7 +61,7 @@ std::string UnitEvents::not_in_force(const UnitEvent& event) const {
     const bool kind = each.kind == same->kind || (edits(each.kind) && edits(same->kind));
     return kind && each.key == same->key && !is_cancelled(each.number);
   });
-  return later == events_.end() || same->kind == EventKind::cancelled
+  return later == events_.end() || same->kind == EventKind::cancelled || !changes_state(same->kind)
              ? std::string()
              : again(fmt::format("event {} has replaced", later->number));
 }

@@ -53,6 +53,10 @@ class UnitEvents {
   std::string not_in_force(const UnitEvent& event) const;
   /// Number of the last event; 0 if there is none.
   std::int64_t last() const { return events_.empty() ? 0 : events_.back().number; }
+  /// Number of the last event that changes the unit's state; 0 if there is none.
+  std::int64_t last_of_state() const;
+  /// Who has acknowledged the alarm that holds since then, the last one; empty if no one has.
+  std::string acknowledged_by(std::int64_t alarm_ms) const;
 
  private:
   void find_parts(const std::vector<const UnitEvent*>& valid);

@@ -164,7 +164,7 @@ std::string bytes_of(const UnitRecord& record) {
       {"received_ms", record.last_received_ms},
       {"moments", moments},
       {"watch", Json::binary({watch.begin(), watch.end()})},
-      {"event", record.events->last()},
+      {"event", record.events->last_of_state()},
       {"stored_key", record.stored_key},
   };
   const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
@@ -175,9 +175,9 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
                            std::shared_ptr<const UnitEvents> events) {
   try {
     const Json json = Json::from_cbor(checkpoint.bytes);
-    if (json.value("event", std::int64_t{0}) != events->last())
+    if (json.value("event", std::int64_t{0}) != events->last_of_state())
       throw InputError(fmt::format("the state of unit '{}' is from before event {}",
-                                   checkpoint.unit, events->last()));
+                                   checkpoint.unit, events->last_of_state()));
     const auto& state = json.at("state").get_binary();
     UnitRecord record;
     record.unit = checkpoint.unit;

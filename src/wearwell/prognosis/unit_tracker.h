@@ -38,7 +38,7 @@ class UnitTracker {
   bool is_new() const { return fresh_; }
   const Tracker& tracker() const { return *tracker_; }
   Forecast forecast() const { return state_->forecast(); }
-  /// The forecast in the units of the study, with the names of the monitor's /api/units. Numbers
+  /// The forecast in the units of the study, with the names of the monitor's /api/v1/units. Numbers
   /// that are not finite are null.
   nlohmann::ordered_json json() const;
   /// The probability that the threshold is reached within a use from now on, "500 h"; NaN if
