@@ -17,20 +17,17 @@
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/life_against.h"
 #include "wearwell/cli/life_bounds.h"
+#include "wearwell/cli/life_readings.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
 #include "wearwell/prognosis/known_lives.h"
-#include "wearwell/prognosis/new_data.h"
-#include "wearwell/prognosis/reweighted.h"
 #include "wearwell/prognosis/tracked_life.h"
 #include "wearwell/prognosis/unit_life.h"
-#include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/numerical_error.h"
-#include "wearwell/study/run_study.h"
 
 namespace wearwell {
 namespace {
@@ -45,49 +42,10 @@ struct LifeOptions {
   bool json = false;
 };
 
-// The nodes after the readings since then.
-struct Moved {
-  std::string how;  // empty without readings
-  std::size_t counted = 0, repeated = 0;
-  std::vector<prognosis::Contradiction> contradictions = {};
-};
-
 double risk_of(const std::string& text) {
   const double risk = option_value("--risk", text, "1", Allowed::positive);
   if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
   return risk;
-}
-
-// Reweights the nodes; where too few carry the weight of the new posterior, rebuilds them.
-Moved take_readings(const LifeOptions& options, Models models, prognosis::CarriedState& state) {
-  const Table table = prognosis::read_new_data(state.source, options.readings);
-  prognosis::JoinedData joined =
-      prognosis::joined_data(state.source, {table}, prognosis::Repeated::ask);
-  const auto before = read_study(state.source, models), after = read_study(joined.source, models);
-  const auto posterior_of = [](const Study& read) {
-    const PosteriorStudy& study = require_posterior_study(read);
-    return Posterior(study.parameters, study.likelihood(study.data_rows));
-  };
-  const Posterior of_all = posterior_of(*after);
-  const prognosis::Reweighted moved =
-      prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
-  const PosteriorStudy& study = require_posterior_study(*after);
-  prognosis::judge_new_data(study, state.posterior, joined);
-  Moved done{"", joined.counted, joined.repeated, joined.contradictions};
-  state.source = std::move(joined.source);
-  if (prognosis::resolves(moved)) {
-    done.how = fmt::format("nodes reweighted, effective sample size {:.0f}", moved.effective);
-    state.posterior = moved.draws;
-    return done;
-  }
-  const SamplerChoice choice = sampler_of(options.result);
-  const Fit fitted = fit(of_all, fit_settings(study, choice));
-  if (!proper(fitted))
-    throw InputError(
-        "with these readings the posterior has no lives; run wearwell update for the reason");
-  state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
-  done.how = "nodes rebuilt";
-  return done;
 }
 
 // 0.93 instead of 0.9299999999999999.
@@ -96,7 +54,7 @@ double survival(double share) {
   return std::round((1 - share) * digits) / digits;
 }
 
-ordered_json json_of(const UnitLife& life, const LifeBounds& bounds, const Moved& moved,
+ordered_json json_of(const UnitLife& life, const LifeBounds& bounds, const ReadingsSince& moved,
                      bool trusted) {
   ordered_json json = {{"of", life.of},
                        {"name", life.name},
@@ -142,7 +100,8 @@ present::Table table_of(const UnitLife& life) {
 // The forecast of the quantity with the failure threshold, from the unit's tracker nodes at its
 // present state.
 present::Table path_ahead(const LifeOptions& options, Models models,
-                          const prognosis::CarriedState& state) {
+                          const prognosis::CarriedState& state,
+                          std::shared_ptr<const prognosis::TrackedUnit> unit) {
   if (!options.survived.empty())
     throw InputError("--path: continues from the last reading; leave out --survived");
   const auto tracker = tracker_of(state, options.result, models);
@@ -156,7 +115,7 @@ present::Table path_ahead(const LifeOptions& options, Models models,
                                : options.unit;
   std::string name = is_known(bare) ? bare : prognosis::new_name(*tracker);
   if (!tracker->refusal(name).empty()) name = seen.front();  // a study of one unit
-  const auto unit = tracker->begin(name);
+  if (!unit) unit = tracker->begin(name);
   const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
   present::Table table{"path",
                        "Forecast",
@@ -172,7 +131,8 @@ present::Table path_ahead(const LifeOptions& options, Models models,
   return table;
 }
 
-void print(const UnitLife& life, const LifeBounds& bounds, const Moved& moved, bool trusted) {
+void print(const UnitLife& life, const LifeBounds& bounds, const ReadingsSince& moved,
+           bool trusted) {
   const std::string unit = printable(unit_description(life.unit, Script::terminal));
   const int digits = digits_within(life.numerical_error.value_or(0));
   const auto shown = [&](double value) {
@@ -232,20 +192,48 @@ void refuse_two_meanings(const prognosis::CarriedState& state, const std::string
                     printable(name)));
 }
 
-// A named part of an S-N study is found by its name; all else by the study's lives.
-UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::CarriedState& state,
-                    const prognosis::LifeQuestion& question) {
+// A named part of an S-N study, found by its name.
+struct PartAsked {
+  std::unique_ptr<const prognosis::Tracker> tracker;
+  std::string name;
+};
+std::optional<PartAsked> part_asked(const LifeOptions& options, Models models,
+                                    const prognosis::CarriedState& state,
+                                    const std::string& asked) {
+  if (state.model != "sn" || asked.empty()) return {};
+  auto tracker = tracker_of(state, options.result, models);
+  const auto name = prognosis::tracked_name(*tracker, asked);
+  if (!name) return {};
+  refuse_two_meanings(state, *name, asked);
+  return PartAsked{std::move(tracker), *name};
+}
+
+// What was asked, with the readings since the fit.
+struct LifeAnswer {
+  UnitLife life = {};
+  ReadingsSince since = {};
+  std::shared_ptr<const prognosis::TrackedUnit> part = {};  // with its readings
+};
+
+LifeAnswer life_asked(const LifeOptions& options, Models models, prognosis::CarriedState& state,
+                      const prognosis::LifeQuestion& question) {
+  LifeAnswer answer;
+  if (const auto part = part_asked(options, models, state, question.unit)) {
+    const std::shared_ptr<prognosis::TrackedUnit> unit = part->tracker->begin(part->name);
+    if (!options.readings.empty())
+      answer.since =
+          take_part_readings(options.readings, *part->tracker, part->name, state.source, *unit);
+    answer.life = prognosis::tracked_life(*part->tracker, part->name, question, *unit);
+    if (!options.readings.empty()) answer.part = unit;
+    return answer;
+  }
+  if (!options.readings.empty())
+    answer.since = take_readings(options.result, options.readings, models, state);
   const prognosis::ReadAsked read = [&](const Source& source) {
     return read_study(source, models);
   };
-  if (state.model == "sn" && !question.unit.empty()) {
-    const auto tracker = tracker_of(state, options.result, models);
-    if (const auto name = prognosis::tracked_name(*tracker, question.unit)) {
-      refuse_two_meanings(state, *name, question.unit);
-      return prognosis::tracked_life(*tracker, *name, question);
-    }
-  }
-  return prognosis::unit_life(state.source, read, state.posterior, question);
+  answer.life = prognosis::unit_life(state.source, read, state.posterior, question);
+  return answer;
 }
 
 int run_against(const LifeOptions& options, Models models) {
@@ -274,11 +262,11 @@ int run_life(const LifeOptions& options, Models models) {
   const LifeBounds bounds = read_life_bounds(options.level, options.sides);
   if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
   prognosis::CarriedState state = read_carried(options.result);
-  Moved moved;
-  if (!options.readings.empty()) moved = take_readings(options, models, state);
-  const UnitLife life = life_asked(options, models, state, question);
+  const LifeAnswer answer = life_asked(options, models, state, question);
+  const UnitLife& life = answer.life;
+  const ReadingsSince& moved = answer.since;
   std::string path;
-  if (!options.path.empty()) path = present::csv(path_ahead(options, models, state));
+  if (!options.path.empty()) path = present::csv(path_ahead(options, models, state, answer.part));
   if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
   if (!options.path.empty()) write_file(options.path, path);
   if (options.json) {

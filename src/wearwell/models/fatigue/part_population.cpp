@@ -31,7 +31,7 @@ PartPopulation::PartPopulation(const TomlReader& root, const prognosis::CarriedS
   if (!ahead && stresses && stresses->keys().size() == 1)
     ahead = read_stress(stresses->required_table(stresses->keys().front()), law.correction,
                         data.spring, data.stress_si);
-  if (predict) sum = read_part_damage_sum(*predict, law, data);
+  if (predict) sum = read_part_damage_sum(*predict, law);
 }
 
 std::string PartPopulation::refusal(const std::string& part) const {

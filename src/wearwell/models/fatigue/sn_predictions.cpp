@@ -398,15 +398,10 @@ double next_allowed(const SnLaw& law, const WeightedDraws& draws, const StressLi
   return root == least ? 0 : root == most ? INFINITY : std::pow(10, root);
 }
 
-fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const SnLaw& law,
-                                        const SnData& data) {
+fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const SnLaw& law) {
   const std::string key = "damage_sum";
   const auto text = predict.text(key);
   if (!text) return {};
-  if (data.parts.empty())
-    predict.fail(key,
-                 "has no effect: it is that of parts whose readings are tracked; name the parts of "
-                 "the study in data.columns.part, or use wearwell fatigue life --damage-sum");
   if (!law.logarithmic())
     predict.fail(key,
                  "is not possible with lives that are normal in cycles: damage cannot be summed; "
@@ -420,7 +415,7 @@ fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const SnLaw& 
 
 SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, const SnData& data) {
   SnPredictions result;
-  read_part_damage_sum(predict, law, data);
+  read_part_damage_sum(predict, law);
   if (predict.has("types")) result.points = points_of_types(predict, law, data);
   if (const auto stresses = predict.table("stress")) {
     for (const std::string& name : stresses->keys()) {

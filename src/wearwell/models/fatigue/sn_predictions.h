@@ -45,8 +45,7 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const fatigue::SnLa
 
 /// The damage sum at which tracked parts fail (predict.damage_sum): 1 if it is not given. Throws
 /// InputError.
-fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const fatigue::SnLaw& law,
-                                        const SnData& data);
+fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const fatigue::SnLaw& law);
 
 /// Lives, B-lives, survival and allowed stresses, as quantities of the study.
 void add_sn_quantities(const fatigue::SnLaw& law, const SnData& data,

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wearwell/prognosis/carried_state.h"
+#include "wearwell/prognosis/new_data.h"
+#include "wearwell/prognosis/tracker.h"
+#include "wearwell/study/model.h"
+
+namespace wearwell {
+
+/// Readings since the fit, and how the posterior has moved.
+struct ReadingsSince {
+  std::string how;  ///< empty without readings
+  std::size_t counted = 0, repeated = 0;
+  std::vector<prognosis::Contradiction> contradictions = {};
+};
+
+/// Adds the rows to the study of `state`. Reweights its nodes; where too few carry the weight of the
+/// new posterior, rebuilds them. Throws InputError.
+ReadingsSince take_readings(const std::filesystem::path& result,
+                            const std::filesystem::path& readings, Models models,
+                            prognosis::CarriedState& state);
+
+/// Gives them to a part of an S-N study. Throws InputError that names the row that is invalid, is of
+/// another part, or cannot count.
+ReadingsSince take_part_readings(const std::filesystem::path& readings,
+                                 const prognosis::Tracker& tracker, const std::string& part,
+                                 const Source& source, prognosis::TrackedUnit& unit);
+
+}  // namespace wearwell
