@@ -69,7 +69,7 @@ std::vector<LawCase> law_cases() {
     SnLaw limited = law;
     limited.limit = StandardDistribution::normal;
     all.push_back(
-        {"random limit", limited, {9.6, -0.25, 0.2, 8.4, 0.03}, {0.04, 0.01, 0.05, 0.03, 0.01}});
+        {"random limit", limited, {9.3, -0.25, 0.2, 8.4, 0.03}, {0.04, 0.01, 0.05, 0.03, 0.01}});
     SnLaw knee = law;
     knee.curve = SnCurve::knee;
     knee.second_slope = SecondSlope::infinite;
@@ -77,7 +77,7 @@ std::vector<LawCase> law_cases() {
     all.push_back({"knee", knee, {8, 5.8, 0.2, 8.45, 0.04}, {1, 0.1, 0.05, 0.03, 0.02}});
     SnLaw bent = law;
     bent.curve = SnCurve::bastenaire;
-    all.push_back({"bastenaire", bent, {5.9, 8.3, 0.8, 8.1, 0.2}, {0.1, 0.1, 0.1, 0.03, 0.05}});
+    all.push_back({"bastenaire", bent, {6.6, 8.3, 0.8, 8.1, 0.2}, {0.1, 0.1, 0.1, 0.03, 0.05}});
   }
   return all;
 }
@@ -91,6 +91,8 @@ double dense_survival(const SnLaw& law, const double* x, const LoadCycles& run) 
   const BlockDamage block(law, x, law.straight() ? DamageRule{} : original, run);
   const auto survives = [&](double limit) {
     if (block.log10_damage(0, limit) == -infinity) return 1.0;
+    if (!law.scatter_grows)  // log10 of damage is a straight line in the score
+      return 1 - cdf(law.standard(), block.log10_damage(0, limit) / x[law.sigma_index()]);
     double low = -60, high = 60;  // scores
     for (int i = 0; i < 60; ++i) {
       const double z = 0.5 * (low + high);
@@ -99,7 +101,7 @@ double dense_survival(const SnLaw& law, const double* x, const LoadCycles& run) 
     return 1 - cdf(law.standard(), low);
   };
   if (!law.limit) return survives(0);
-  constexpr int cells = 2000;
+  constexpr int cells = 500;
   double sum = 0;
   for (int k = 0; k < cells; ++k) sum += survives(quantile(*law.limit, (k + 0.5) / cells));
   return sum / cells;
@@ -116,7 +118,7 @@ double dense_survival(const SnLaw& law, const ThinnedPosterior& few, const LoadC
 TEST(PartDamage, IsTheDamageOfEachPartSummed) {
   for (const LawCase& each : law_cases()) {
     SCOPED_TRACE(each.name);
-    const ThinnedPosterior few = spread_points(each.middle, each.width, 60);
+    const ThinnedPosterior few = spread_points(each.middle, each.width, 30);
     const PartDamage damage(each.law, few, three_stresses, amplitude(300));
     const std::vector<double> weight = survivors_of(few, damage);
     const double now = dense_survival(each.law, few, three_stresses);
@@ -212,13 +214,13 @@ TEST(PartDamage, IsThatOfSimulatedParts) {
     SCOPED_TRACE(each.name);
     const SnLaw& law = each.law;
     const DamageSum sum{0.8, 1.5};
-    const ThinnedPosterior few = spread_points(each.middle, each.width, 100);
+    const ThinnedPosterior few = spread_points(each.middle, each.width, 60);
     const Stress ahead = amplitude(300);
     const PartDamage damage(law, few, three_stresses, ahead, sum);
     const std::vector<double> weight = survivors_of(few, damage);
     const auto remaining = damage.remaining(weight);
     std::discrete_distribution<int> drawn(few.weights.begin(), few.weights.end());
-    constexpr int parts = 20000;
+    constexpr int parts = 10000;
     int survive = 0;
     std::vector<double> lives;
     for (int k = 0; k < parts; ++k) {

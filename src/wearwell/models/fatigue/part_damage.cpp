@@ -185,10 +185,23 @@ std::vector<double> PartDamage::log_survival() const {
   return log;
 }
 
+// The weight of those that survive so many further cycles.
+double PartDamage::left_after(std::span<const double> weight, double further) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < point_.size(); ++i) {
+    if (!(weight[i] > 0) || !(point_[i].survival > 0)) continue;
+    double own = 0;
+    for (std::size_t k = point_[i].first; k < point_[i].end; ++k)
+      own += items_[k].share * survivors(items_[k], further);
+    sum += weight[i] * own / point_[i].survival;
+  }
+  return sum;
+}
+
 // Remaining lives between which nearly all lie, in even steps of their logarithm.
 std::vector<double> PartDamage::places(std::span<const double> weight) const {
-  constexpr double light = 1e-7, tail = 1e-6, soon = 1e-4, least = 1e-9;
-  double low = infinity, high = 0, sigma = infinity, all = 0;
+  constexpr double light = 1e-7, tail = 1e-6, soon = 1e-4, least = 1e-12;
+  double high = 0, sigma = infinity, all = 0;
   for (const double each : weight) all += each;
   const StandardDistribution scatter = law_.standard();
   const double widest = sum_median_ + (widened_ > 0 ? 0 : 4.5 * sum_sd_);
@@ -199,20 +212,19 @@ std::vector<double> PartDamage::places(std::span<const double> weight) const {
       const double left = survivors(item, 0);
       if (!(item.share * left > light * point_[i].survival) || item.rate == 0) continue;
       sigma = std::min(sigma, item.sigma);
-      const auto further = [&](double share, double log10_sum) {
-        return further_at(item, upper_quantile(scatter, std::max(left * share, 1e-300)), log10_sum);
-      };
-      high = std::max(high, further(tail, widest));
-      const double begins = further(1 - soon, sum_median_);
-      if (begins > 0) low = std::min(low, begins);
+      high = std::max(
+          high, further_at(item, upper_quantile(scatter, std::max(left * tail, 1e-300)), widest));
     }
   }
   std::vector<double> at;
   if (!(high > 0)) return at;
   high = std::min(high, StressLives::most_cycles);
-  low = std::clamp(low, least * high, 0.1 * high);
+  const double now = left_after(weight, 0);
+  double low = high;
+  do low *= 0.25;
+  while (low > least * high && now - left_after(weight, low) > soon * now);
   const double from = std::log10(low), until = std::log10(high);
-  const double widest_step = 0.02, finest_step = 0.004;
+  constexpr double widest_step = 0.02, finest_step = 0.004;
   const double step = std::clamp(0.1 * sigma, finest_step, widest_step);
   const auto count = static_cast<std::size_t>(std::ceil((until - from) / step));
   for (std::size_t k = 0; k <= count; ++k)

@@ -69,6 +69,7 @@ class PartDamage {
   double score(const Item& item, double further, double log10_sum) const;
   double survivors(const Item& item, double further) const;
   double further_at(const Item& item, double z, double log10_sum) const;
+  double left_after(std::span<const double> weight, double further) const;
   std::vector<double> places(std::span<const double> weight) const;
   double endless(std::span<const double> weight) const;
 
