@@ -350,6 +350,24 @@ TEST(PartTracker, OneStressIsThatOfTheStudy) {
               divided.unit->forecast().remaining.quantile(p));
 }
 
+// Under one stress normal lives are followed; damage has no sum there.
+TEST(PartTracker, NormalLivesHaveNoSumOfDamage) {
+  const std::string wide =
+      "log10_a = { distribution = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }\n"
+      "b = { distribution = \"normal\", mean = -0.1, sd = 0.04 }\n"
+      "sigma = { distribution = \"half-normal\", scale = \"3e5 cycles\" }\n";
+  const TrackedPreset preset(part_study("", "normal", wide), headings, part_rows);
+  FollowedUnit part(*preset.tracker, "x");
+  EXPECT_TRUE(part.update({1e4, 400e6}).counted);
+  EXPECT_TRUE(part.update({2e4, 400e6}).counted);
+  EXPECT_THAT(part.update({3e4, 360e6}).problem,
+              HasSubstr("the study's lives are normal in cycles (likelihood.family)"));
+  EXPECT_EQ(part.unit->forecast().now, 2e4);
+  EXPECT_THROW(TrackedPreset(part_study("", "normal", wide, "[predict]\ndamage_sum = \"1 x/ 2\"\n"),
+                             headings, part_rows),
+               InputError);
+}
+
 TEST(PartTracker, ADamageSumThatScattersWidensLives) {
   const auto study = [&](const std::string& sum) {
     return part_study("", "log10-normal", line, "[predict]\n" + sum);
