@@ -58,10 +58,18 @@ ReadingsSince take_part_readings(const std::filesystem::path& readings,
   const prognosis::History history = [&](const auto& visit) {
     for (const prognosis::Reading& each : taken) visit(each);
   };
+  std::size_t axis = 0;
+  while (tracker.columns()[axis].name != tracker.axis().name) ++axis;
   ReadingsSince since{"posterior weighted by its survival; it continues under its last stress"};
   for (prognosis::Reading& each : prognosis::readings_of_unit(tracker, part, table)) {
     const std::size_t row = since.counted + since.repeated;
     const std::string place = fmt::format("{}, {}", table.source, row_name(row + 1, 0));
+    if (!taken.empty() && each.numbers[axis] < taken.back().numbers[axis])
+      throw InputError(fmt::format(
+          "{0}: {1} is {2:.6g} {4}, less than the {3:.6g} {4} of the row before: sort the rows if "
+          "{1} counts from the beginning; add them up if it counts from the row before",
+          place, tracker.axis().name, from_si(tracker.axis().unit, each.numbers[axis]),
+          from_si(tracker.axis().unit, taken.back().numbers[axis]), tracker.axis().unit.text));
     const auto same = [&](const prognosis::Reading& other) {
       return other.numbers == each.numbers && other.labels == each.labels;
     };
