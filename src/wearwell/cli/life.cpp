@@ -16,6 +16,7 @@
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/life_against.h"
+#include "wearwell/cli/life_readings.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/present/number.h"
@@ -25,14 +26,10 @@
 #include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/life_bounds.h"
 #include "wearwell/prognosis/life_text.h"
-#include "wearwell/prognosis/new_data.h"
-#include "wearwell/prognosis/reweighted.h"
 #include "wearwell/prognosis/tracked_life.h"
 #include "wearwell/prognosis/unit_life.h"
-#include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/numerical_error.h"
-#include "wearwell/study/run_study.h"
 
 namespace wearwell {
 namespace {
@@ -48,43 +45,11 @@ struct LifeOptions {
   bool json = false;
 };
 
-// Reweights the nodes; where too few carry the weight of the new posterior, rebuilds them.
-LifeReadings take_readings(const LifeOptions& options, Models models,
-                           prognosis::CarriedState& state) {
-  const Table table = prognosis::read_new_data(state.source, options.readings);
-  prognosis::JoinedData joined =
-      prognosis::joined_data(state.source, {table}, prognosis::Repeated::ask);
-  const auto before = read_study(state.source, models), after = read_study(joined.source, models);
-  const auto posterior_of = [](const Study& read) {
-    const PosteriorStudy& study = require_posterior_study(read);
-    return Posterior(study.parameters, study.likelihood(study.data_rows));
-  };
-  const Posterior of_all = posterior_of(*after);
-  const prognosis::Reweighted moved =
-      prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
-  const PosteriorStudy& study = require_posterior_study(*after);
-  prognosis::judge_new_data(study, state.posterior, joined);
-  LifeReadings done{"", joined.counted, joined.repeated, joined.contradictions};
-  state.source = std::move(joined.source);
-  if (prognosis::resolves(moved)) {
-    done.how = fmt::format("nodes reweighted, effective sample size {:.0f}", moved.effective);
-    state.posterior = moved.draws;
-    return done;
-  }
-  const SamplerChoice choice = sampler_of(options.result);
-  const Fit fitted = fit(of_all, fit_settings(study, choice));
-  if (!proper(fitted))
-    throw InputError(
-        "with these readings the posterior has no lives; run wearwell update for the reason");
-  state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
-  done.how = "nodes rebuilt";
-  return done;
-}
-
 // The forecast of the quantity with the failure threshold, from the unit's tracker nodes at its
 // present state.
 present::Table path_ahead(const LifeOptions& options, Models models,
-                          const prognosis::CarriedState& state) {
+                          const prognosis::CarriedState& state,
+                          std::shared_ptr<const prognosis::TrackedUnit> unit) {
   if (!options.survived.empty())
     throw InputError("--path: continues from the last reading; leave out --survived");
   const auto tracker = tracker_of(state, options.result, models);
@@ -98,7 +63,7 @@ present::Table path_ahead(const LifeOptions& options, Models models,
                                : options.unit;
   std::string name = is_known(bare) ? bare : prognosis::new_name(*tracker);
   if (!tracker->refusal(name).empty()) name = seen.front();  // a study of one unit
-  const auto unit = tracker->begin(name);
+  if (!unit) unit = tracker->begin(name);
   const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
   present::Table table{"path",
                        "Forecast",
@@ -112,6 +77,34 @@ present::Table path_ahead(const LifeOptions& options, Models models,
                           from_si(level, each.level50), from_si(level, each.level95)});
   }
   return table;
+}
+
+// What was asked, with the readings since the fit.
+struct LifeAnswer {
+  UnitLife life = {};
+  prognosis::LifeReadings since = {};
+  std::shared_ptr<const prognosis::Tracker> tracker = {};   // of the part
+  std::shared_ptr<const prognosis::TrackedUnit> part = {};  // with its readings
+};
+
+LifeAnswer life_asked(const LifeOptions& options, Models models, prognosis::CarriedState& state,
+                      const prognosis::LifeQuestion& question) {
+  const std::string result = options.result.string();
+  if (options.readings.empty())
+    return {prognosis::asked_life(state, result, models, question), {}, {}};
+  LifeAnswer answer;
+  if (auto part = prognosis::asked_part(state, result, models, question.unit)) {
+    const std::shared_ptr<prognosis::TrackedUnit> unit = part->tracker->begin(part->name);
+    answer.since =
+        take_part_readings(options.readings, *part->tracker, part->name, state.source, *unit);
+    answer.life = prognosis::tracked_life(*part->tracker, part->name, question, *unit);
+    answer.part = unit;
+    answer.tracker = std::move(part->tracker);
+    return answer;
+  }
+  answer.since = take_readings(options.result, options.readings, models, state);
+  answer.life = prognosis::asked_life(state, result, models, question);
+  return answer;
 }
 
 int run_against(const LifeOptions& options, Models models) {
@@ -140,11 +133,11 @@ int run_life(const LifeOptions& options, Models models) {
   const prognosis::LifeBounds bounds = prognosis::read_life_bounds(options.level, options.sides);
   if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
   prognosis::CarriedState state = read_carried(options.result);
-  LifeReadings moved;
-  if (!options.readings.empty()) moved = take_readings(options, models, state);
-  const UnitLife life = prognosis::asked_life(state, options.result.string(), models, question);
+  const LifeAnswer answer = life_asked(options, models, state, question);
+  const UnitLife& life = answer.life;
+  const prognosis::LifeReadings& moved = answer.since;
   std::string path;
-  if (!options.path.empty()) path = present::csv(path_ahead(options, models, state));
+  if (!options.path.empty()) path = present::csv(path_ahead(options, models, state, answer.part));
   if (!options.output.empty())
     write_file(options.output, present::csv(prognosis::survival_table(life)));
   if (!options.path.empty()) write_file(options.path, path);

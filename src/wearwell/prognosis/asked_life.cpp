@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <memory>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -35,16 +35,21 @@ double tolerated_risk(const std::string& text) {
   return risk;
 }
 
+std::optional<AskedPart> asked_part(const CarriedState& state, const std::string& result,
+                                    Models models, const std::string& unit) {
+  if (state.model != "sn" || unit.empty()) return {};
+  auto tracker = required_tracker(state, models, result);
+  const auto name = tracked_name(*tracker, unit);
+  if (!name) return {};
+  refuse_two_meanings(state, *name, unit);
+  return AskedPart{std::move(tracker), *name};
+}
+
 UnitLife asked_life(const CarriedState& state, const std::string& result, Models models,
                     const LifeQuestion& question) {
+  if (const auto part = asked_part(state, result, models, question.unit))
+    return tracked_life(*part->tracker, part->name, question);
   const ReadAsked read = [&](const Source& source) { return read_study(source, models); };
-  if (state.model == "sn" && !question.unit.empty()) {
-    const auto tracker = required_tracker(state, models, result);
-    if (const auto name = tracked_name(*tracker, question.unit)) {
-      refuse_two_meanings(state, *name, question.unit);
-      return tracked_life(*tracker, *name, question);
-    }
-  }
   return unit_life(state.source, read, state.posterior, question);
 }
 

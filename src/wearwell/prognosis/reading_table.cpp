@@ -61,6 +61,26 @@ Reading ReadingTable::reading(std::size_t row) const {
   return reading;
 }
 
+std::vector<Reading> readings_of_unit(const Tracker& tracker, const std::string& unit,
+                                      const Table& table) {
+  const ReadingTable rows(tracker, table);
+  const auto units = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [&](const Column& each) { return each.name == tracker.noun(); });
+  std::vector<Reading> readings;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (units != table.columns.end() && unit_name(*units, row) != unit)
+      throw InputError(fmt::format("{}: it is a reading of {} '{}', and '{}' is tracked",
+                                   place(table, units->name, row), tracker.noun(),
+                                   printable(unit_name(*units, row)), printable(unit)));
+    Reading reading = rows.reading(row);
+    if (const std::string problem = tracker.problem(reading); !problem.empty())
+      throw InputError(
+          fmt::format("{}, {}: {}", table.source, row_name(row + 1, 0), printable(problem)));
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
 Table in_study_names(const Table& table, std::span<const ReadingColumn> columns,
                      const Source& source) {
   const Table& data = data_table(source);

@@ -39,6 +39,12 @@ class ReadingTable {
   std::vector<const Column*> labels_;
 };
 
+/// The reading of each row, in the order of the rows. A column of units, named by the tracker's noun,
+/// may only name this unit. Throws InputError that names the row of a reading that is invalid for
+/// every unit.
+std::vector<Reading> readings_of_unit(const Tracker& tracker, const std::string& unit,
+                                      const Table& table);
+
 /// A table whose columns have the headings of a study's data, with the study's names in place of
 /// them; columns of numbers that state no unit have that of the study. `source`: the study with its
 /// data; `columns`: those of numbers. For callers who hold such a table in memory; in files a missing

@@ -37,13 +37,18 @@ std::optional<std::string> tracked_name(const Tracker& tracker, const std::strin
 
 UnitLife tracked_life(const Tracker& tracker, const std::string& name,
                       const LifeQuestion& question) {
+  const auto unit = tracker.begin(name);
+  return tracked_life(tracker, name, question, *unit);
+}
+
+UnitLife tracked_life(const Tracker& tracker, const std::string& name, const LifeQuestion& question,
+                      TrackedUnit& unit) {
   if (const std::string why = tracker.refusal(name); !why.empty())
     throw InputError(fmt::format("--unit: {}", why));
-  const auto unit = tracker.begin(name);
   const Unit& reported = tracker.axis().unit;
   UnitLife life{.of = tracker.noun() + " " + name, .at = "until failure", .unit = reported.text};
   life.name = "remaining useful life";
-  const double seen = from_si(reported, unit->forecast().now);
+  const double seen = from_si(reported, unit.forecast().now);
   if (question.survived) {
     const double survived = along_life("--survived", *question.survived, life.unit);
     if (survived < seen * (1 - 1e-12))
@@ -57,12 +62,12 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
     for (std::size_t c = 0; c < reading.numbers.size(); ++c)
       if (tracker.columns()[c].name == tracker.axis().name)
         reading.numbers[c] = to_si(reported, survived);
-    const UpdateResult taken = unit->update(reading, [](const auto&) {});
+    const UpdateResult taken = unit.update(reading, [](const auto&) {});
     if (!taken.problem.empty())
       throw InputError(fmt::format("--survived: {}: {}", printable(life.of), taken.problem));
     life.passed = 1 - taken.p_value;
   }
-  const Forecast forecast = unit->forecast();
+  const Forecast forecast = unit.forecast();
   if (std::isnan(forecast.passed))
     throw InputError(fmt::format("the study has no life of {}", printable(life.of)));
   life.from = from_si(reported, forecast.now);

@@ -17,5 +17,8 @@ std::optional<std::string> tracked_name(const Tracker& tracker, const std::strin
 /// value.
 UnitLife tracked_life(const Tracker& tracker, const std::string& name,
                       const LifeQuestion& question);
+/// The same of a unit that has taken readings; `LifeQuestion::survived` is one more of it.
+UnitLife tracked_life(const Tracker& tracker, const std::string& name, const LifeQuestion& question,
+                      TrackedUnit& unit);
 
 }  // namespace wearwell::prognosis

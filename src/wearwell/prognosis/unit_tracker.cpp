@@ -45,27 +45,6 @@ void require_unit(const Tracker& tracker, const std::string& unit, bool fresh) {
         did_you_mean(unit, std::vector<std::string>(seen.begin(), seen.end()))));
 }
 
-// The reading of each row; an error before any is taken.
-std::vector<Reading> readings_of(const Tracker& tracker, const std::string& unit,
-                                 const Table& table) {
-  const ReadingTable rows(tracker, table);
-  const auto units = std::find_if(table.columns.begin(), table.columns.end(),
-                                  [&](const Column& each) { return each.name == tracker.noun(); });
-  std::vector<Reading> readings;
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    if (units != table.columns.end() && unit_name(*units, row) != unit)
-      throw InputError(fmt::format("{}: it is a reading of {} '{}', and '{}' is tracked",
-                                   place(table, units->name, row), tracker.noun(),
-                                   printable(unit_name(*units, row)), printable(unit)));
-    Reading reading = rows.reading(row);
-    if (const std::string problem = tracker.problem(reading); !problem.empty())
-      throw InputError(
-          fmt::format("{}, {}: {}", table.source, row_name(row + 1, 0), printable(problem)));
-    readings.push_back(std::move(reading));
-  }
-  return readings;
-}
-
 bool is_complete(const Reading& reading) {
   return std::none_of(reading.numbers.begin(), reading.numbers.end(),
                       [](double x) { return std::isnan(x); });
@@ -80,7 +59,7 @@ UnitTracker::UnitTracker(std::shared_ptr<const Tracker> tracker, std::string uni
 }
 
 std::vector<RowOutcome> UnitTracker::update(const Table& rows) {
-  std::vector<Reading> readings = readings_of(*tracker_, unit_, rows);
+  std::vector<Reading> readings = readings_of_unit(*tracker_, unit_, rows);
   const Before before = present();
   try {
     return taken(readings);

@@ -40,7 +40,7 @@ TEST(FormulaTracker, ASmallCaseByBruteForce) {
   const Watched watched(straight, lines(rates, 5, 0.3), points(x));
   FollowedUnit unit(*watched.tracker, "new");
   const std::vector<std::pair<double, double>> readings = {
-      {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {5.0 * um, 3 * h}};
+      {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {3.7 * um, 2 * h}, {5.0 * um, 3 * h}};
   for (std::size_t shown = 0; shown <= readings.size(); ++shown) {
     if (shown > 0) {
       EXPECT_TRUE(unit.update({readings[shown - 1].first, readings[shown - 1].second}).counted);

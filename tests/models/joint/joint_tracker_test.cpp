@@ -86,6 +86,18 @@ TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
   expect_life(forecast, all.life({}), 1, 0.01);
 }
 
+TEST_P(OfJoint, SeveralReadingsOfOneInspectionAreTheFitOfAll) {
+  Rows all_rows = first(4);
+  all_rows.insert(all_rows.end(), {{"5000", "26.1"}, {"5000", "22.9"}});
+  const TrackedPreset known(study, {"cycles", "volume"}, first(3)),
+      all(study, {"cycles", "volume"}, all_rows);
+  FollowedUnit joint(*known.tracker, "joint");
+  for (const double volume : {22.9, 24.175, 26.1})
+    ASSERT_TRUE(joint.update({5000, volume * mm3}).counted) << volume;
+  EXPECT_EQ(joint.unit->forecast().now, 5000);
+  expect_life(joint.unit->forecast(), all.life({}), 1, 0.01);
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, OfJoint, testing::Values("normal", "lognormal"));
 
 TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "wearwell/models/fatigue/damage.h"
+#include "wearwell/models/fatigue/damage_sum.h"
 #include "wearwell/models/fatigue/sn_result.h"
 
 namespace wearwell::fatigue {
-
-/// The damage sum at which an item fails: lognormal with this median, two thirds within a factor of
-/// it; a factor of 1 is a known sum.
-struct DamageSum {
-  double median = 1;
-  double factor = 1;
-};
 
 struct LoadQuestion {
   DamageRule rule = {};

@@ -35,20 +35,6 @@ Knee read_knee(const std::string& text, const std::string& si) {
   return knee;
 }
 
-// "0.7", or "0.7 x/ 1.5".
-DamageSum read_damage_sum(const std::string& text) {
-  const std::size_t at = text.find("x/");
-  DamageSum sum{option_value("--damage-sum", text.substr(0, at), "1", Allowed::positive), 1};
-  if (at == std::string::npos) return sum;
-  sum.factor = option_value("--damage-sum", text.substr(at + 2), "1", Allowed::positive);
-  if (sum.factor < 1)
-    throw InputError(
-        fmt::format("--damage-sum: the factor {} must be at least 1: two thirds lie between the "
-                    "median divided by the factor and the median times the factor",
-                    sum.factor));
-  return sum;
-}
-
 MinerRule read_rule(const std::string& text, const SnLaw& law, const Knee& knee) {
   if (text.empty()) {
     if (knee.any())
@@ -113,7 +99,7 @@ LoadLifeReport load_life_of(const LoadLifeRequest& request, SnResult result) {
   LoadQuestion& question = report.question;
   question.rule.knee = read_knee(request.knee, report.result.stress_si);
   question.rule.miner = read_rule(request.rule, law, question.rule.knee);
-  question.sum = read_damage_sum(request.damage_sum);
+  question.sum = read_damage_sum("--damage-sum", request.damage_sum);
   question.percents = request.b_lives;
   question.confidence = request.confidence;
   read_block_length(request.block, report);

@@ -165,7 +165,10 @@ StudyKeys study_keys() {
   add_keys(keys, {{"predict.types", "\"all\"", "the stresses of these labels, or of all tests"}});
   add_keys(keys, point_keys());
   add_keys(keys,
-           {{"predict.b_lives", "[1, 10]",
+           {{"predict.damage_sum", "\"1 x/ 1.34\"",
+             "Miner's sum at which parts on line fail: median, and factor within which two thirds "
+             "lie; default 1"},
+            {"predict.b_lives", "[1, 10]",
              "percentages failed; adds the lives at which 1 and 10 % have failed"},
             {"predict.mean_life", "true", "adds the mean life (MTTF), without a random limit"},
             {"predict.survival_to", "\"5e5 cycles\"", "adds the share that outlasts this life"},

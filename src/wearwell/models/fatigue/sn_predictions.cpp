@@ -454,8 +454,24 @@ double next_allowed(const SnLaw& law, const WeightedDraws& draws, const StressLi
   return root == least ? 0 : root == most ? INFINITY : std::pow(10, root);
 }
 
+fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const SnLaw& law) {
+  const std::string key = "damage_sum";
+  const auto text = predict.text(key);
+  if (!text) return {};
+  if (!law.logarithmic())
+    predict.fail(key,
+                 "is not possible with lives that are normal in cycles: damage cannot be summed; "
+                 "fit likelihood.family = \"log10-normal\" or \"weibull\"");
+  try {
+    return fatigue::read_damage_sum(key, *text);
+  } catch (const InputError& error) {
+    predict.fail(key, std::string(error.what()).substr(key.size() + 2));
+  }
+}
+
 SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, const SnData& data) {
   SnPredictions result;
+  read_part_damage_sum(predict, law);
   if (predict.has("types")) result.points = points_of_types(predict, law, data);
   if (const auto stresses = predict.table("stress")) {
     for (const std::string& name : stresses->keys()) {

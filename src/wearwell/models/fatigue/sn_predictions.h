@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/models/fatigue/damage_sum.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_law.h"
@@ -42,6 +43,10 @@ std::vector<StressPoint> tested_points(const fatigue::SnLaw& law, const SnData& 
 /// Reads [predict]. Throws InputError.
 SnPredictions read_sn_predictions(const TomlReader& predict, const fatigue::SnLaw& law,
                                   const SnData& data);
+
+/// The damage sum at which tracked parts fail (predict.damage_sum): 1 if it is not given. Throws
+/// InputError.
+fatigue::DamageSum read_part_damage_sum(const TomlReader& predict, const fatigue::SnLaw& law);
 
 /// Lives, B-lives, survival and allowed stresses, as quantities of the study.
 void add_sn_quantities(const fatigue::SnLaw& law, const SnData& data,
