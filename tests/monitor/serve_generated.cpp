@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   using namespace wearwell::monitor;
   if (argc < 3) return 2;
   GeneratedFleet fleet(std::strtoul(argv[1], nullptr, 10));
-  HttpSettings settings;
+  wearwell::HttpSettings settings;
   settings.port = 0;
   if (argc > 3) settings.token = argv[3];
   HttpServer server(settings, fleet, &fleet);

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/base/unit_system.h"
+#include "wearwell/input/columns.h"
 #include "wearwell/study/column_values.h"
 #include "wearwell/study/heading_words.h"
 
@@ -46,6 +50,28 @@ bool may_be_of(const RoleForm& form, const std::string& unit) {
   return !dimension_of(form, unit).empty();
 }
 
+bool has_cell(const Table& table, const Column& column) {
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (!cell_word(column, row).empty()) return true;
+  }
+  return false;
+}
+
+// Whether a present value is as asked; the first one decides, as tables can have millions of rows.
+bool has_value(const Table& table, const Column& column, const std::function<bool(double)>& is) {
+  std::unordered_set<std::string_view> words;  // a refusal is slow: see numbers_of
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (!column.is_number && words.contains(column.text[row])) continue;
+    try {
+      const double value = cell_number(table, column, row);
+      if (std::isfinite(value) && is(value)) return true;
+    } catch (const InputError&) {
+      words.insert(column.text[row]);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 ColumnRoles::ColumnRoles(const Table& table, std::string file, const TableChoices& choices,
@@ -63,14 +89,11 @@ bool ColumnRoles::is_free(const Column& column) const {
 }
 
 bool ColumnRoles::holds(const Column& column, Cells cells) const {
-  if (cells == Cells::names) {
-    const auto values = values_of(table_, column);
-    return !kinds_of(table_, column).empty() &&
-           std::all_of(values.begin(), values.end(),
-                       [](double each) { return each == std::floor(each); });
-  }
-  if (cells == Cells::any) return !kinds_of(table_, column).empty();
-  return !column.doubt.empty() || !values_of(table_, column).empty();
+  if (cells == Cells::names)
+    return has_cell(table_, column) &&
+           !has_value(table_, column, [](double each) { return each != std::floor(each); });
+  if (cells == Cells::any) return has_cell(table_, column);
+  return !column.doubt.empty() || has_value(table_, column, [](double) { return true; });
 }
 
 const Column* ColumnRoles::chosen(std::string_view role) const {
