@@ -209,7 +209,8 @@ class Monitor:
         unit : str
             Name of the unit.
         event : str
-            ``"replaced"``, ``"removed"``, ``"failed"``, ``"sensor"``, ``"corrected"``, ``"withdrawn"`` or ``"cancelled"``.
+            ``"replaced"``, ``"removed"``, ``"failed"``, ``"sensor"``, ``"corrected"``, ``"withdrawn"``, ``"cancelled"`` or
+            ``"acknowledged"``.
         **fields
             ``by``, who reports it; perhaps ``note``; ``key``, the place among the unit's readings (as in ``moments`` of
             ``unit()``); and by the names of the study's columns what the event needs: the use on the counter, the offset of a
