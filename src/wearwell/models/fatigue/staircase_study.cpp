@@ -22,6 +22,7 @@
 #include "wearwell/study/life_levels.h"
 #include "wearwell/study/plot_study.h"
 
+// Longer than others: one study, with its tests, limits, next test and figure.
 namespace wearwell {
 namespace {
 
