@@ -1,4 +1,5 @@
 // Parts on line against sums over all nodes of the posterior, and against a posterior that has not seen the part.
+// Longer than others: one part under one stress, under several, by population and from saved states share the studies above.
 #include "wearwell/models/fatigue/part_tracker.h"
 
 #include <gmock/gmock.h>
