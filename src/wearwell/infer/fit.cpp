@@ -251,7 +251,8 @@ Fit fit(const Posterior& whole, const FitSettings& requested) {
     fit.no_exact = "the posterior is improper";
   } else if (posterior.dimension() > most_slow_dimension && posterior.likelihood()->is_slow()) {
     fit.no_exact = fmt::format(
-        "this likelihood integrates over paths, which is too slow for quadrature over {} "
+        "this likelihood integrates over paths or rates of use, which is too slow for quadrature "
+        "over {} "
         "parameters",
         posterior.dimension());
   } else {

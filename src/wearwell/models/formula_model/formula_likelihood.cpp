@@ -623,6 +623,13 @@ class HiddenLikelihood final : public FormulaLikelihood {
   }
 };
 
+// Of units with an unknown use, each an integral over rates: a lattice of four parameters would take minutes.
+class UseRateLikelihood final : public FormulaLikelihood {
+ public:
+  using FormulaLikelihood::FormulaLikelihood;
+  bool is_slow() const override { return true; }
+};
+
 // Of exchangeable subpopulations: with the order that tells them apart.
 class OrderedLikelihood final : public FormulaLikelihood {
  public:
@@ -790,6 +797,8 @@ std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const Formu
     const std::size_t count = rows->rows();
     return std::make_shared<ModesLikelihood>(std::move(rows), count);
   }
+  if (rows->model().use_rate && !rows->model().use_rate->in_time.observed.rows.empty())
+    return std::make_shared<UseRateLikelihood>(std::move(rows));
   if (rows->model().subpopulations && rows->model().subpopulations->exchangeable)
     return std::make_shared<OrderedLikelihood>(rows);
   return std::make_shared<FormulaLikelihood>(std::move(rows));
