@@ -7,13 +7,15 @@
 #include <exception>
 #include <utility>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/monitor/source.h"
 
 namespace wearwell::monitor {
 
-FitExchange::FitExchange(ResultSource source, Population present, MakeFleet make_fleet,
-                         Notices& notices, std::function<void()> wake)
+FitExchange::FitExchange(ResultSource source, Population present, const FleetReader& running,
+                         MakeFleet make_fleet, Notices& notices, std::function<void()> wake)
     : source_(std::move(source)),
+      running_(running),
       make_fleet_(std::move(make_fleet)),
       notices_(notices),
       wake_(std::move(wake)),
@@ -54,6 +56,23 @@ void FitExchange::refuse(const std::string& why) {
                             source_.folder.string(), why, present_.fingerprint.substr(0, 7)));
 }
 
+std::string FitExchange::left_out(const FleetReader& next, const std::stop_token& stop) const {
+  constexpr auto between = std::chrono::milliseconds(200);
+  for (const UnitView& each : next.units("", 0, SIZE_MAX)) {
+    if (each.quality.not_counted == 0) continue;
+    std::optional<UnitView> now;
+    // The running one forecasts once a second, so its view may be of fewer readings.
+    do {
+      now = running_.view(each.unit);
+    } while ((!now || now->quality.readings < each.quality.readings) && pause(between, stop));
+    if (!now || now->quality.not_counted >= each.quality.not_counted) continue;
+    return fmt::format("it leaves out {} reading{} of '{}', where the running fit leaves out {}: {}",
+                       each.quality.not_counted, each.quality.not_counted == 1 ? "" : "s",
+                       printable(each.unit), now->quality.not_counted, each.quality.state_problem);
+  }
+  return {};
+}
+
 void FitExchange::look(bool asked, const std::stop_token& stop) {
   if (const std::string why = incomplete_result(source_.folder); !why.empty()) return refuse(why);
   const Population now = source_.read();
@@ -87,6 +106,7 @@ void FitExchange::look(bool asked, const std::stop_token& stop) {
   std::vector<std::string> units;
   for (const UnitView& each : fleet->units("", 0, SIZE_MAX)) units.push_back(each.unit);
   if (const std::string why = misfit(present_, now, units); !why.empty()) return refuse(why);
+  if (const std::string why = left_out(*fleet, stop); !why.empty()) return refuse(why);
   present_ = now;
   {
     const std::lock_guard lock(lock_);

@@ -1,11 +1,14 @@
 #include "wearwell/monitor/monitor_config.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <netinet/in.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <functional>
 
 #include "wearwell/base/error.h"
@@ -278,12 +281,26 @@ AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& track
 }
 
 bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
+  in_addr four{};
+  in6_addr six{};
+  if (inet_pton(AF_INET, host.c_str(), &four) == 1) return ntohl(four.s_addr) >> 24 == 127;
+  if (inet_pton(AF_INET6, host.c_str(), &six) == 1) return IN6_IS_ADDR_LOOPBACK(&six) != 0;
+  return host == "localhost";
 }
 
 /// The first line of a file with a secret.
 std::string read_secret(const TomlReader& table, const char* key) {
-  std::string text = read_text_file(existing(table, key)).text;
+  const std::filesystem::path file = existing(table, key);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    table.fail(key, fmt::format("{} must be a file with one line", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) table.fail(key, fmt::format("{} cannot be read (permissions?)", file.string()));
+  constexpr std::size_t longest = 1 << 16;  // bytes
+  std::string text(longest, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(longest));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() == longest) table.fail(key, "must be a file with one line");
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   if (text.empty() || text.find_first_of("\r\n") != text.npos)
     table.fail(key, "must be a file with one line");
