@@ -20,7 +20,7 @@ def _text_of_date(value):
     """A day or a month as the library reads it; None where there is none."""
     if value is None or value != value or str(value) == "NaT":
         return None
-    return str(value)[:10]  # without a time of day
+    return str(value)[:10] if _is_date(value) else value  # without a time of day
 
 
 def _with_texts(data):

@@ -77,13 +77,16 @@ TEST_F(FleetRows, LeftOutAreCountedAndChangeNothingElse) {
                                                       {"temperature", 2},
                                                       {"closing_time", 1},
                                                       {"energy", 1}}));
-    // As many cycles at the mean wear of each unit.
-    double volume = 0;
+    // As many cycles at the mean wear of each unit; without a unit, of the fleet.
+    double volume = 0, all_volume = 0, all_cycles = 0;
     for (const json& unit : good["worst"]) {
+      all_volume += unit["volume"].get<double>();
+      all_cycles += unit["cycles"].get<double>();
       const std::map<std::string, double> rows = {{"unit 1", 3}, {"unit 2", 3}, {"unit 3", 1}};
       if (const auto at = rows.find(unit["unit"]); at != rows.end())
         volume += at->second * unit["volume"].get<double>() / unit["cycles"].get<double>();
     }
+    volume += all_volume / all_cycles;
     EXPECT_NEAR(left_out["volume"].get<double>() / volume, 1, 1e-12);
     for (const json& check : fleet["checks"]) {
       if (check["name"] == "left-out") {
@@ -121,6 +124,20 @@ TEST_F(FleetRows, LeftOutThatOutweighTheirUnitAreNotTrusted) {
       run_wearwell("fleet " + name + " " + file("b.csv", cycles) + output() + " --skip-bad");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.out, HasSubstr("1 units have no other row"));
+}
+
+// Rows without a unit may all be those of one unit.
+TEST_F(FleetRows, LeftOutWithoutAUnitCanOutweighAnyUnit) {
+  const auto cycles = fleet_cycles(400, 2, 34);
+  const std::string name = model();
+  std::string text = with_bad_rows(cycles);
+  for (int i = 0; i < 300; ++i) text += ",91000,100,50,150,2,9000\n";
+  write("nameless.csv", text);
+  const json fleet =
+      with_exit_code(name + " " + path("nameless.csv") + output() + " --skip-bad", 1);
+  EXPECT_FALSE(fleet["trusted"].get<bool>());
+  EXPECT_TRUE(fleet["left_out"]["units"][0]["unit"].is_null());
+  EXPECT_EQ(fleet["left_out"]["without_unit"], 301);
 }
 
 // Rows left out on Monday do not look late on Tuesday; a row that was corrected does.

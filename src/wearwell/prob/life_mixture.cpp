@@ -283,6 +283,18 @@ double LifeMixture::share_among_survivors(std::size_t k, double life, const doub
   return among * failing / (1 - x[share_defective()] + failing);
 }
 
+namespace {
+
+// Whether all rows have the same parameters.
+bool are_equal(std::span<const ParameterValues> parameters, std::size_t rows) {
+  for (const ParameterValues& each : parameters)
+    for (std::size_t i = 1; i < rows; ++i)
+      if (!(each[i] == each[0])) return false;
+  return true;
+}
+
+}  // namespace
+
 void log_responses(const LifeMixture& mixture, const ResponseColumn& column, std::size_t begin,
                    std::span<const ParameterValues> family_parameters, std::span<double> value,
                    std::span<double> slope) {
@@ -292,6 +304,8 @@ void log_responses(const LifeMixture& mixture, const ResponseColumn& column, std
   Slopes x{}, own{};
   const std::span<double> wanted =
       slope.empty() ? std::span<double>() : std::span(own).first(count);
+  std::optional<SharedAges> ages;
+  if (mixture.rate && are_equal(family_parameters.first(count), n)) ages.emplace();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t s = 0; s < count; ++s) x[s] = family_parameters[s][i];
     value[i] = mixture.log_response(column.rows[begin + i], x.data(), wanted);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "wearwell/prob/response.h"
@@ -28,7 +29,24 @@ struct LifeAtRate {
   const double *life_parameters, *rate_parameters;
 };
 
-/// Log density or log probability of one age, without its entry; -infinity where a parameter is invalid. `slope` has
+/// While it lives, exact and right-censored ages in its thread that have the same families and parameters share their
+/// integrals: those at equal steps of the logarithm of age, with a polynomial of degree 5 between, within 1e-6 of the
+/// logarithm. For ages under few parameters only.
+class SharedAges {
+ public:
+  SharedAges();
+  ~SharedAges();
+  SharedAges(const SharedAges&) = delete;
+  SharedAges& operator=(const SharedAges&) = delete;
+  struct Tables;
+
+ private:
+  std::unique_ptr<Tables> tables_;
+  Tables* before_;
+};
+
+/// Log density or log probability of one age, without its entry; -infinity where a parameter is invalid, or so extreme
+/// that the sum does not settle. `slope` has
 /// `most_response_parameters` entries for the life and as many for the rate, or none.
 double log_response(const LifeAtRate& unit, const Response& age, std::span<double> slope = {});
 

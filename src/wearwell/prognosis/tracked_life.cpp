@@ -62,10 +62,14 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name, const Lif
     for (std::size_t c = 0; c < reading.numbers.size(); ++c)
       if (tracker.columns()[c].name == tracker.axis().name)
         reading.numbers[c] = to_si(reported, survived);
-    const UpdateResult taken = unit.update(reading, [](const auto&) {});
-    if (!taken.problem.empty())
-      throw InputError(fmt::format("--survived: {}: {}", printable(life.of), taken.problem));
-    life.passed = 1 - taken.p_value;
+    life.passed = 0;
+    // At its present place, but for the rounding of units, it says nothing new.
+    if (to_si(reported, survived) > unit.forecast().now) {
+      const UpdateResult taken = unit.update(reading, [](const auto&) {});
+      if (!taken.problem.empty())
+        throw InputError(fmt::format("--survived: {}: {}", printable(life.of), taken.problem));
+      life.passed = 1 - taken.p_value;
+    }
   }
   const Forecast forecast = unit.forecast();
   if (std::isnan(forecast.passed))

@@ -110,7 +110,7 @@ std::vector<RowOutcome> UnitTracker::taken(std::vector<Reading>& readings) {
     if (!outcome.result.problem.empty()) last_problem_ = outcome.result.problem;
     refused_ += !outcome.result.counted;
     contradicting_ += outcome.result.counted && outcome.result.contradicts;
-    history_.push_back(std::move(reading));
+    if (outcome.result.counted) history_.push_back(std::move(reading));
     outcomes.push_back(std::move(outcome));
   }
   return outcomes;
@@ -140,7 +140,7 @@ Json UnitTracker::json() const {
           {"doubt", doubt.empty() ? Json(nullptr) : Json(doubt)},
           {"beyond", watch_.is_beyond()},
           {"quality",
-           {{"readings", history_.size()},
+           {{"readings", history_.size() + refused_},
             {"repeated", repeated_},
             {"contradicting", contradicting_},
             {"refused", refused_},

@@ -340,6 +340,18 @@ TEST(PartTracker, ReadingsUnderChangingStressesMayComeInAnyOrder) {
   EXPECT_EQ(in_order.update({3.4e5, 330e6}).p_value, tails[0].above);
 }
 
+// Cycles that a reading without a stress has counted under one stress cannot have run under another.
+TEST(PartTracker, ALateStressThatContradictsTheCyclesIsRefused) {
+  const TrackedPreset preset(part_study("", "weibull", line), headings, part_rows);
+  FollowedUnit part(*preset.tracker, "x");
+  for (const auto& each : std::vector<std::vector<double>>{{1e5, 420e6}, {2e5, none}, {3e5, none}})
+    EXPECT_TRUE(part.update(each).counted);
+  const std::string before = part.unit->save();
+  EXPECT_THAT(part.update({2e5, 350e6}).problem, HasSubstr("under 420 MPa, and under 350 MPa"));
+  EXPECT_EQ(part.unit->save(), before);
+  EXPECT_TRUE(part.update({2e5, 420e6}).counted);
+}
+
 // The same bits as from one reading: a constant stress is read from the study's lives.
 TEST(PartTracker, OneStressIsThatOfTheStudy) {
   const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);

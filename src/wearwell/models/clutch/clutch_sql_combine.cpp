@@ -244,8 +244,9 @@ std::string SqlWriter::times() const {
   } else {
     const bool duckdb = dialect_ == fleet::Dialect::duckdb;
     std::string time = "t." + fleet::identifier(dialect_, source_.time);
-    if (duckdb)
-      time = fmt::format("{}({} as timestamp)", source_.text_decimal ? "try_cast" : "cast", time);
+    // An unreadable time is an error with --skip-bad too: without it a unit would seem to run less.
+    if (duckdb && source_.text_decimal) time = fmt::format("nullif(trim({}), '')", time);
+    if (duckdb) time = fmt::format("cast({} as timestamp)", time);
     columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
     columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
     columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");

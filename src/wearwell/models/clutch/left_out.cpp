@@ -77,9 +77,33 @@ void LeftOut::add(const LeftOut& other) {
   for (const auto& [name, more] : other.by_unit) by_unit[name] += more;
 }
 
+namespace {
+
+// Rows without a unit, at the mean wear of the fleet; all of them may be those of the unit whose
+// volume is known best.
+MissingWear without_unit(const LeftOut& left_out, const std::vector<UnitRow>& units) {
+  MissingWear wear{"", left_out.count[LeftOut::unit]};
+  double volume = 0;
+  wear.sd = std::numeric_limits<double>::infinity();
+  for (const UnitRow& each : units) {
+    volume += each.volume;
+    wear.cycles += each.cycles;
+    wear.sd = std::min(wear.sd, each.full_sd);
+  }
+  if (wear.cycles > 0) wear.volume = wear.rows * volume / wear.cycles;
+  return wear;
+}
+
+std::string shown_unit(const MissingWear& wear) {
+  return wear.unit.empty() ? "none" : printable(wear.unit);
+}
+
+}  // namespace
+
 std::vector<MissingWear> missing_wear(const LeftOut& left_out, const std::vector<UnitRow>& units) {
   std::vector<MissingWear> all;
-  if (left_out.by_unit.empty()) return all;
+  if (left_out.rows == 0) return all;
+  if (left_out.count[LeftOut::unit] > 0) all.push_back(without_unit(left_out, units));
   std::unordered_map<std::string_view, const UnitRow*> known;
   for (const UnitRow& each : units) known[each.unit] = &each;
   for (const auto& [unit, rows] : left_out.by_unit) {
@@ -101,13 +125,14 @@ std::string left_out_sentence(const LeftOut& left_out, const std::vector<Missing
                               double rows, double fleet_volume) {
   std::string text = fmt::format(
       "{:.0f} of {:.0f} rows ({:.3g} %) were left out because they have no unit or an impossible "
-      "value. At the mean wear of their units they would add {:.3g} mm^3, {:.3g} % of the wear of "
-      "the fleet.",
+      "value. At the mean wear of their units (without a unit: of the fleet) they would add {:.3g} "
+      "mm^3, {:.3g} % of the wear of the fleet.",
       left_out.rows, rows, 100 * left_out.rows / rows, sum_of(wear, &MissingWear::volume) / mm3,
       100 * sum_of(wear, &MissingWear::volume) / fleet_volume);
-  if (left_out.count[LeftOut::unit] > 0)
-    text += fmt::format(" This does not include {:.0f} rows without a unit.",
-                        left_out.count[LeftOut::unit]);
+  double unknown = 0;
+  for (const MissingWear& each : wear) unknown += each.cycles == 0 ? each.rows : 0;
+  if (unknown > 0)
+    text += fmt::format(" This does not include {:.0f} rows of units with no other row.", unknown);
   return text;
 }
 
@@ -121,19 +146,19 @@ Check left_out_check(const LeftOut& left_out, const std::vector<MissingWear>& we
   if (left_out.rows == 0) return {"left-out", Verdict::pass, text, ""};
   if (unknown > 0)
     text += fmt::format("; {} units have no other row and are missing from the fleet (unit {})",
-                        unknown, printable(wear.front().unit));
+                        unknown, shown_unit(wear.front()));
   if (large > unknown) {
     const MissingWear& worst = wear[static_cast<std::size_t>(unknown)];
     text += fmt::format(
         "; of {} units the missing wear may exceed the standard deviation of the volume: unit {} "
         "has {:.0f} rows left out and {:.0f} cycles",
-        large - unknown, printable(worst.unit), worst.rows, worst.cycles);
+        large - unknown, shown_unit(worst), worst.rows, worst.cycles);
   }
   if (large == 0 && !wear.empty())
     text += fmt::format(
         "; no unit's missing wear exceeds the standard deviation of its volume (at most {:.2g} of "
         "it, unit {})",
-        deviations(wear.front()), printable(wear.front().unit));
+        deviations(wear.front()), shown_unit(wear.front()));
   return {"left-out", large > 0 ? Verdict::fail : Verdict::warn, text,
           large > 0 ? "Correct the rows of the table left-out: the wear of these units is stated "
                       "too small."
@@ -161,7 +186,8 @@ std::vector<Table> left_out_tables(const LeftOut& left_out, const std::vector<Mi
                {"In standard deviations of its volume", "1", digits(3)}}};
   for (std::size_t i = 0; i < std::min(units_shown, wear.size()); ++i) {
     const MissingWear& each = wear[i];
-    units.rows.push_back({each.unit, each.rows, each.cycles});
+    units.rows.push_back(
+        {each.unit.empty() ? std::string("(without a unit)") : each.unit, each.rows, each.cycles});
     if (each.cycles == 0) {
       units.rows.back().insert(units.rows.back().end(), {std::monostate{}, std::monostate{}});
     } else {
@@ -204,7 +230,7 @@ nlohmann::ordered_json left_out_json(const LeftOut& left_out,
   }
   for (std::size_t i = 0; i < std::min(units_shown, wear.size()); ++i) {
     const MissingWear& each = wear[i];
-    units.push_back({{"unit", each.unit},
+    units.push_back({{"unit", each.unit.empty() ? nlohmann::ordered_json() : each.unit},
                      {"rows", each.rows},
                      {"cycles", each.cycles},
                      {"volume", each.volume / mm3},

@@ -39,9 +39,29 @@ bool PartRun::is_under(const Stress& stress) const {
   return cycles.empty() || (cycles.size() == 1 && is_same_stress(cycles.front().stress, stress));
 }
 
-PartRun run_after(PartRun begun, std::vector<RunReading> readings) {
+namespace {
+
+void sort_along_life(std::vector<RunReading>& readings) {
   std::stable_sort(readings.begin(), readings.end(),
                    [](const RunReading& a, const RunReading& b) { return a.cycles < b.cycles; });
+}
+
+}  // namespace
+
+std::optional<Stress> stress_until(const PartRun& begun, std::vector<RunReading> readings,
+                                   double cycles) {
+  sort_along_life(readings);
+  std::optional<Stress> last = begun.last, found;
+  for (const RunReading& each : readings) {
+    if (each.cycles > cycles) break;
+    if (each.stress) last = each.stress;
+    if (each.cycles == cycles && !found) found = last;
+  }
+  return found;
+}
+
+PartRun run_after(PartRun begun, std::vector<RunReading> readings) {
+  sort_along_life(readings);
   bool any = begun.now > 0;
   for (const RunReading& each : readings) {
     const std::optional<Stress> stress = each.stress ? each.stress : begun.last;

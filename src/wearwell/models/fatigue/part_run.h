@@ -36,4 +36,9 @@ struct RunReading {
 /// equal cycles with another stress, or before `begun.now`, are left out.
 PartRun run_after(PartRun begun, std::vector<RunReading> readings);
 
+/// The stress of the cycles before a reading at exactly these cycles, stated or carried on from the
+/// reading before it; none if no reading is there.
+std::optional<Stress> stress_until(const PartRun& begun, std::vector<RunReading> readings,
+                                   double cycles);
+
 }  // namespace wearwell::fatigue

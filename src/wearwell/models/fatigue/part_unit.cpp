@@ -99,7 +99,8 @@ std::string PartUnit::problem_of(const Reading& reading, RunReading& read) const
 
 // Whether it says more of the cycles before the last reading than that they are survived.
 bool PartUnit::is_late(const RunReading& reading) const {
-  if (!(reading.cycles < run_.now) || reading.cycles <= studied_.now) return false;
+  if (!(reading.cycles < run_.now)) return false;
+  if (studied_.now > 0 && reading.cycles <= studied_.now) return false;
   return run_.cycles.size() > 1 || !run_.is_under(reading.stress ? *reading.stress : *run_.last);
 }
 
@@ -161,16 +162,18 @@ prognosis::UpdateResult PartUnit::take_late(const RunReading& reading,
   std::vector<RunReading> all;
   history([&](const Reading& each) {
     RunReading earlier;
-    if (!parts_->reading.read(each.numbers, earlier.cycles, earlier.stress).empty()) return;
-    if (earlier.cycles == reading.cycles && earlier.stress && reading.stress &&
-        !is_same_stress(*earlier.stress, *reading.stress))
-      taken.problem = two_stresses(reading.cycles, *earlier.stress, *reading.stress);
-    all.push_back(std::move(earlier));
+    if (parts_->reading.read(each.numbers, earlier.cycles, earlier.stress).empty())
+      all.push_back(std::move(earlier));
   });
-  all.push_back(reading);
   PartRun begun = studied_;
   if (!begun.last) begun.last = parts_->ahead;
+  if (const auto other = stress_until(begun, all, reading.cycles);
+      other && reading.stress && !is_same_stress(*other, *reading.stress))
+    taken.problem = two_stresses(reading.cycles, *other, *reading.stress);
+  all.push_back(reading);
   const PartRun after = run_after(std::move(begun), std::move(all));
+  if (taken.problem.empty() && !after.last)
+    taken.problem = "alternating_stress is missing, or other columns that give it";
   if (taken.problem.empty()) taken.problem = run_problem(after);
   if (!taken.problem.empty()) return taken;
   if (!(weights(after, *after.last).survival > 0)) {

@@ -367,6 +367,10 @@ double longest_life(const SnData& data, const Stress& stress) {
   return there > 0 ? there : Tested(data).life.high;
 }
 
+std::string percent_text(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 // How much of a mean life comes from lives that no test has reached.
 Check tail_of_means(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                     const Fit& fit) {
@@ -379,15 +383,15 @@ Check tail_of_means(const SnLaw& law, const SnData& data, const SnPredictions& p
     most = std::max(most, share);
     if (share > dominating)
       findings.add(Verdict::warn,
-                   fmt::format("{:.2g} % of the mean life of {} comes from lives beyond {:.4g} {}, "
+                   fmt::format("{} of the mean life of {} comes from lives beyond {:.4g} {}, "
                                "the longest that was seen",
-                               100 * share, point.name, from_si(data.life_unit, longest),
+                               percent_text(share), point.name, from_si(data.life_unit, longest),
                                data.life_unit.text),
                    "This mean rests on the upper tail of the distribution of scatter, not on data. "
                    "Read the median (B50), or test until more items fail.");
   }
-  return findings.result(fmt::format(
-      "at most {:.2g} % of a mean life comes from lives beyond those seen", 100 * most));
+  return findings.result(fmt::format("at most {} of a mean life comes from lives beyond those seen",
+                                     percent_text(most)));
 }
 
 }  // namespace

@@ -72,6 +72,10 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
     asked.predict.fail("classical",
                        "is for a likelihood without random effects: maximum likelihood, rank "
                        "regression and Kaplan-Meier take all items as independent");
+  if (model.use_rate)
+    asked.predict.fail("classical",
+                       "is not possible with [use_rate]: plotting positions need the use of units "
+                       "that did not fail");
   if (model.measured.size() > 1 && !model.modes)
     asked.predict.fail("classical", "is for one measured life; this study has several");
   if (!model.measured.front().life.plain())
