@@ -17,6 +17,7 @@
 #include "wearwell/base/sha1.h"
 #include "wearwell/monitor/current_fleet.h"
 #include "wearwell/monitor/fit_exchange.h"
+#include "wearwell/monitor/learned_readings.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -135,6 +136,33 @@ TEST_F(Exchanges, AcknowledgementsNameTheirAlarm) {
               HasSubstr("alarm_ms must be a whole number"));
   EXPECT_THAT(deliver(R"({"machine": "a", "event": "acknowledged", "alarm_ms": 5})").problem,
               HasSubstr("by is missing"));
+  // It does not make a unit.
+  const Delivery none =
+      deliver(R"({"machine": "b", "event": "acknowledged", "by": "A", "alarm_ms": 5})");
+  EXPECT_EQ(none.problem, "acknowledged: 'b' is not a unit");
+  EXPECT_EQ(none.events, 0U);
+  EXPECT_TRUE(store_->events_of("b").empty());
+  EXPECT_FALSE(tally_ref().knows("b"));
+  EXPECT_EQ(
+      deliver(R"({"machine": "a", "event": "acknowledged", "by": "A", "alarm_ms": 5})").events, 1U);
+}
+
+// Events among readings need their own permission; the readings beside them are stored.
+TEST_F(Exchanges, EventsAmongReadingsMayBeRefused) {
+  source_.mapping = plain_mapping(tracker_, false);
+  source_.mapping.unit = "machine";
+  source_.mapping.sequence = "n";
+  open();
+  const Message message{
+      "", Exchanges::message("a", 1, 10, 10) +
+              "\n{\"machine\": \"a\", \"event\": \"withdrawn\", \"by\": \"B\", \"n\": 1}"};
+  const Delivery refused = intake_->deliver(source_, std::span(&message, 1), "it is an event");
+  EXPECT_EQ(refused.readings, 1U);
+  EXPECT_EQ(refused.events, 0U);
+  EXPECT_EQ(refused.refused, 1U);
+  EXPECT_EQ(refused.problem, "it is an event");
+  EXPECT_TRUE(store_->events_of("a").empty());
+  EXPECT_EQ(intake_->deliver(source_, std::span(&message, 1)).events, 1U);
 }
 
 // A failed part was not in use before the start either: that is not news.
@@ -194,6 +222,73 @@ TEST(Misfits, AreNamed) {
   EXPECT_THAT(misfit(present, doubtful, {}), HasSubstr("not trusted"));
 }
 
+// A fit that has learned the readings of the store would count them twice.
+TEST(Misfits, HaveLearnedReadingsOfTheStore) {
+  const auto of = [](std::map<std::string, double> study) {
+    auto tracker = std::make_shared<GrowthTracker>(1);
+    tracker->set_study(std::move(study));
+    return Population{std::move(tracker), "x", true, 0};
+  };
+  const Population present = of({{"a", 100}, {"lab", 50}});
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"lab", 50}}), {"a", "b"}), "");
+  // Readings of units that are not in the store.
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"lab", 70}, {"lab 2", 9}}), {"a", "b"}), "");
+  EXPECT_THAT(misfit(present, of({{"a", 100}, {"b", 7}}), {"a", "b"}),
+              HasSubstr("it has learned readings of this store, of machine 'b'"));
+  EXPECT_THAT(misfit(present, of({{"a", 120}}), {"a", "b"}), HasSubstr("machine 'a'"));
+  EXPECT_THAT(misfit(present, of({{"a", 100}, {"b (part 2)", 7}}), {"a", "b"}),
+              HasSubstr("machine 'b (part 2)'"));
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"b (part 2)", 7}}), {"a"}), "");
+}
+
+// At a start the earlier fit is not there: the last reading of the study is one of the store.
+TEST_F(Exchanges, StartsNoticeLearnedReadings) {
+  source_.mapping = plain_mapping(tracker_, false);
+  source_.mapping.unit = "machine";
+  source_.mapping.sequence = "n";
+  open();
+  for (int n = 1; n <= 3; ++n) deliver(message("a", n, 10 * n, 10 * n));
+  deliver(R"({"machine": "a", "event": "replaced", "by": "B", "n": 3, "time": 20})");
+  const auto learned = [&](std::map<std::string, double> study) {
+    GrowthTracker tracker(1);
+    tracker.set_study(std::move(study));
+    return learned_from(*store_, tracker);
+  };
+  EXPECT_EQ(learned({{"a", 15}, {"b", 10}, {"b (part 2)", 10}}), "");
+  EXPECT_THAT(learned({{"a", 20 * (1 + 1e-12)}}), HasSubstr("machine 'a'"));
+  EXPECT_EQ(learned({{"a", 30}}), "");  // that reading is of the second part, after 10 h
+  EXPECT_THAT(learned({{"a (part 2)", 10}}), HasSubstr("machine 'a (part 2)'"));
+}
+
+TEST(MovedForecasts, OfUnknownOnesDoNotComeFirst) {
+  MovedForecast unknown{"a", 0, "h", {}, {}}, known{"b", 0, "h", {}, {}};
+  known.before = {Alarm::ok, true, {1, 2, 3}, 0};
+  known.after = {Alarm::ok, true, {1, 2.1, 3}, 0};
+  std::vector<MovedForecast> moved = {unknown, known};
+  sort_by_change(moved);
+  EXPECT_EQ(moved[0].unit, "b");
+  EXPECT_EQ(change_of(unknown), 0);
+  unknown.after = known.after;
+  EXPECT_TRUE(std::isinf(change_of(unknown)));
+}
+
+// Two fleets are brought to the same reading, whatever has arrived meanwhile.
+TEST_F(Exchanges, CompareForecastsOfTheSameReadings) {
+  open();
+  for (int n = 1; n <= 5; ++n) deliver(message("a", n, n, n));
+  const auto next = beside(faster_);
+  const std::int64_t last = next->place();
+  for (int n = 6; n <= 9; ++n) deliver(message("a", n, n, n));
+  while (fleet_->place() < last) ASSERT_GT(fleet_->apply(last), 0U);
+  EXPECT_EQ(fleet_->apply(last), 0U);
+  EXPECT_EQ(fleet_->place(), last);
+  fleet_->refresh(true);
+  EXPECT_EQ(fleet_->view("a")->quality.readings, 5U);
+  EXPECT_EQ(next->view("a")->quality.readings, 5U);
+  catch_up();
+  EXPECT_EQ(fleet_->view("a")->quality.readings, 9U);
+}
+
 class ResultFolders : public ScratchTest {
  protected:
   void put(const std::string& state, const std::string& listed) {
@@ -248,10 +343,13 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
     std::getline(file, content);
     if (content == "broken") throw InputError("state.bin is damaged");
     const double limit = content == "other" ? 900 : 1000;
-    return {std::make_shared<const GrowthTracker>(4, limit), content, content != "doubtful", 7};
+    auto tracker = std::make_shared<GrowthTracker>(4, limit);
+    if (content == "blind") tracker->set_counted(false);
+    if (content == "learned") tracker->set_study({{"a", 10}});
+    return {std::move(tracker), content, content != "doubtful", 7};
   };
   FitExchange exchange(
-      {result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1},
+      {result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1}, *fleet_,
       [&](const Population& population) -> std::shared_ptr<Fleet> {
         FleetSettings settings;
         settings.population = population.fingerprint;
@@ -266,7 +364,7 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
     return holds();
   };
-  for (const char* content : {"broken", "other", "doubtful"}) {
+  for (const char* content : {"broken", "other", "doubtful", "blind", "learned"}) {
     const int before = read;
     put(content);
     ASSERT_TRUE(eventually([&] { return read > before; })) << content;

@@ -478,9 +478,9 @@ class FailingStore : public Store {
     store_->begin_fit(fit, moved);
   }
   std::vector<MovedForecast> moved(std::int64_t fit) override { return store_->moved(fit); }
-  std::map<std::string, Alarm> sent_alarms() override { return store_->sent_alarms(); }
-  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override {
-    store_->note_sent(unit, alarm, time_ms);
+  std::map<std::string, SentAlarm> sent_alarms() override { return store_->sent_alarms(); }
+  void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override {
+    store_->note_sent(unit, sent, time_ms);
   }
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override {

@@ -101,8 +101,8 @@ void check_files(const MonitoredFleet& read) {
   std::error_code ignored;
   if (monitor::is_postgres(url) || !std::filesystem::exists(read.config.folder / url, ignored))
     return;
-  monitor::open_store(url, read.config.folder,
-                      monitor::store_columns(read.config, *read.tracker), monitor::Access::copy);
+  monitor::open_store(url, read.config.folder, monitor::store_columns(read.config, *read.tracker),
+                      monitor::Access::copy);
 }
 
 bool runs(const MonitorCommand& command) {

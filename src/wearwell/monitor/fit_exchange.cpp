@@ -56,21 +56,30 @@ void FitExchange::refuse(const std::string& why) {
                             source_.folder.string(), why, present_.fingerprint.substr(0, 7)));
 }
 
-std::string FitExchange::left_out(const FleetReader& next, const std::stop_token& stop) const {
+std::string FitExchange::left_out(Fleet& next, const std::stop_token& stop) const {
   constexpr auto between = std::chrono::milliseconds(200);
-  for (const UnitView& each : next.units("", 0, SIZE_MAX)) {
-    if (each.quality.not_counted == 0) continue;
-    std::optional<UnitView> now;
-    // The running one forecasts once a second, so its view may be of fewer readings.
-    do {
-      now = running_.view(each.unit);
-    } while ((!now || now->quality.readings < each.quality.readings) && pause(between, stop));
-    if (!now || now->quality.not_counted >= each.quality.not_counted) continue;
-    return fmt::format("it leaves out {} reading{} of '{}', where the running fit leaves out {}: {}",
-                       each.quality.not_counted, each.quality.not_counted == 1 ? "" : "s",
-                       printable(each.unit), now->quality.not_counted, each.quality.state_problem);
+  for (;;) {
+    bool waits = false;
+    for (const UnitView& each : next.units("", 0, SIZE_MAX)) {
+      const std::uint64_t out = each.quality.not_counted;
+      if (out == 0) continue;
+      const std::optional<UnitView> now = running_.view(each.unit);
+      if (now && now->quality.not_counted >= out) continue;
+      if (now && now->quality.readings == each.quality.readings)
+        return fmt::format(
+            "it leaves out {} reading{} of {} '{}', of which the running fit leaves out {}: {}",
+            out, out == 1 ? "" : "s", next.fleet().noun, printable(each.unit),
+            now->quality.not_counted, each.quality.state_problem);
+      waits = true;  // one of the two is behind
+    }
+    if (!waits || !pause(between, stop)) return {};
+    try {
+      next.apply();
+      next.refresh(true);
+    } catch (const StoreError& error) {
+      notices_.tell("store", error.what());
+    }
   }
-  return {};
 }
 
 void FitExchange::look(bool asked, const std::stop_token& stop) {
@@ -107,6 +116,7 @@ void FitExchange::look(bool asked, const std::stop_token& stop) {
   for (const UnitView& each : fleet->units("", 0, SIZE_MAX)) units.push_back(each.unit);
   if (const std::string why = misfit(present_, now, units); !why.empty()) return refuse(why);
   if (const std::string why = left_out(*fleet, stop); !why.empty()) return refuse(why);
+  if (stop.stop_requested()) return;
   present_ = now;
   {
     const std::lock_guard lock(lock_);

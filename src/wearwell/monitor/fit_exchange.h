@@ -43,7 +43,7 @@ class FitExchange {
   void refuse(const std::string& why);
   /// Why the forecast of a unit by `next` leaves out readings that the running one counts; empty if
   /// none does, or if it is stopped.
-  std::string left_out(const FleetReader& next, const std::stop_token& stop) const;
+  std::string left_out(Fleet& next, const std::stop_token& stop) const;
 
   const ResultSource source_;
   const FleetReader& running_;

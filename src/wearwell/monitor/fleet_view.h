@@ -21,7 +21,7 @@ using prognosis::Interval;
 /// Outcomes of a unit's messages.
 struct Quality {
   std::uint64_t readings = 0, repeated = 0, late = 0, contradicting = 0, refused = 0;
-  std::uint64_t not_counted = 0;  ///< of `refused`: stored readings that the forecast leaves out
+  std::uint64_t not_counted = 0;   ///< of `refused`: stored readings that the forecast leaves out
   std::string state_problem = {};  ///< the last one of a stored reading
   std::string last_problem = {};
 };

@@ -158,9 +158,8 @@ void Intake::commit(Batch& batch) {
 std::string Intake::missing_reference(const UnitEvent& event) {
   if (!needs_reference(event.kind)) return {};
   if (event.kind == EventKind::acknowledged)
-    return tally_.knows(event.unit)
-               ? std::string()
-               : fmt::format("acknowledged: '{}' is not a unit", event.unit);
+    return tally_.knows(event.unit) ? std::string()
+                                    : fmt::format("acknowledged: '{}' is not a unit", event.unit);
   if (event.kind != EventKind::cancelled) {
     if (store_.reading(event.unit, event.key)) return {};
     return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),

@@ -39,15 +39,15 @@ std::string learned_text(const prognosis::Tracker& tracker, const std::string& n
 bool has_reading_at(Store& store, const std::string& unit, const std::string& name,
                     const UnitEvents& events, std::size_t axis, double position) {
   bool found = false;
-  store.of_unit(
-      unit, 0, std::numeric_limits<std::int64_t>::max(), [&](const StoredReading& reading) {
-        const CountedReading counted = events.counted(reading);
-        if (found || counted.state != CountedReading::State::counts ||
-            part_name(unit, counted.part) != name)
-          return;
-        const double at = counted.reading.numbers[axis];
-        found = std::abs(at - position) <= position_accuracy * std::abs(position);
-      });
+  store.of_unit(unit, 0, std::numeric_limits<std::int64_t>::max(),
+                [&](const StoredReading& reading) {
+                  const CountedReading counted = events.counted(reading);
+                  if (found || counted.state != CountedReading::State::counts ||
+                      part_name(unit, counted.part) != name)
+                    return;
+                  const double at = counted.reading.numbers[axis];
+                  found = std::abs(at - position) <= position_accuracy * std::abs(position);
+                });
   return found;
 }
 

@@ -399,8 +399,7 @@ std::map<std::string, SentAlarm> SqliteStore::sent_alarms() {
   return sent;
 }
 
-void SqliteStore::note_sent(const std::string& unit, const SentAlarm& alarm,
-                            std::int64_t time_ms) {
+void SqliteStore::note_sent(const std::string& unit, const SentAlarm& alarm, std::int64_t time_ms) {
   const std::lock_guard lock(write_lock_);
   SqliteStatement insert(write_, "INSERT OR REPLACE INTO sent VALUES (?, ?, ?)");
   const std::string text = text_of(alarm);
