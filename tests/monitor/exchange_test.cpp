@@ -18,6 +18,7 @@
 #include "wearwell/monitor/current_fleet.h"
 #include "wearwell/monitor/fit_exchange.h"
 #include "wearwell/monitor/learned_readings.h"
+#include "wearwell/monitor/monitor_signals.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -383,6 +384,16 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
   EXPECT_FALSE(exchange.ready());
 }
 
+// A reload while the result is read is one when the monitor has begun.
+TEST(MonitorSignalsTest, KnowOfAnEarlierHangup) {
+  const HangupNote note;
+  std::raise(SIGHUP);
+  MonitorSignals signals;
+  EXPECT_TRUE(signals.reload());
+  EXPECT_FALSE(signals.reload());
+  EXPECT_FALSE(signals.ends());
+}
+
 /// A whole monitor in a process of its own, over a folder of files and a folder of results.
 class RunningMonitors : public FleetRig {
  protected:
@@ -399,10 +410,10 @@ class RunningMonitors : public FleetRig {
     return config;
   }
   std::filesystem::path result() const { return folder() / "result"; }
-  /// "2" is a fit with a mean rate of 2 m/h.
-  void put_result(int rate) {
+  /// "2" is a fit with a mean rate of 2 m/h, "2 10" one whose study has m0 up to 10 h.
+  void put_result(int rate) { put_result(std::to_string(rate)); }
+  void put_result(const std::string& content) {
     std::filesystem::create_directories(result());
-    const std::string content = std::to_string(rate);
     write("result/new.bin", content);
     write("result/new.sha1", sha1_of(content) + "  state.bin\n");
     // One after the other: a monitor may look in between.
@@ -415,8 +426,10 @@ class RunningMonitors : public FleetRig {
               int rate = 0;
               stream >> rate;
               if (!stream) throw InputError("state.bin is damaged");
-              return Population{std::make_shared<const GrowthTracker>(rate),
-                                "fit-" + std::to_string(rate), true, 0};
+              auto tracker = std::make_shared<GrowthTracker>(rate);
+              double hours = 0;
+              if (stream >> hours) tracker->set_study({{"m0", hours}});
+              return Population{std::move(tracker), "fit-" + std::to_string(rate), true, 0};
             }};
   }
   pid_t start(const std::string& store, bool once = false) {
@@ -524,6 +537,25 @@ TEST_F(RunningMonitors, TakeAnotherFit) {
   EXPECT_EQ(look("fleet.sqlite")->moved(fits[1].number).size(), 8U);
   EXPECT_EQ(look("fleet.sqlite")->states("fit-3").size(), 8U);
   EXPECT_THAT(content(folder() / "log"), HasSubstr("8 units; the median remaining useful life of"));
+}
+
+// A restart with a fit that has learned the stored readings is refused, and nothing is written.
+TEST_F(RunningMonitors, RefuseLearnedReadingsAtTheStart) {
+  std::filesystem::create_directories(folder() / "incoming");
+  put_result(1);
+  send(1);
+  ASSERT_EQ(end(start("fleet.sqlite", true), 0), 0) << content(folder() / "log");
+  put_result("2 10");
+  EXPECT_EQ(end(start("fleet.sqlite", true), 0), 2);
+  EXPECT_THAT(
+      content(folder() / "log"),
+      HasSubstr("the result fit-2: it has learned readings of this store, of machine 'm0'"));
+  EXPECT_EQ(population("fleet.sqlite"), "fit-1");
+  EXPECT_EQ(look("fleet.sqlite")->states("fit-1").size(), 8U);
+  EXPECT_EQ(end(start("new.sqlite", true), 0), 0) << content(folder() / "log");
+  put_result("3 7");  // a study of its own
+  EXPECT_EQ(end(start("fleet.sqlite", true), 0), 0) << content(folder() / "log");
+  EXPECT_EQ(population("fleet.sqlite"), "fit-3");
 }
 
 // Killed at any moment of exchanges: readings and states are in the end what they are without.

@@ -82,6 +82,7 @@ std::size_t Fleet::apply(std::int64_t last) {
   constexpr std::size_t most = 10'000;
   const Clock::time_point asked = Clock::now();
   std::vector<StoredReading> readings = store_.after(place_, most);
+  const bool none_left = readings.empty();
   std::erase_if(readings, [last](const StoredReading& each) { return each.place > last; });
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
@@ -100,6 +101,7 @@ std::size_t Fleet::apply(std::int64_t last) {
   for (const auto& [unit, list] : work) {
     if (unit->stale && !std::exchange(unit->queued, true)) stale_.push_back(unit);
   }
+  if (readings.empty() && !none_left) return 0;
   if (readings.empty()) {
     live_ = true;
     all_known_ = asked;
