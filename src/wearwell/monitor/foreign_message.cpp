@@ -293,8 +293,7 @@ void for_lines(std::string_view text, const std::function<void(std::string_view)
   }
 }
 
-/// Whether a text that is not JSON itself has lines that are, each an object or a list. A malformed
-/// text over several lines has none.
+/// Whether a text that is not JSON has lines that are: a malformed text over several lines has none.
 bool are_messages(std::string_view text) {
   if (text.find('\n') == text.npos || Json::accept(text)) return false;
   bool some = false;
