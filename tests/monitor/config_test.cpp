@@ -156,6 +156,9 @@ TEST_F(Configs, Refused) {
               HasSubstr("is not HOST:PORT"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
               HasSubstr("neither a file nor postgresql"));
+  for (const char* host : {"127.alarms.example:80", "126.0.0.1:80", "[::2]:80"})
+    EXPECT_THAT(refusal("[alarm]", std::string("[http]\nlisten = \"") + host + "\"\n[alarm]"),
+                HasSubstr("set a token"));
   EXPECT_THAT(refusal("silence", "silent"), HasSubstr("did you mean 'silence'"));
 }
 
@@ -208,13 +211,17 @@ TEST_F(Configs, AllProblemsAreReportedTogether) {
   };
   replace("horizon = \"2 h\"\n", "");
   replace("kind = \"stdin\"", "kind = \"mqtt\"");
+  replace("result = \"result\"", "result = \"result\"\ntitel = \"x\"");
   text +=
       "[source.second]\nkind = \"folder\"\nfolder = \"none\"\n[http]\ntoken = "
       "\"short\"\n[webhook]\n"
-      "url = \"ftp://x\"\n[limits]\nunits = 0\n[store]\nurl = \"redis://x\"\n";
+      "url = \"ftp://x\"\n[limits]\nunits = 0\n[store]\nurl = \"redis://x\"\n[publish]\nbroker = "
+      "\"mqtt://h\"\nprefiks = \"a\"\n[source.third]\n"
+      "kind = \"http\"\nfolders = \"a\"\n";
   const std::string message = message_of<InputError>([&] { read(text); });
   for (const char* each : {"horizon", "broker", "no such file or folder", "16 random ones",
-                           "https://HOST/PATH", "units", "neither a file nor postgresql"})
+                           "https://HOST/PATH", "units", "neither a file nor postgresql",
+                           "did you mean 'title'", "did you mean 'prefix'", "third.folders"})
     EXPECT_THAT(message, HasSubstr(each));
   // Each with its place.
   std::size_t places = 0;
@@ -293,6 +300,18 @@ TEST_F(Configs, HaveFormsOfMessages) {
   const std::string time = "time = \"t\"\ntime_format = \"iso 8601\"\n";
   text.replace(text.find(time), time.size(), "time = \"{timestamp}\"\ntime_format = \"unix ms\"\n");
   EXPECT_EQ(read(text).sources[0].mapping.time, "{timestamp}");
+  const auto field = [&](const std::string& whole, const std::string& from, const std::string& to) {
+    std::string changed = whole;
+    changed.replace(changed.find(from), from.size(), to);
+    return message_of<InputError>([&] { read(changed); });
+  };
+  EXPECT_THAT(field(text, "\"machine\"", "\"{writer}\""),
+              HasSubstr("'{writer}' is not in messages of this form, which have {measurement}"));
+  EXPECT_THAT(field(text, "\"w\"", "\"{value}\""), HasSubstr("'{value}' is not in messages"));
+  EXPECT_THAT(field(good, "time = \"t\"\ntime_format = \"iso 8601\"", "sequence = \"{sequence}\""),
+              HasSubstr("'{sequence}' is not in messages of this form"));
+  EXPECT_THAT(field(good, "time = \"t\"\ntime_format = \"iso 8601\"", "sequence = \"{edge}\""),
+              HasSubstr("'{edge}' is for Sparkplug B only"));
   const std::string form = "format = \"influx\"\nprecision = \"s\"\n";
   text.replace(text.find(form), form.size(), "");
   EXPECT_THAT(message_of<InputError>([&] { read(text); }), HasSubstr("{timestamp}"));

@@ -17,6 +17,8 @@
 #include "wearwell/base/sha1.h"
 #include "wearwell/monitor/current_fleet.h"
 #include "wearwell/monitor/fit_exchange.h"
+#include "wearwell/monitor/learned_readings.h"
+#include "wearwell/monitor/monitor_signals.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -135,6 +137,33 @@ TEST_F(Exchanges, AcknowledgementsNameTheirAlarm) {
               HasSubstr("alarm_ms must be a whole number"));
   EXPECT_THAT(deliver(R"({"machine": "a", "event": "acknowledged", "alarm_ms": 5})").problem,
               HasSubstr("by is missing"));
+  // It does not make a unit.
+  const Delivery none =
+      deliver(R"({"machine": "b", "event": "acknowledged", "by": "A", "alarm_ms": 5})");
+  EXPECT_EQ(none.problem, "acknowledged: 'b' is not a unit");
+  EXPECT_EQ(none.events, 0U);
+  EXPECT_TRUE(store_->events_of("b").empty());
+  EXPECT_FALSE(tally_ref().knows("b"));
+  EXPECT_EQ(
+      deliver(R"({"machine": "a", "event": "acknowledged", "by": "A", "alarm_ms": 5})").events, 1U);
+}
+
+// Events among readings need their own permission; the readings beside them are stored.
+TEST_F(Exchanges, EventsAmongReadingsMayBeRefused) {
+  source_.mapping = plain_mapping(tracker_, false);
+  source_.mapping.unit = "machine";
+  source_.mapping.sequence = "n";
+  open();
+  const Message message{
+      "", Exchanges::message("a", 1, 10, 10) +
+              "\n{\"machine\": \"a\", \"event\": \"withdrawn\", \"by\": \"B\", \"n\": 1}"};
+  const Delivery refused = intake_->deliver(source_, std::span(&message, 1), "it is an event");
+  EXPECT_EQ(refused.readings, 1U);
+  EXPECT_EQ(refused.events, 0U);
+  EXPECT_EQ(refused.refused, 1U);
+  EXPECT_EQ(refused.problem, "it is an event");
+  EXPECT_TRUE(store_->events_of("a").empty());
+  EXPECT_EQ(intake_->deliver(source_, std::span(&message, 1)).events, 1U);
 }
 
 // A failed part was not in use before the start either: that is not news.
@@ -194,6 +223,73 @@ TEST(Misfits, AreNamed) {
   EXPECT_THAT(misfit(present, doubtful, {}), HasSubstr("not trusted"));
 }
 
+// A fit that has learned the readings of the store would count them twice.
+TEST(Misfits, HaveLearnedReadingsOfTheStore) {
+  const auto of = [](std::map<std::string, double> study) {
+    auto tracker = std::make_shared<GrowthTracker>(1);
+    tracker->set_study(std::move(study));
+    return Population{std::move(tracker), "x", true, 0};
+  };
+  const Population present = of({{"a", 100}, {"lab", 50}});
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"lab", 50}}), {"a", "b"}), "");
+  // Readings of units that are not in the store.
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"lab", 70}, {"lab 2", 9}}), {"a", "b"}), "");
+  EXPECT_THAT(misfit(present, of({{"a", 100}, {"b", 7}}), {"a", "b"}),
+              HasSubstr("it has learned readings of this store, of machine 'b'"));
+  EXPECT_THAT(misfit(present, of({{"a", 120}}), {"a", "b"}), HasSubstr("machine 'a'"));
+  EXPECT_THAT(misfit(present, of({{"a", 100}, {"b (part 2)", 7}}), {"a", "b"}),
+              HasSubstr("machine 'b (part 2)'"));
+  EXPECT_EQ(misfit(present, of({{"a", 100}, {"b (part 2)", 7}}), {"a"}), "");
+}
+
+// At a start the earlier fit is not there: the last reading of the study is one of the store.
+TEST_F(Exchanges, StartsNoticeLearnedReadings) {
+  source_.mapping = plain_mapping(tracker_, false);
+  source_.mapping.unit = "machine";
+  source_.mapping.sequence = "n";
+  open();
+  for (int n = 1; n <= 3; ++n) deliver(message("a", n, 10 * n, 10 * n));
+  deliver(R"({"machine": "a", "event": "replaced", "by": "B", "n": 3, "time": 20})");
+  const auto learned = [&](std::map<std::string, double> study) {
+    GrowthTracker tracker(1);
+    tracker.set_study(std::move(study));
+    return learned_from(*store_, tracker);
+  };
+  EXPECT_EQ(learned({{"a", 15}, {"b", 10}, {"b (part 2)", 10}}), "");
+  EXPECT_THAT(learned({{"a", 20 * (1 + 1e-12)}}), HasSubstr("machine 'a'"));
+  EXPECT_EQ(learned({{"a", 30}}), "");  // that reading is of the second part, after 10 h
+  EXPECT_THAT(learned({{"a (part 2)", 10}}), HasSubstr("machine 'a (part 2)'"));
+}
+
+TEST(MovedForecasts, OfUnknownOnesDoNotComeFirst) {
+  MovedForecast unknown{"a", 0, "h", {}, {}}, known{"b", 0, "h", {}, {}};
+  known.before = {Alarm::ok, true, {1, 2, 3}, 0};
+  known.after = {Alarm::ok, true, {1, 2.1, 3}, 0};
+  std::vector<MovedForecast> moved = {unknown, known};
+  sort_by_change(moved);
+  EXPECT_EQ(moved[0].unit, "b");
+  EXPECT_EQ(change_of(unknown), 0);
+  unknown.after = known.after;
+  EXPECT_TRUE(std::isinf(change_of(unknown)));
+}
+
+// Two fleets are brought to the same reading, whatever has arrived meanwhile.
+TEST_F(Exchanges, CompareForecastsOfTheSameReadings) {
+  open();
+  for (int n = 1; n <= 5; ++n) deliver(message("a", n, n, n));
+  const auto next = beside(faster_);
+  const std::int64_t last = next->place();
+  for (int n = 6; n <= 9; ++n) deliver(message("a", n, n, n));
+  while (fleet_->place() < last) ASSERT_GT(fleet_->apply(last), 0U);
+  EXPECT_EQ(fleet_->apply(last), 0U);
+  EXPECT_EQ(fleet_->place(), last);
+  fleet_->refresh(true);
+  EXPECT_EQ(fleet_->view("a")->quality.readings, 5U);
+  EXPECT_EQ(next->view("a")->quality.readings, 5U);
+  catch_up();
+  EXPECT_EQ(fleet_->view("a")->quality.readings, 9U);
+}
+
 class ResultFolders : public ScratchTest {
  protected:
   void put(const std::string& state, const std::string& listed) {
@@ -248,10 +344,13 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
     std::getline(file, content);
     if (content == "broken") throw InputError("state.bin is damaged");
     const double limit = content == "other" ? 900 : 1000;
-    return {std::make_shared<const GrowthTracker>(4, limit), content, content != "doubtful", 7};
+    auto tracker = std::make_shared<GrowthTracker>(4, limit);
+    if (content == "blind") tracker->set_counted(false);
+    if (content == "learned") tracker->set_study({{"a", 10}});
+    return {std::move(tracker), content, content != "doubtful", 7};
   };
   FitExchange exchange(
-      {result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1},
+      {result, reader}, {std::make_shared<const GrowthTracker>(), "first", true, 1}, *fleet_,
       [&](const Population& population) -> std::shared_ptr<Fleet> {
         FleetSettings settings;
         settings.population = population.fingerprint;
@@ -266,7 +365,7 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
     return holds();
   };
-  for (const char* content : {"broken", "other", "doubtful"}) {
+  for (const char* content : {"broken", "other", "doubtful", "blind", "learned"}) {
     const int before = read;
     put(content);
     ASSERT_TRUE(eventually([&] { return read > before; })) << content;
@@ -285,6 +384,16 @@ TEST_F(Exchanges, AreMadeReadyBesideTheRunningFleet) {
   EXPECT_FALSE(exchange.ready());
 }
 
+// A reload while the result is read is one when the monitor has begun.
+TEST(MonitorSignalsTest, KnowOfAnEarlierHangup) {
+  const HangupNote note;
+  std::raise(SIGHUP);
+  MonitorSignals signals;
+  EXPECT_TRUE(signals.reload());
+  EXPECT_FALSE(signals.reload());
+  EXPECT_FALSE(signals.ends());
+}
+
 /// A whole monitor in a process of its own, over a folder of files and a folder of results.
 class RunningMonitors : public FleetRig {
  protected:
@@ -301,10 +410,10 @@ class RunningMonitors : public FleetRig {
     return config;
   }
   std::filesystem::path result() const { return folder() / "result"; }
-  /// "2" is a fit with a mean rate of 2 m/h.
-  void put_result(int rate) {
+  /// "2" is a fit with a mean rate of 2 m/h, "2 10" one whose study has m0 up to 10 h.
+  void put_result(int rate) { put_result(std::to_string(rate)); }
+  void put_result(const std::string& content) {
     std::filesystem::create_directories(result());
-    const std::string content = std::to_string(rate);
     write("result/new.bin", content);
     write("result/new.sha1", sha1_of(content) + "  state.bin\n");
     // One after the other: a monitor may look in between.
@@ -317,8 +426,10 @@ class RunningMonitors : public FleetRig {
               int rate = 0;
               stream >> rate;
               if (!stream) throw InputError("state.bin is damaged");
-              return Population{std::make_shared<const GrowthTracker>(rate),
-                                "fit-" + std::to_string(rate), true, 0};
+              auto tracker = std::make_shared<GrowthTracker>(rate);
+              double hours = 0;
+              if (stream >> hours) tracker->set_study({{"m0", hours}});
+              return Population{std::move(tracker), "fit-" + std::to_string(rate), true, 0};
             }};
   }
   pid_t start(const std::string& store, bool once = false) {
@@ -426,6 +537,25 @@ TEST_F(RunningMonitors, TakeAnotherFit) {
   EXPECT_EQ(look("fleet.sqlite")->moved(fits[1].number).size(), 8U);
   EXPECT_EQ(look("fleet.sqlite")->states("fit-3").size(), 8U);
   EXPECT_THAT(content(folder() / "log"), HasSubstr("8 units; the median remaining useful life of"));
+}
+
+// A restart with a fit that has learned the stored readings is refused, and nothing is written.
+TEST_F(RunningMonitors, RefuseLearnedReadingsAtTheStart) {
+  std::filesystem::create_directories(folder() / "incoming");
+  put_result(1);
+  send(1);
+  ASSERT_EQ(end(start("fleet.sqlite", true), 0), 0) << content(folder() / "log");
+  put_result("2 10");
+  EXPECT_EQ(end(start("fleet.sqlite", true), 0), 2);
+  EXPECT_THAT(
+      content(folder() / "log"),
+      HasSubstr("the result fit-2: it has learned readings of this store, of machine 'm0'"));
+  EXPECT_EQ(population("fleet.sqlite"), "fit-1");
+  EXPECT_EQ(look("fleet.sqlite")->states("fit-1").size(), 8U);
+  EXPECT_EQ(end(start("new.sqlite", true), 0), 0) << content(folder() / "log");
+  put_result("3 7");  // a study of its own
+  EXPECT_EQ(end(start("fleet.sqlite", true), 0), 0) << content(folder() / "log");
+  EXPECT_EQ(population("fleet.sqlite"), "fit-3");
 }
 
 // Killed at any moment of exchanges: readings and states are in the end what they are without.

@@ -433,7 +433,7 @@ class FailingStore : public Store {
   enum class Fails { never, before, after };
   explicit FailingStore(std::unique_ptr<Store> store) : store_(std::move(store)) {}
   Fails adds = Fails::never;
-  bool reads = true, fails_events = false;
+  bool reads = true, fails_events = false, fails_log = false;
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override {
     if (adds == Fails::before) throw StoreError("the disk is full");
@@ -478,9 +478,9 @@ class FailingStore : public Store {
     store_->begin_fit(fit, moved);
   }
   std::vector<MovedForecast> moved(std::int64_t fit) override { return store_->moved(fit); }
-  std::map<std::string, Alarm> sent_alarms() override { return store_->sent_alarms(); }
-  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override {
-    store_->note_sent(unit, alarm, time_ms);
+  std::map<std::string, SentAlarm> sent_alarms() override { return store_->sent_alarms(); }
+  void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override {
+    store_->note_sent(unit, sent, time_ms);
   }
   void save(const std::string& population, const std::vector<Checkpoint>& states,
             std::int64_t all_up_to) override {
@@ -488,7 +488,10 @@ class FailingStore : public Store {
   }
   std::vector<Checkpoint> states(const std::string& p) override { return store_->states(p); }
   std::int64_t all_up_to(const std::string& p) override { return store_->all_up_to(p); }
-  void log(const std::vector<AlarmChange>& changes) override { store_->log(changes); }
+  void log(const std::vector<AlarmChange>& changes) override {
+    if (fails_log) throw StoreError("the disk is full");
+    store_->log(changes);
+  }
   std::vector<AlarmChange> alarms() override { return store_->alarms(); }
   void note_file(const std::string& file, std::int64_t bytes) override {
     store_->note_file(file, bytes);
@@ -535,6 +538,35 @@ TEST_F(FailingFleets, CountReadingsWhoseEventsWait) {
   catch_up();
   EXPECT_EQ(fleet_->fleet().stored, 1U);
   EXPECT_EQ(store_->count(), 1U);
+}
+
+// What a fleet could not store of its alarms, the one that takes its place stores.
+TEST_F(FailingFleets, HandOverAlarmsThatAreNotStored) {
+  open();
+  for (int n = 1; n <= 20; ++n) deliver(message("a", n, 49.0 * n, 49 * n));
+  while (fleet_->apply() > 0) {
+  }
+  failing_->fails_log = true;
+  EXPECT_THROW(fleet_->refresh(true), StoreError);
+  const UnitView before = *fleet_->view("a");
+  ASSERT_EQ(before.alarm, Alarm::act);
+  FleetSettings settings;
+  settings.population = "another";
+  settings.alarm = alarm_;
+  settings.beside = true;
+  Fleet next(tracker_, *store_, *tally_, quiet_, settings);
+  while (next.apply() > 0) {
+  }
+  next.refresh(true);
+  next.take_over(*fleet_);
+  failing_->fails_log = false;
+  EXPECT_TRUE(store_->alarms().empty());
+  next.refresh();
+  ASSERT_EQ(store_->alarms().size(), 1U);
+  EXPECT_EQ(store_->alarms()[0].alarm, Alarm::act);
+  EXPECT_EQ(store_->alarms()[0].time_ms, before.alarm_ms);
+  fleet_->refresh();
+  EXPECT_EQ(store_->alarms().size(), 1U);
 }
 
 TEST_F(FailingFleets, LoseNothing) {

@@ -10,6 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 std::string shown(const Fields& fields) {
   std::string text;
@@ -134,6 +135,33 @@ TEST(OpcUaMessages, AreReadWithTheirHeaders) {
   const Outcome silent = opc_ua(R"({"MessageType": "ua-metadata", "MetaData": {}})");
   EXPECT_THAT(silent.rows, IsEmpty());
   EXPECT_THAT(silent.problems, IsEmpty());
+}
+
+TEST(OpcUaMessages, LoseNoLineBesideAMalformedOne) {
+  for (const char* text :
+       {"{\"Payload\": {\"a\": 1}\n{\"Payload\": {\"a\": 2}}\n{\"Payload\": {\"a\": 3}}\n",
+        "{\"Payload\": {\"a\": 2}}\noops\n{\"Payload\": {\"a\": 3}}"}) {
+    const Outcome outcome = opc_ua(text);
+    EXPECT_THAT(outcome.rows, ElementsAre("a=2;", "a=3;"));
+    EXPECT_THAT(outcome.problems, ElementsAre("is not JSON"));
+  }
+  // A message over several lines is one message, also a malformed one.
+  EXPECT_THAT(opc_ua("{\"Payload\":\n{\"a\": 1}\n}").rows, ElementsAre("a=1;"));
+  EXPECT_THAT(opc_ua("{\"Payload\":\n{\"a\": 1,}\n}").problems, SizeIs(1));
+}
+
+TEST(OpcUaMessages, HaveStatusCodes) {
+  // Status codes are 32 bits, signed or not.
+  const auto value = [](const std::string& status) {
+    return opc_ua(R"({"Payload": {"a": {"Value": 3, "Status": )" + status + "}}}").rows.at(0);
+  };
+  for (const char* good : {"0", "{\"Code\": 0}", "null", "{}", "1073741824", "11141120",
+                           "{\"Symbol\": \"GoodClamped\"}"})
+    EXPECT_EQ(value(good), "a=3;") << good;
+  for (const char* bad :
+       {"2147483648", "{\"Code\": 2150891520}", "-2147483648", "-2144075776", "{\"Code\": -1}",
+        "3221225472", "\"Bad\"", "true", "1.5", "{\"Symbol\": \"BadTimeout\"}"})
+    EXPECT_EQ(value(bad), "a=null;") << bad;
 }
 
 TEST(OpcUaMessages, RefuseWhatCannotBeAReading) {

@@ -171,8 +171,20 @@ class GeneratedFleet : public FleetReader, public Inbox {
     return names;
   }
 
+  /// Why events in the last delivery are refused.
+  std::string no_events() const {
+    const std::scoped_lock lock(mutex_);
+    return no_events_;
+  }
+
   /// Lines of {"unit": "M1003", "at": 1200, "wear": 31.5}.
-  Delivery deliver(const std::string&, const std::string& payload) override {
+  using Inbox::deliver;
+  Delivery deliver(const std::string&, const std::string& payload,
+                   const std::string& no_events) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      no_events_ = no_events;
+    }
     if (away) return {false, 0, 0, 0, "the store cannot be reached"};
     Delivery delivery{true, 0, 0, 0, ""};
     std::istringstream lines(payload);
@@ -296,6 +308,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
   void changed(Unit* unit) { unit->version = ++version_; }
 
   mutable std::mutex mutex_;
+  std::string no_events_;
   std::mt19937_64 engine_;
   std::vector<Unit> units_;
   std::atomic<std::uint64_t> version_ = 1;

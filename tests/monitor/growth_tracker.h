@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/prognosis/tracker.h"
@@ -14,10 +15,15 @@ class GrowthUnit : public prognosis::TrackedUnit {
  public:
   /// `rate`: the mean before any reading, m/h.
   explicit GrowthUnit(double rate = 1) : weighted_(rate / (0.3 * 0.3)) {}
+  /// A reading of the study at the mean, which says nothing more of the rate.
+  void set_study(double hours) { now_ = 3600 * hours; }
+  void leave_out() { left_out_ = true; }
   prognosis::UpdateResult update(const prognosis::Reading& reading,
                                  const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
     prognosis::UpdateResult taken;
+    if (left_out_) taken.problem = "no node fits";
+    if (left_out_) return taken;
     if (!(hours >= 0)) {
       taken.problem = "time is negative";
       return taken;
@@ -104,6 +110,7 @@ class GrowthUnit : public prognosis::TrackedUnit {
   double sd() const { return 1 / std::sqrt(precision_); }
   double precision_ = 1 / (0.3 * 0.3), weighted_, now_ = 0;
   std::size_t readings_ = 0;
+  bool left_out_ = false;
 };
 
 /// In units that are their own SI here: wear in metres, so that tests see the numbers that they send.
@@ -115,6 +122,14 @@ class GrowthTracker : public prognosis::Tracker {
       : rate_(rate), refused_(std::move(refused)) {
     limit_.value = limit;
   }
+  /// Its study has readings of these units, each the farthest at so many hours.
+  void set_study(std::map<std::string, double> hours) {
+    study_ = std::move(hours);
+    seen_.clear();
+    for (const auto& [name, at] : study_) seen_.push_back(name);
+  }
+  /// Whether readings are counted at all.
+  void set_counted(bool counted) { counted_ = counted; }
   std::string refusal(const std::string& unit) const override {
     return !refused_.empty() && unit == refused_ ? "'" + unit + "' is not a unit of this study"
                                                  : "";
@@ -126,13 +141,16 @@ class GrowthTracker : public prognosis::Tracker {
   const Quantity& limit() const override { return limit_; }
   bool rising() const override { return true; }
   const std::string& noun() const override { return noun_; }
-  std::span<const std::string> seen() const override { return {}; }
+  std::span<const std::string> seen() const override { return seen_; }
   double probability_error() const override { return 0.01; }
   std::string problem(const prognosis::Reading& reading) const override {
     return reading.numbers[1] >= 0 ? "" : "time is negative";
   }
-  std::unique_ptr<prognosis::TrackedUnit> begin(const std::string&) const override {
-    return std::make_unique<GrowthUnit>(rate_);
+  std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& name) const override {
+    auto unit = std::make_unique<GrowthUnit>(rate_);
+    if (!counted_) unit->leave_out();
+    if (const auto at = study_.find(name); at != study_.end()) unit->set_study(at->second);
+    return unit;
   }
   std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
     return GrowthUnit::restore(bytes);
@@ -141,6 +159,9 @@ class GrowthTracker : public prognosis::Tracker {
  private:
   double rate_ = 1;
   std::string refused_ = {};
+  std::map<std::string, double> study_ = {};
+  std::vector<std::string> seen_ = {};
+  bool counted_ = true;
   std::vector<prognosis::ReadingColumn> columns_ = {{"wear", read_unit("m", "m"), true},
                                                     {"time", read_unit("h", "s"), false}};
   Quantity limit_ = {GrowthUnit::limit, read_unit("m", "m")};

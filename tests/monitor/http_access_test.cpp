@@ -181,6 +181,16 @@ TEST_F(HttpAccessTest, TokensHaveRoles) {
     EXPECT_EQ(post(port, path, "{}", field).status, each.operate) << each.token;
     EXPECT_EQ(get(port, "/health", field).status, 200);
   }
+  // Who may only write does not report events among readings either.
+  post(port, "/api/v1/readings", reading, bearer(writes));
+  EXPECT_EQ(fleet.no_events(), "it is an event, which needs the role operate; the token has write");
+  post(port, "/api/v1/readings", reading, bearer(token));
+  EXPECT_EQ(fleet.no_events(), "");
+  {
+    HttpServer no_events(settings, fleet, &fleet, nullptr);
+    post(no_events.port(), "/api/v1/readings", reading, bearer(token));
+    EXPECT_EQ(fleet.no_events(), "it is an event, and this monitor takes no events by HTTP");
+  }
   EXPECT_THAT(post(port, path, "{}", bearer(reads)).body,
               HasSubstr("this needs the role operate; the token has read"));
   EXPECT_EQ(post(port, "/login", "token=" + writes).status, 403);

@@ -102,13 +102,14 @@ TEST_P(Stores, KeepFitsAndWhatTheyMoved) {
 TEST_P(Stores, KeepWhatWasSent) {
   auto store = open();
   EXPECT_TRUE(store->sent_alarms().empty());
-  store->note_sent("a", Alarm::act, 5);
-  store->note_sent("b", Alarm::unknown, 6);
-  store->note_sent("a", Alarm::watch, 7);
+  store->note_sent("a", {Alarm::act, false}, 5);
+  store->note_sent("b", {Alarm::unknown, true}, 6);
+  store->note_sent("a", {Alarm::watch, false}, 7);
   store = nullptr;
   store = open();
   EXPECT_EQ(store->sent_alarms(),
-            (std::map<std::string, Alarm>{{"a", Alarm::watch}, {"b", Alarm::unknown}}));
+            (std::map<std::string, SentAlarm>{{"a", {Alarm::watch, false}},
+                                              {"b", {Alarm::unknown, true}}}));
 }
 
 TEST_P(Stores, ReadTheEventsOfOneUnit) {
@@ -321,6 +322,17 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   // Who only reads changes nothing, and another result's columns neither.
   EXPECT_THAT(message_of<InputError>([&] { open(columns, Access::read); }),
               HasSubstr("is a store of version 1, and this wearwell reads version 4"));
+  // A backup before the upgrade is one of the old version.
+  if (!server_) {
+    backup_store(url(), folder(), columns, folder() / "before.sqlite");
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { open_store("before.sqlite", folder(), columns, Access::read); }),
+                HasSubstr("is a store of version 1"));
+    std::size_t left = 0;
+    for (const auto& each : std::filesystem::directory_iterator(folder()))
+      left += each.path().string().find(".unfinished") != std::string::npos;
+    EXPECT_EQ(left, 0U);
+  }
   EXPECT_THAT(message_of<InputError>([&] {
                 open({{"wear"}, {"site"}, true});
               }),
@@ -343,7 +355,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   EXPECT_EQ(store->alarms()[0].place, 8);
   EXPECT_THAT(store->add({reading("a", 4, 1)}), ElementsAre(Kept::stored));
   store->begin_fit({0, "p", 5, 0, true}, {});
-  store->note_sent("a", Alarm::act, 9);
+  store->note_sent("a", {Alarm::act, false}, 9);
   EXPECT_EQ(store->fits().size(), 1U);
   EXPECT_EQ(store->sent_alarms().size(), 1U);
   EXPECT_GT(store->after(7, 1)[0].place, 7);

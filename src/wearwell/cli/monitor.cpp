@@ -5,17 +5,20 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/monitored.h"
+#include "wearwell/http/tls.h"
 #include "wearwell/monitor/backup.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_text.h"
 #include "wearwell/monitor/monitor_run.h"
+#include "wearwell/monitor/monitor_signals.h"
 
 namespace wearwell {
 namespace {
@@ -90,14 +93,39 @@ void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
   }
 }
 
+/// What reading the configuration does not show: the certificate and its key, and a store that is
+/// there already.
+void check_files(const MonitoredFleet& read) {
+  if (read.config.http) tls_of(*read.config.http);
+  const std::string& url = read.config.store;
+  std::error_code ignored;
+  if (monitor::is_postgres(url) || !std::filesystem::exists(read.config.folder / url, ignored))
+    return;
+  monitor::open_store(url, read.config.folder, monitor::store_columns(read.config, *read.tracker),
+                      monitor::Access::copy);
+}
+
+bool runs(const MonitorCommand& command) {
+  return !command.check && command.exported.empty() && command.exported_lives.empty() &&
+         command.backup.empty();
+}
+
 void run(const MonitorCommand& command, Models models) {
+  // A reload while the result is read is a reload, not the end.
+  std::optional<monitor::HangupNote> note;
+  if (runs(command)) note.emplace();
   const MonitoredFleet read = monitored_fleet(command.config, models);
   if (command.check) {
+    try {
+      check_files(read);
+    } catch (const monitor::StoreError& error) {
+      throw MachineError(error.what());
+    }
     const std::size_t sources = read.config.sources.size();
+    if (command.quiet) return;
     fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,
                sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
-  } else if (!command.exported.empty() || !command.exported_lives.empty() ||
-             !command.backup.empty()) {
+  } else if (!runs(command)) {
     try {
       if (!command.backup.empty()) back_up(read, command);
       if (!command.exported.empty()) export_readings(read, command);

@@ -104,12 +104,19 @@ void connect(Driver& driver, Plain& stream, const HttpPlace& place) {
   stream.socket().set_option(net::socket_base::keep_alive(true));
 }
 
+/// RFC 9110, 7.2: with the port unless it is the scheme's own; an IPv6 address in brackets.
+std::string host_field(const HttpPlace& place) {
+  const bool six = place.host.find(':') != std::string::npos && !place.host.starts_with('[');
+  const std::string host = six ? "[" + place.host + "]" : place.host;
+  return place.port == (place.tls ? "443" : "80") ? host : host + ":" + place.port;
+}
+
 template <class Stream>
 void exchange(Driver& driver, Stream& stream, const HttpPlace& place, const HttpRequest& request,
               const std::function<void(int, std::string_view)>& take) {
   const auto cancel = [&] { beast::get_lowest_layer(stream).close(); };
   http::request<http::string_body> message(http::verb::post, request.target, 11);
-  message.set(http::field::host, place.host);
+  message.set(http::field::host, host_field(place));
   message.set(http::field::connection, "close");
   for (const auto& [name, value] : request.fields) message.set(name, value);
   message.body() = request.body;

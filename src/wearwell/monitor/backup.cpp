@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "wearwell/base/disk.h"
+#include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
 #include "wearwell/monitor/sqlite_session.h"
 
@@ -22,13 +25,26 @@ void reach_disk(const fs::path& path) {
     throw StoreError(fmt::format("{}: {}", path.string(), std::strerror(errno)));
 }
 
-/// Removes a file that is not finished.
+/// Removes a file that is not finished, also when a signal ends the program, with the files that
+/// SQLite keeps beside it.
 struct Unfinished {
-  fs::path path;
-  ~Unfinished() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
+  explicit Unfinished(std::string name) : path(std::move(name)) {
+    SignalBlocker blocker;
+    for (const fs::path& each : all()) blocker.note(each, false);
   }
+  ~Unfinished() {
+    SignalBlocker blocker;
+    std::error_code ignored;
+    for (const fs::path& each : all()) {
+      fs::remove(each, ignored);
+      blocker.unregister(each);
+    }
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  std::array<fs::path, 2> all() const { return {path, fs::path(path.string() + "-journal")}; }
+
+  fs::path path;
 };
 
 }  // namespace
@@ -44,15 +60,16 @@ void backup_store(const std::string& url, const fs::path& folder, const StoreCol
   if (fs::exists(target, ignored))
     throw InputError(
         fmt::format("--backup: {} exists already; a backup is a new file", target.string()));
-  open_store(url, folder, columns, Access::read);  // checks that it is one
-  const Unfinished unfinished{target.string() + fmt::format(".{}.unfinished", getpid())};
+  open_store(url, folder, columns, Access::copy);  // checks that it is one
+  const fs::path beside = fs::absolute(target).lexically_normal();
+  const Unfinished unfinished(beside.string() + fmt::format(".{}.unfinished", getpid()));
   SqliteSession session(folder / url);
   SqliteStatement(session, "VACUUM INTO ?")
       .bind(1, std::string_view(unfinished.path.string()))
       .run();
   reach_disk(unfinished.path);
   // Without replacing a file that has appeared meanwhile.
-  if (link(unfinished.path.c_str(), target.c_str()) != 0)
+  if (!rename_new(unfinished.path, target))
     throw InputError(fmt::format("--backup: {}: {}", target.string(), std::strerror(errno)));
   reach_disk(target.has_parent_path() ? target.parent_path() : fs::path("."));
 }

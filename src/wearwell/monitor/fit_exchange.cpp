@@ -7,13 +7,15 @@
 #include <exception>
 #include <utility>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/monitor/source.h"
 
 namespace wearwell::monitor {
 
-FitExchange::FitExchange(ResultSource source, Population present, MakeFleet make_fleet,
-                         Notices& notices, std::function<void()> wake)
+FitExchange::FitExchange(ResultSource source, Population present, const FleetReader& running,
+                         MakeFleet make_fleet, Notices& notices, std::function<void()> wake)
     : source_(std::move(source)),
+      running_(running),
       make_fleet_(std::move(make_fleet)),
       notices_(notices),
       wake_(std::move(wake)),
@@ -54,6 +56,32 @@ void FitExchange::refuse(const std::string& why) {
                             source_.folder.string(), why, present_.fingerprint.substr(0, 7)));
 }
 
+std::string FitExchange::left_out(Fleet& next, const std::stop_token& stop) const {
+  constexpr auto between = std::chrono::milliseconds(200);
+  for (;;) {
+    bool waits = false;
+    for (const UnitView& each : next.units("", 0, SIZE_MAX)) {
+      const std::uint64_t out = each.quality.not_counted;
+      if (out == 0) continue;
+      const std::optional<UnitView> now = running_.view(each.unit);
+      if (now && now->quality.not_counted >= out) continue;
+      if (now && now->quality.readings == each.quality.readings)
+        return fmt::format(
+            "it leaves out {} reading{} of {} '{}', of which the running fit leaves out {}: {}",
+            out, out == 1 ? "" : "s", next.fleet().noun, printable(each.unit),
+            now->quality.not_counted, each.quality.state_problem);
+      waits = true;  // one of the two is behind
+    }
+    if (!waits || !pause(between, stop)) return {};
+    try {
+      next.apply();
+      next.refresh(true);
+    } catch (const StoreError& error) {
+      notices_.tell("store", error.what());
+    }
+  }
+}
+
 void FitExchange::look(bool asked, const std::stop_token& stop) {
   if (const std::string why = incomplete_result(source_.folder); !why.empty()) return refuse(why);
   const Population now = source_.read();
@@ -87,6 +115,8 @@ void FitExchange::look(bool asked, const std::stop_token& stop) {
   std::vector<std::string> units;
   for (const UnitView& each : fleet->units("", 0, SIZE_MAX)) units.push_back(each.unit);
   if (const std::string why = misfit(present_, now, units); !why.empty()) return refuse(why);
+  if (const std::string why = left_out(*fleet, stop); !why.empty()) return refuse(why);
+  if (stop.stop_requested()) return;
   present_ = now;
   {
     const std::lock_guard lock(lock_);

@@ -26,10 +26,10 @@ class FitExchange {
     std::shared_ptr<Fleet> fleet;
   };
 
-  /// `present`: the running population. `notices` must outlive it. `wake` is called when a fleet is
-  /// ready.
-  FitExchange(ResultSource source, Population present, MakeFleet make_fleet, Notices& notices,
-              std::function<void()> wake);
+  /// `present`: the running population, `running`: its fleet. `running` and `notices` must outlive
+  /// it. `wake` is called when a fleet is ready.
+  FitExchange(ResultSource source, Population present, const FleetReader& running,
+              MakeFleet make_fleet, Notices& notices, std::function<void()> wake);
   ~FitExchange();
 
   /// Asks for a look at the result, whether it has changed or not.
@@ -41,8 +41,12 @@ class FitExchange {
   void watch(const std::stop_token& stop);
   void look(bool asked, const std::stop_token& stop);
   void refuse(const std::string& why);
+  /// Why the forecast of a unit by `next` leaves out readings that the running one counts; empty if
+  /// none does, or if it is stopped.
+  std::string left_out(Fleet& next, const std::stop_token& stop) const;
 
   const ResultSource source_;
+  const FleetReader& running_;
   const MakeFleet make_fleet_;
   Notices& notices_;
   const std::function<void()> wake_;

@@ -56,6 +56,7 @@ MovedForecast moved_forecast(const std::string& unit, const std::string& content
 
 double change_of(const MovedForecast& moved) {
   const double before = moved.before.remaining.q50, after = moved.after.remaining.q50;
+  if (!moved.before.known && !moved.after.known) return 0;
   if (!moved.before.known || !moved.after.known || std::isinf(before) != std::isinf(after))
     return std::numeric_limits<double>::infinity();
   if (before == after) return 0;

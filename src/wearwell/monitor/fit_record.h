@@ -33,7 +33,7 @@ void sort_by_change(std::vector<MovedForecast>& moved);
 std::string moved_text(const std::vector<MovedForecast>& moved);
 
 /// The relative change of the median remaining useful life; infinite if one of the two never ends
-/// or is not known.
+/// or is not known, 0 if neither is known.
 double change_of(const MovedForecast& moved);
 
 }  // namespace wearwell::monitor

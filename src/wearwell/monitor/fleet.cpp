@@ -78,10 +78,12 @@ void Fleet::hear(Unit& unit, std::int64_t received_ms) {
   unit.heard = Clock::now() - std::chrono::milliseconds(age);
 }
 
-std::size_t Fleet::apply() {
+std::size_t Fleet::apply(std::int64_t last) {
   constexpr std::size_t most = 10'000;
   const Clock::time_point asked = Clock::now();
-  const std::vector<StoredReading> readings = store_.after(place_, most);
+  std::vector<StoredReading> readings = store_.after(place_, most);
+  const bool none_left = readings.empty();
+  std::erase_if(readings, [last](const StoredReading& each) { return each.place > last; });
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
   take_events();
@@ -99,6 +101,7 @@ std::size_t Fleet::apply() {
   for (const auto& [unit, list] : work) {
     if (unit->stale && !std::exchange(unit->queued, true)) stale_.push_back(unit);
   }
+  if (readings.empty() && !none_left) return 0;
   if (readings.empty()) {
     live_ = true;
     all_known_ = asked;
@@ -277,7 +280,7 @@ void Fleet::publish(std::vector<Unit*>& units) {
   }
 }
 
-void Fleet::take_over(const Fleet& before) {
+void Fleet::take_over(Fleet& before) {
   std::vector<Unit*> all;
   for (const auto& [name, unit] : units_) {
     const auto found = before.units_.find(name);
@@ -292,6 +295,8 @@ void Fleet::take_over(const Fleet& before) {
   }
   beside_ = false;
   live_ = true;
+  unlogged_.insert(unlogged_.begin(), before.unlogged_.begin(), before.unlogged_.end());
+  before.unlogged_.clear();
   publish(all);
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -54,9 +55,9 @@ class Fleet : public FleetReader {
         FleetSettings settings);
   ~Fleet() override;
 
-  /// Processes the next readings and events of the store; returns the number of readings. Throws StoreError: the next
-  /// call then continues from there.
-  std::size_t apply();
+  /// Processes the next readings of the store, none after the place `last`, and its events; returns
+  /// the number of readings. Throws StoreError: the next call then continues from there.
+  std::size_t apply(std::int64_t last = std::numeric_limits<std::int64_t>::max());
   /// Forecasts changed units, each at most once a second, and together at most in a tenth of the
   /// threads' time; runs for about a tenth of a second; `all`: every one now. Returns whether none
   /// is left that is due. Throws StoreError if a change of alarm cannot be stored; it is reported
@@ -65,10 +66,11 @@ class Fleet : public FleetReader {
   /// Saves the states of changed units to the store. Throws StoreError.
   void save();
   std::int64_t place() const { return place_; }
+  std::int64_t last_event() const { return last_event_; }
   FleetSettings::Start start() const { return {started_ms_, stored_before_}; }
   /// The present alarms of the units follow those of `before`, the fleet that readers see now, as if
-  /// it had gone on. To be called before readers see this one.
-  void take_over(const Fleet& before);
+  /// it had gone on; what that has not stored yet is stored by this one. To be called before readers see this one.
+  void take_over(Fleet& before);
   /// How its fit has moved the forecasts, for readers. To be called before they see it.
   void set_moved(std::int64_t since_ms, std::vector<MovedForecast> moved);
 

@@ -41,7 +41,8 @@ void Fleet::forecast(Unit& unit) {
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;
-  view.quality.refused = record.not_counted;
+  view.quality.refused = view.quality.not_counted = record.not_counted;
+  view.quality.state_problem = record.last_problem;
   view.quality.last_problem = record.last_problem;
   seen->survival = std::make_shared<const std::vector<UnitDetail::CurvePoint>>(
       survival_curve(forecast.remaining, reported_));

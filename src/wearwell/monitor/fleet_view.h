@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ using prognosis::Interval;
 /// Outcomes of a unit's messages.
 struct Quality {
   std::uint64_t readings = 0, repeated = 0, late = 0, contradicting = 0, refused = 0;
+  std::uint64_t not_counted = 0;   ///< of `refused`: stored readings that the forecast leaves out
+  std::string state_problem = {};  ///< the last one of a stored reading
   std::string last_problem = {};
 };
 
@@ -159,6 +162,11 @@ class FleetReader {
   /// Increases with every change; `changed_since` names the units that changed after it.
   virtual std::uint64_t version() const = 0;
   virtual std::vector<std::string> changed_since(std::uint64_t version) const = 0;
+  /// The reader that answers now: several questions to it are about one fit. It lives as long as
+  /// this, or as long as it is held.
+  virtual std::shared_ptr<const FleetReader> present() const {
+    return {std::shared_ptr<const FleetReader>(), this};
+  }
 };
 
 /// Entry of external messages (HTTP POST, MQTT, files): stored when it returns true.
@@ -172,8 +180,12 @@ class Inbox {
  public:
   virtual ~Inbox() = default;
   /// One message: JSON (an object, or lines of objects) or CSV with a heading; `topic` for MQTT,
-  /// otherwise "".
-  virtual Delivery deliver(const std::string& topic, const std::string& payload) = 0;
+  /// otherwise "". `no_events`: why rows that are events are refused; empty: they are not.
+  virtual Delivery deliver(const std::string& topic, const std::string& payload,
+                           const std::string& no_events) = 0;
+  Delivery deliver(const std::string& topic, const std::string& payload) {
+    return deliver(topic, payload, {});
+  }
 };
 
 }  // namespace wearwell::monitor

@@ -156,9 +156,18 @@ class InfluxLine {
   Fields fields_;
 };
 
+/// By the two highest bits of its 32; a signed number stands for the same bits. A status of another
+/// kind says nothing good of its value. Null, or an object without a code: good.
 bool is_bad(const Json& status) {
-  const Json& code = status.is_object() && status.contains("Code") ? status["Code"] : status;
-  return code.is_number_unsigned() && (code.get<std::uint64_t>() >> 30 & 3) >= 2;
+  const bool has_code = status.is_object() && status.contains("Code");
+  const Json& code = has_code ? status["Code"] : status;
+  if (code.is_null()) return false;
+  if (code.is_object()) {  // good ones may leave out their code, which is 0
+    const std::string symbol = code.value("Symbol", Json("Good")).dump();
+    return !symbol.starts_with("\"Good");
+  }
+  if (!code.is_number_integer()) return true;
+  return (code.get<std::uint64_t>() >> 30 & 3) >= 2;
 }
 
 /// A plain value of a DataValue or a Variant; null if its status is bad.
@@ -284,6 +293,17 @@ void for_lines(std::string_view text, const std::function<void(std::string_view)
   }
 }
 
+/// Whether a text that is not JSON itself has lines that are, each an object or a list. A malformed
+/// text over several lines has none.
+bool are_messages(std::string_view text) {
+  if (text.find('\n') == text.npos || Json::accept(text)) return false;
+  bool some = false;
+  for_lines(text, [&](std::string_view line) {
+    some = some || ((line.front() == '{' || line.front() == '[') && Json::accept(line));
+  });
+  return some;
+}
+
 /// Whether it can be read at all.
 bool has_size(std::string_view payload, const std::function<void(const std::string&)>& bad) {
   if (payload.size() > longest_message) {
@@ -321,14 +341,10 @@ void read_influx(std::string_view payload, std::int64_t per_second,
 }
 
 void read_opc_ua(std::string_view payload, const std::function<void(const Fields&)>& row,
-                 const std::function<void(const std::string& problem)>& bad) {
+                 const std::function<void(const std::string& problem)>& bad, Form stream) {
   if (!has_size(payload, bad)) return;
   const std::string_view text = without_blanks(payload);
-  const std::string_view first = without_blanks(text.substr(0, text.find('\n')));
-  const char last = first.back();
-  const bool lines =
-      first.size() < text.size() && (last == '}' || last == ']') && Json::accept(first);
-  if (!lines) return read_opc_ua_text(text, row, bad);
+  if (stream != Form::json_lines && !are_messages(text)) return read_opc_ua_text(text, row, bad);
   for_lines(text, [&](std::string_view line) { read_opc_ua_text(line, row, bad); });
 }
 

@@ -23,8 +23,11 @@ void read_influx(std::string_view payload, std::int64_t per_second,
 
 /// One network message or data set message of OPC UA PubSub in JSON (OPC 10000-14, 7.2.5), a list of
 /// these, or one on each line: the fields of each payload, and those of its header. Values may be
-/// plain, DataValue or Variant; one of bad status counts as missing. A delta frame is refused.
+/// plain, DataValue or Variant; one whose status is bad, or is not a status code, counts as missing.
+/// A delta frame is refused. `stream`: json_lines if each line is a message of its own, whatever the
+/// others are.
 void read_opc_ua(std::string_view payload, const std::function<void(const Fields&)>& row,
-                 const std::function<void(const std::string& problem)>& bad);
+                 const std::function<void(const std::string& problem)>& bad,
+                 Form stream = Form::any);
 
 }  // namespace wearwell::monitor

@@ -185,7 +185,7 @@ HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& h
     if (path == "/api/v1/fits") return fits(target);
     if (path == "/api/v1/openapi.json")
       return {200, "application/json", std::string(resource::monitor_openapi())};
-    if (path == "/api/v1/readings") return readings(question.body);
+    if (path == "/api/v1/readings") return readings(question);
     if (is_events_of_unit(path)) return event_of_unit(unit_in(path), question.body);
     return unit(unit_in(path));
   } catch (const InputError& error) {
@@ -241,14 +241,16 @@ HttpResponse HttpRoutes::fits(const HttpTarget& target) const {
   }
   const std::size_t offset = target.number("offset", 0, 1'000'000'000);
   const std::size_t count = target.number("count", 50, units_at_once);
+  // One state: another fit may take the place of this one in between.
+  const std::shared_ptr<const FleetReader> reader = reader_.present();
   std::uint64_t all = 0;
   nlohmann::ordered_json moved = nlohmann::ordered_json::array();
-  for (const MovedForecast& each : reader_.moved(offset, count, &all)) {
+  for (const MovedForecast& each : reader->moved(offset, count, &all)) {
     nlohmann::ordered_json json = {{"unit", each.unit}};
     json.update(json_of(each));
     moved.push_back(std::move(json));
   }
-  const FleetView fleet = reader_.fleet();
+  const FleetView fleet = reader->fleet();
   const nlohmann::ordered_json json = {{"fit", json_of(fleet)["fit"]},
                                        {"trusted", fleet.trusted},
                                        {"all", all},
@@ -267,9 +269,17 @@ HttpResponse HttpRoutes::unit(const std::string& encoded) const {
   return {200, "application/json", text_of(json)};
 }
 
-HttpResponse HttpRoutes::readings(const std::string& body) const {
+std::string HttpRoutes::no_events(const HttpRequest& question) const {
+  if (!events_) return "it is an event, and this monitor takes no events by HTTP";
+  const unsigned roles = access_.roles(question, now_seconds());
+  if (roles & role_operate) return {};
+  return fmt::format("it is an event, which needs the role {}; the token has {}",
+                     role_names(role_operate), role_names(roles));
+}
+
+HttpResponse HttpRoutes::readings(const HttpRequest& question) const {
   if (!inbox_) return refusal(404, "this monitor takes no readings by HTTP");
-  return answer_of(inbox_->deliver("", body));
+  return answer_of(inbox_->deliver("", question.body, no_events(question)));
 }
 
 HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::string& body) const {

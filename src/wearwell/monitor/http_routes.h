@@ -45,7 +45,9 @@ class HttpRoutes final : public HttpHandler {
   HttpResponse units(const HttpTarget& target) const;
   HttpResponse fits(const HttpTarget& target) const;
   HttpResponse unit(const std::string& encoded) const;
-  HttpResponse readings(const std::string& body) const;
+  HttpResponse readings(const HttpRequest& question) const;
+  /// Why events among the readings of a sender are refused; empty if they are not.
+  std::string no_events(const HttpRequest& question) const;
   HttpResponse event_of_unit(const std::string& encoded, const std::string& body) const;
   HttpResponse metrics(const HttpCounts& http) const;
 

@@ -13,8 +13,10 @@
 
 namespace wearwell::monitor {
 
-Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages) {
+Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages,
+                         const std::string& no_events) {
   Batch batch;
+  batch.no_events = no_events;
   for (const Message& message : messages) read(source, message, batch);
   return deliver(source, batch);
 }
@@ -108,7 +110,7 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
   if (format.form == Form::influx) {
     read_influx(message.payload, format.per_second, row, refuse_message);
   } else if (format.form == Form::opc_ua) {
-    read_opc_ua(message.payload, row, refuse_message);
+    read_opc_ua(message.payload, row, refuse_message, message.form);
   } else {
     for_each_row(message.payload, row, refuse_message, message.form);
   }
@@ -124,6 +126,7 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
   };
   try {
     if (is_event(fields, source.mapping)) {
+      if (!batch.no_events.empty()) throw InputError(batch.no_events);
       UnitEvent event = event_of(fields, unit, source.mapping, now_ms);
       if (!needs_reference(event.kind)) admit(event.unit);
       batch.events.push_back(std::move(event));
@@ -154,6 +157,9 @@ void Intake::commit(Batch& batch) {
 /// What an event refers to and the store does not have; empty if it is there.
 std::string Intake::missing_reference(const UnitEvent& event) {
   if (!needs_reference(event.kind)) return {};
+  if (event.kind == EventKind::acknowledged)
+    return tally_.knows(event.unit) ? std::string()
+                                    : fmt::format("acknowledged: '{}' is not a unit", event.unit);
   if (event.kind != EventKind::cancelled) {
     if (store_.reading(event.unit, event.key)) return {};
     return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),
@@ -199,8 +205,10 @@ EventInbox::EventInbox(Intake& intake, const prognosis::Tracker& tracker, bool k
   source_.mapping = plain_mapping(tracker, keys_are_times);
 }
 
-Delivery EventInbox::deliver(const std::string& unit, const std::string& payload) {
-  Row row{unit, {}};
+Delivery EventInbox::deliver(const std::string& unit, const std::string& payload,
+                             const std::string& no_events) {
+  Row row{unit, {}, no_events};
+  if (!no_events.empty()) return intake_.deliver(source_, std::span(&row, 1));
   try {
     row.fields = fields_of_json(payload);
     if (!is_event(row.fields, source_.mapping))

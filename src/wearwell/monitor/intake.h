@@ -38,7 +38,9 @@ class Intake {
   /// Returns when all readable messages are stored, or cannot be stored now: then none of them is,
   /// or all are, and they may be delivered again. Unreadable ones are refused and counted; the
   /// others are stored.
-  Delivery deliver(const SourceSettings& source, std::span<const Message> messages);
+  /// `no_events`: why rows that are events are refused; empty: they are not.
+  Delivery deliver(const SourceSettings& source, std::span<const Message> messages,
+                   const std::string& no_events = {});
   Delivery deliver(const SourceSettings& source, std::span<const Row> rows);
 
   /// Counts input that is not a message.
@@ -53,6 +55,7 @@ class Intake {
     std::vector<UnitEvent> events = {};
     std::vector<Refusal> refusals = {};  // counted when the others are stored, and so only once
     std::size_t rows = 0;
+    std::string no_events = {};
     std::vector<Kept> kept = {}, kept_events = {};
     std::string remark = {};  // of an event that was stored already and does not hold
     std::string trouble = {};
@@ -85,7 +88,9 @@ class EventInbox : public Inbox {
  public:
   EventInbox(Intake& intake, const prognosis::Tracker& tracker, bool keys_are_times);
   ReadingMapping& mapping() { return source_.mapping; }
-  Delivery deliver(const std::string& unit, const std::string& payload) override;
+  using Inbox::deliver;
+  Delivery deliver(const std::string& unit, const std::string& payload,
+                   const std::string& no_events) override;
 
  private:
   Intake& intake_;
@@ -96,9 +101,11 @@ class EventInbox : public Inbox {
 class SourceInbox : public Inbox {
  public:
   SourceInbox(Intake& intake, const SourceSettings& source) : intake_(intake), source_(source) {}
-  Delivery deliver(const std::string& topic, const std::string& payload) override {
+  using Inbox::deliver;
+  Delivery deliver(const std::string& topic, const std::string& payload,
+                   const std::string& no_events) override {
     const Message message{topic, payload};
-    return intake_.deliver(source_, std::span(&message, 1));
+    return intake_.deliver(source_, std::span(&message, 1), no_events);
   }
 
  private:

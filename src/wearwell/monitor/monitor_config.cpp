@@ -1,14 +1,18 @@
 #include "wearwell/monitor/monitor_config.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <netinet/in.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <functional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/monitor/foreign_message.h"
 #include "wearwell/monitor/http_access.h"
@@ -23,13 +27,24 @@ namespace {
 /// The problems of a file's parts, all of them.
 class Problems {
  public:
-  void in(const std::function<void()>& part) {
+  /// Whether the part has none.
+  bool in(const std::function<void()>& part) {
     try {
       part();
+      return true;
     } catch (const InputError& error) {
       const std::string text = error.what();
       if (std::find(all_.begin(), all_.end(), text) == all_.end()) all_.push_back(text);
+      return false;
     }
+  }
+  /// A part in a table of its own, with the unknown keys of that. Keys behind the first problem of
+  /// a table were never requested, so they are not unknown.
+  void in_table(const TomlReader& root, const char* key, const std::function<void()>& part) {
+    if (!in(part)) return;
+    in([&] {
+      if (const auto table = root.table(key)) table->finish();
+    });
   }
   bool empty() const { return all_.empty(); }
   void finish() const {
@@ -134,6 +149,33 @@ void read_sparkplug_source(const TomlReader& table, const std::string& name,
       table.choice("births", {"values", "readings"}).value_or("values") == "readings";
 }
 
+/// Parts of a message beside its fields, which only some forms have.
+void check_places(const TomlReader& reading, const SourceSettings& source) {
+  const Form form = source.format.form;
+  const bool influx = form == Form::influx, opc_ua = form == Form::opc_ua;
+  const bool sparkplug = source.kind == SourceKind::sparkplug;
+  const auto check = [&](const char* key, const std::string& field) {
+    if (!field.starts_with('{') || !field.ends_with('}') || is_place_of(form, field)) return;
+    const bool elsewhere = is_place_of(Form::influx, field) || is_place_of(Form::opc_ua, field);
+    const bool of_topic = sparkplug && field == timestamp_field;
+    if (of_topic || (!influx && !opc_ua && !elsewhere)) return;
+    reading.fail(key, fmt::format("'{}' is not in messages of this form{}", field,
+                                  influx   ? ", which have {measurement} and {timestamp}"
+                                  : opc_ua ? ", which have {publisher}, {writer}, {sequence} and "
+                                             "{timestamp}"
+                                           : ""));
+  };
+  const ReadingMapping& mapping = source.mapping;
+  check("unit", mapping.unit);
+  check("sequence", mapping.sequence);
+  check("time", mapping.time);
+  check("event", mapping.event);
+  for (const ColumnField& column : mapping.columns) {
+    if (!column.constant) check("columns", column.field);
+  }
+  for (const std::string& label : mapping.labels) check("columns", label);
+}
+
 /// Keys for topics and properties, which only a source of Sparkplug B may have.
 void check_braces(const TomlReader& reading, const SourceSettings& source) {
   const bool sparkplug = source.kind == SourceKind::sparkplug;
@@ -169,6 +211,9 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
       reading.fail("time_format", "must be \"unix ms\" for {timestamp}");
   }
   for (const std::string& label : mapping.labels) check("columns", label);
+  if (check("sequence", mapping.sequence))
+    reading.fail("sequence", "does not distinguish readings: it is part of the topic");
+  check_places(reading, source);
 }
 
 /// How messages are written: JSON and CSV by themselves, other forms by name.
@@ -248,7 +293,10 @@ void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, Mon
     config.sequence = sequence;
     config.sources.push_back(source);
   };
-  for (const std::string& name : sources.keys()) problems.in([&] { read_one(name); });
+  for (const std::string& name : sources.keys()) {
+    if (problems.in([&] { read_one(name); }))
+      problems.in([&] { sources.required_table(name).finish(); });
+  }
   if (!some) root.fail("source", "has no source: write [source.NAME] with a kind");
 }
 
@@ -278,12 +326,26 @@ AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& track
 }
 
 bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
+  in_addr four{};
+  in6_addr six{};
+  if (inet_pton(AF_INET, host.c_str(), &four) == 1) return ntohl(four.s_addr) >> 24 == 127;
+  if (inet_pton(AF_INET6, host.c_str(), &six) == 1) return IN6_IS_ADDR_LOOPBACK(&six) != 0;
+  return host == "localhost";
 }
 
 /// The first line of a file with a secret.
 std::string read_secret(const TomlReader& table, const char* key) {
-  std::string text = read_text_file(existing(table, key)).text;
+  const std::filesystem::path file = existing(table, key);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    table.fail(key, fmt::format("{} must be a file with one line", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) table.fail(key, fmt::format("{} cannot be read (permissions?)", file.string()));
+  constexpr std::size_t longest = 1 << 16;  // bytes
+  std::string text(longest, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(longest));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() == longest) table.fail(key, "must be a file with one line");
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   if (text.empty() || text.find_first_of("\r\n") != text.npos)
     table.fail(key, "must be a file with one line");
@@ -396,6 +458,17 @@ PublishSettings read_publish(const TomlReader& table) {
   return publish;
 }
 
+/// The keys of the file itself, where `finish` would also see those behind a problem.
+void refuse_unknown_tables(const TomlReader& root) {
+  const std::vector<std::string> known = {"result", "title", "store",   "reading", "source",
+                                          "alarm",  "http",  "publish", "webhook", "limits"};
+  for (const std::string& key : root.keys()) {
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      root.fail(key, fmt::format("unknown key; did you mean '{}'? (possible: {})",
+                                 nearest_name(key, known), fmt::join(known, ", ")));
+  }
+}
+
 }  // namespace
 
 std::filesystem::path read_result_path(const TomlReader& root) {
@@ -409,35 +482,38 @@ MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Track
   root.has("result");
   Problems problems;
   problems.in([&] { config.title = root.text("title").value_or(""); });
-  problems.in([&] {
+  problems.in_table(root, "store", [&] {
     if (const auto store = root.table("store")) config.store = store->text("url").value_or("");
     if (config.store.empty()) config.store = "fleet.sqlite";
     if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
       root.required_table("store").fail("url", "is neither a file nor postgresql://...");
   });
   problems.in([&] { read_sources(root, tracker, config, problems); });
-  problems.in([&] { config.alarm = read_alarm(root, tracker); });
-  problems.in([&] {
+  problems.in_table(root, "alarm", [&] { config.alarm = read_alarm(root, tracker); });
+  problems.in_table(root, "http", [&] {
     if (const auto http = root.table("http")) config.http = read_http(*http);
     const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
     if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
       root.fail("http", "is missing: a source of kind \"http\" needs a server, [http]");
   });
-  problems.in([&] {
+  problems.in_table(root, "publish", [&] {
     if (const auto publish = root.table("publish")) config.publish = read_publish(*publish);
   });
-  problems.in([&] {
+  problems.in_table(root, "webhook", [&] {
     if (const auto webhook = root.table("webhook")) config.webhook = read_webhook(*webhook);
   });
-  problems.in([&] {
+  problems.in_table(root, "limits", [&] {
     constexpr long long most = 10'000'000;
     if (const auto limits = root.table("limits")) {
       if (const auto units = limits->integer("units", 1, most))
         config.most_units = static_cast<std::size_t>(*units);
     }
   });
-  // Keys behind the first problem of a table were never requested, so they are not unknown.
-  if (problems.empty()) root.finish();
+  if (problems.empty()) {
+    root.finish();
+  } else {
+    problems.in([&] { refuse_unknown_tables(root); });
+  }
   problems.finish();
   return config;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -15,6 +16,7 @@
 #include "wearwell/monitor/fleet.h"
 #include "wearwell/monitor/http_server.h"
 #include "wearwell/monitor/intake.h"
+#include "wearwell/monitor/learned_readings.h"
 #include "wearwell/monitor/monitor_signals.h"
 #include "wearwell/monitor/publisher.h"
 #include "wearwell/monitor/source.h"
@@ -128,6 +130,7 @@ class RunningFleet {
   void exchange(const FitExchange::Ready& ready);
 
  private:
+  void refuse_learned();
   FleetSettings settings_of(const Population& population) const;
   std::shared_ptr<Fleet> make(const Population& population, FleetSettings settings);
 
@@ -207,6 +210,7 @@ void RunningFleet::catch_up(MonitorSignals& signals) {
     sort_by_change(moved);
     fleet_->set_moved(fits.back().since_ms, std::move(moved));
   } else {
+    if (!fits.empty()) refuse_learned();
     store_.begin_fit(fit, {});
     fleet_->set_moved(fit.since_ms, {});
   }
@@ -220,12 +224,21 @@ void RunningFleet::catch_up(MonitorSignals& signals) {
   fleet_->refresh(true);
 }
 
+void RunningFleet::refuse_learned() {
+  if (const std::string why = learned_from(store_, *population_.tracker); !why.empty())
+    throw InputError(fmt::format("the result {}: {}", population_.fingerprint.substr(0, 7), why));
+}
+
 void RunningFleet::exchange(const FitExchange::Ready& ready) {
   Fleet& next = *ready.fleet;
-  // What came since it was built; the rest after the exchange.
-  constexpr int rounds = 10;
-  for (int i = 0; i < rounds && next.apply() > 0; ++i) {
-  }
+  // Forecasts of both are compared, so both must be of the same readings and events: those up to
+  // the place that one of them has reached; the rest comes after the exchange.
+  const std::int64_t last = std::max(fleet_->place(), next.place());
+  do {
+    fleet_->apply(last);
+    next.apply(last);
+  } while (fleet_->place() != next.place() || fleet_->last_event() != next.last_event());
+  fleet_->refresh(true);
   next.refresh(true);
   const std::vector<MovedForecast> moved = moved_forecasts(*fleet_, next);
   const StoredFit fit{0, ready.population.fingerprint, unix_ms_now(), ready.population.written_ms,
@@ -379,8 +392,9 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   std::optional<FitExchange> exchange;
   if (!options.once)
     exchange.emplace(
-        result, population, [&](const Population& next) { return running.make_beside(next); },
-        notices, [&] { wake.ring(); });
+        result, population, running.readers(),
+        [&](const Population& next) { return running.make_beside(next); }, notices,
+        [&] { wake.ring(); });
   while (!signals.ends()) {
     constexpr auto patience = std::chrono::milliseconds(50);
     const bool over = sources.ended();

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <ctime>
+#include <optional>
 
 namespace wearwell::monitor {
 namespace {
@@ -18,13 +19,35 @@ bool has_terminal() {
   return isatty(STDIN_FILENO) == 1 || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 1;
 }
 
-}  // namespace
-
-MonitorSignals::MonitorSignals() : at_terminal_(has_terminal()) {
-  end_noted = hangup_noted = false;
+struct sigaction noting_action() {
   struct sigaction noting = {};
   noting.sa_handler = note_signal;
   noting.sa_flags = SA_RESTART;
+  return noting;
+}
+
+/// Whether there was a terminal when the HangupNote began; empty without one.
+std::optional<bool> terminal_before;
+
+}  // namespace
+
+HangupNote::HangupNote() {
+  hangup_noted = false;
+  terminal_before = has_terminal();
+  const struct sigaction noting = noting_action();
+  sigaction(SIGHUP, nullptr, &before_);
+  if (before_.sa_handler != SIG_IGN) sigaction(SIGHUP, &noting, nullptr);
+}
+
+HangupNote::~HangupNote() {
+  sigaction(SIGHUP, &before_, nullptr);
+  terminal_before.reset();
+}
+
+MonitorSignals::MonitorSignals() : at_terminal_(terminal_before.value_or(has_terminal())) {
+  end_noted = false;
+  if (!terminal_before) hangup_noted = false;
+  const struct sigaction noting = noting_action();
   sigemptyset(&blocked_);
   for (std::size_t i = 0; i < signals.size(); ++i) {
     sigaction(signals[i], nullptr, &actions_before_[i]);

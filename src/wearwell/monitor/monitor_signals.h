@@ -7,6 +7,19 @@
 
 namespace wearwell::monitor {
 
+/// While it lives, and until MonitorSignals begin, SIGHUP does not end the program: it is noted for
+/// them. For the time in which the result is read.
+class HangupNote {
+ public:
+  HangupNote();
+  ~HangupNote();
+  HangupNote(const HangupNote&) = delete;
+  HangupNote& operator=(const HangupNote&) = delete;
+
+ private:
+  struct sigaction before_ = {};
+};
+
 /// While it lives, SIGINT, SIGTERM and SIGHUP are queued until polled. New threads leave them to it
 /// and are not interrupted; existing ones (workers that read the result) note those that reach
 /// them. An ignored signal stays ignored. SIGHUP asks for a look at the result; it ends the program

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "wearwell/monitor/learned_readings.h"
+
 namespace wearwell::monitor {
 namespace {
 
@@ -39,7 +41,7 @@ std::string misfit(const Population& present, const Population& now,
   for (const std::string& unit : units) {
     if (const std::string why = tracker.refusal(unit); !why.empty()) return why;
   }
-  return {};
+  return learned_units(old, tracker, units);
 }
 
 PopulationChecks::PopulationChecks(std::shared_ptr<const prognosis::Tracker> tracker) {

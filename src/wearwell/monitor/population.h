@@ -28,7 +28,8 @@ struct ResultSource {
 };
 
 /// Why forecasts of `now` cannot take the place of those of `present`: other columns, another
-/// threshold, a result that is not trusted, a unit of `units` that it refuses. Empty if they can.
+/// threshold, a result that is not trusted, a unit of `units` (those with stored readings) that it
+/// refuses, or of which it has learned readings (`learned_units`). Empty if they can.
 std::string misfit(const Population& present, const Population& now,
                    const std::vector<std::string>& units);
 

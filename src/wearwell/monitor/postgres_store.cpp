@@ -113,8 +113,8 @@ class PostgresStore : public Store {
   std::vector<StoredFit> fits() override;
   void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) override;
   std::vector<MovedForecast> moved(std::int64_t fit) override;
-  std::map<std::string, Alarm> sent_alarms() override;
-  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override;
+  std::map<std::string, SentAlarm> sent_alarms() override;
+  void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
@@ -140,7 +140,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
   StoreColumns there;
   const auto look = [&](pqxx::work& work) {
     const bool fresh = work.exec1("SELECT to_regclass('wearwell') IS NULL")[0].as<bool>();
-    if (fresh && access == Access::read) return;
+    if (fresh && access != Access::write) return;
     if (fresh) {
       work.exec(tables);
       work.exec(event_table);
@@ -169,7 +169,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
   if (version.empty())
     throw InputError(fmt::format("{} has no store yet: no monitor has run", name_));
   const int number = check_store(name_, version, there, columns, access);
-  if (number == store_version) return;
+  if (number == store_version || access != Access::write) return;
   migrate(number);
   if (reported) reported(migrated_text(name_, number));
 }
@@ -344,9 +344,15 @@ void PostgresStore::begin_fit(const StoredFit& fit, const std::vector<MovedForec
                 "$2, $3, $4) RETURNING number",
                 fit.population, fit.since_ms, fit.written_ms, fit.trusted)[0]
             .as<std::int64_t>();
-    for (const MovedForecast& each : moved)
-      work.exec_params("INSERT INTO wearwell_moved VALUES ($1, $2, $3)", number, each.unit,
-                       content_of(each));
+    constexpr std::size_t at_once = 1000;
+    for (std::size_t from = 0; from < moved.size(); from += at_once) {
+      std::string values;
+      for (const MovedForecast& each :
+           std::span(moved).subspan(from, std::min(at_once, moved.size() - from)))
+        values += fmt::format("{}({},{},{})", values.empty() ? "" : ",", number,
+                              work.quote(each.unit), work.quote(content_of(each)));
+      work.exec(fmt::format("INSERT INTO wearwell_moved VALUES {}", values));
+    }
   });
 }
 
@@ -361,21 +367,22 @@ std::vector<MovedForecast> PostgresStore::moved(std::int64_t fit) {
   return moved;
 }
 
-std::map<std::string, Alarm> PostgresStore::sent_alarms() {
-  std::map<std::string, Alarm> sent;
+std::map<std::string, SentAlarm> PostgresStore::sent_alarms() {
+  std::map<std::string, SentAlarm> sent;
   read_.run([&](pqxx::work& work) {
     for (const auto& row : work.exec("SELECT unit, alarm FROM wearwell_sent"))
-      sent[row[0].c_str()] = alarm_named(row[1].c_str());
+      sent[row[0].c_str()] = sent_alarm(row[1].c_str());
   });
   return sent;
 }
 
-void PostgresStore::note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) {
+void PostgresStore::note_sent(const std::string& unit, const SentAlarm& alarm,
+                              std::int64_t time_ms) {
   write_.run([&](pqxx::work& work) {
     work.exec_params(
         "INSERT INTO wearwell_sent VALUES ($1, $2, $3) ON CONFLICT (unit) DO UPDATE SET alarm = "
         "excluded.alarm, time_ms = excluded.time_ms",
-        unit, name(alarm), time_ms);
+        unit, text_of(alarm), time_ms);
   });
 }
 

@@ -91,8 +91,8 @@ class SqliteStore : public Store {
   std::vector<StoredFit> fits() override;
   void begin_fit(const StoredFit& fit, const std::vector<MovedForecast>& moved) override;
   std::vector<MovedForecast> moved(std::int64_t fit) override;
-  std::map<std::string, Alarm> sent_alarms() override;
-  void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) override;
+  std::map<std::string, SentAlarm> sent_alarms() override;
+  void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
@@ -113,7 +113,7 @@ class SqliteStore : public Store {
 
 /// A writing monitor is the only writer; a reader must find a store.
 std::optional<LockFile> locked(const std::filesystem::path& file, Access access) {
-  if (access == Access::read) {
+  if (access != Access::write) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
       throw InputError(fmt::format("{} is not a store yet: no monitor has run", file.string()));
@@ -141,7 +141,7 @@ SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& 
     throw;
   }
   const int version = check(columns, access);
-  if (version < store_version) {
+  if (version < store_version && access == Access::write) {
     migrate(version);
     if (reported) reported(migrated_text(name_, version));
   }
@@ -391,19 +391,19 @@ std::vector<MovedForecast> SqliteStore::moved(std::int64_t fit) {
   return moved;
 }
 
-std::map<std::string, Alarm> SqliteStore::sent_alarms() {
+std::map<std::string, SentAlarm> SqliteStore::sent_alarms() {
   const std::lock_guard lock(read_lock_);
   SqliteStatement select(read_, "SELECT unit, alarm FROM sent");
-  std::map<std::string, Alarm> sent;
-  while (select.next()) sent[select.text(0)] = alarm_named(select.text(1));
+  std::map<std::string, SentAlarm> sent;
+  while (select.next()) sent[select.text(0)] = sent_alarm(select.text(1));
   return sent;
 }
 
-void SqliteStore::note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) {
+void SqliteStore::note_sent(const std::string& unit, const SentAlarm& alarm, std::int64_t time_ms) {
   const std::lock_guard lock(write_lock_);
   SqliteStatement insert(write_, "INSERT OR REPLACE INTO sent VALUES (?, ?, ?)");
-  insert.bind(1, std::string_view(unit)).bind(2, std::string_view(name(alarm)));
-  insert.bind(3, time_ms).run();
+  const std::string text = text_of(alarm);
+  insert.bind(1, std::string_view(unit)).bind(2, std::string_view(text)).bind(3, time_ms).run();
 }
 
 void SqliteStore::note_file(const std::string& file, std::int64_t bytes) {

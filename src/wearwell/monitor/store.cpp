@@ -9,10 +9,26 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/monitor/alarm.h"
 #include "wearwell/monitor/postgres_store.h"
 #include "wearwell/monitor/sqlite_store.h"
 
 namespace wearwell::monitor {
+namespace {
+
+constexpr std::string_view unconfirmed = " unconfirmed";
+
+}  // namespace
+
+std::string text_of(const SentAlarm& sent) {
+  return std::string(name(sent.alarm)) + (sent.unconfirmed ? std::string(unconfirmed) : "");
+}
+
+SentAlarm sent_alarm(std::string_view text) {
+  const bool open = text.ends_with(unconfirmed);
+  if (open) text.remove_suffix(unconfirmed.size());
+  return {alarm_named(text), open};
+}
 
 bool is_postgres(const std::string& url) {
   return url.starts_with("postgresql://") || url.starts_with("postgres://");

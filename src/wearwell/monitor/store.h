@@ -51,6 +51,17 @@ struct AlarmChange {
   std::int64_t place = 0;
 };
 
+/// What a server of alarms has been sent of a unit.
+struct SentAlarm {
+  Alarm alarm = Alarm::ok;  ///< the one that it has accepted last
+  /// Another one was sent since, without an answer that accepts it: it may have that one.
+  bool unconfirmed = false;
+  bool operator==(const SentAlarm&) const = default;
+};
+/// "act", "act unconfirmed", and back.
+std::string text_of(const SentAlarm& sent);
+SentAlarm sent_alarm(std::string_view text);
+
 /// The store is temporarily unavailable: the disk is full, the server is away. The operation was
 /// not done, or is found as done when it is repeated; it may succeed later.
 struct StoreError : std::runtime_error {
@@ -101,9 +112,9 @@ class Store {
   /// The forecasts that a fit has moved, by unit.
   virtual std::vector<MovedForecast> moved(std::int64_t fit) = 0;
 
-  /// The alarm of each unit that the webhook has accepted last.
-  virtual std::map<std::string, Alarm> sent_alarms() = 0;
-  virtual void note_sent(const std::string& unit, Alarm alarm, std::int64_t time_ms) = 0;
+  /// What the server of the webhook has been sent, by unit.
+  virtual std::map<std::string, SentAlarm> sent_alarms() = 0;
+  virtual void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) = 0;
 
   /// The position read so far in a file of a folder: bytes.
   virtual void note_file(const std::string& file, std::int64_t bytes) = 0;
@@ -117,8 +128,9 @@ struct StoreColumns {
   bool sequence = false;  ///< keys are sequence numbers, else times
 };
 
-/// `read`: while a monitor may be running; the store must exist.
-enum class Access { write, read };
+/// `read`: while a monitor may be running; the store must exist. `copy`: as `read`, only to copy it
+/// as a whole, so that its version may be older.
+enum class Access { write, read, copy };
 
 /// Takes messages about the opening of a store.
 using StoreNotice = std::function<void(const std::string& what)>;

@@ -36,6 +36,11 @@ bool Tally::admit(const std::string& unit) {
   return true;
 }
 
+bool Tally::knows(const std::string& unit) const {
+  const std::lock_guard lock(lock_);
+  return units_.contains(unit);
+}
+
 Tally::Counts Tally::counts(const std::string& unit) const {
   const std::lock_guard lock(lock_);
   const auto found = units_.find(unit);

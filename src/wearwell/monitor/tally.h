@@ -29,6 +29,7 @@ class Tally {
   void refused(const std::string& unit, const std::string& problem);
   /// False if it is new and the limit is reached.
   bool admit(const std::string& unit);
+  bool knows(const std::string& unit) const;
 
   Counts counts(const std::string& unit) const;
   Total total() const;

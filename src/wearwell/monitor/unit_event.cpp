@@ -40,7 +40,7 @@ bool changes_state(EventKind kind) {
 
 bool needs_reference(EventKind kind) {
   return kind == EventKind::corrected || kind == EventKind::withdrawn ||
-         kind == EventKind::cancelled;
+         kind == EventKind::cancelled || kind == EventKind::acknowledged;
 }
 
 EventKind stored_event(std::string_view name) {

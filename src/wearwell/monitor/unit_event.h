@@ -24,7 +24,7 @@ const char* name(EventKind kind);
 std::optional<EventKind> event_named(std::string_view name);
 /// Whether it changes what the readings say: an acknowledgement does not.
 bool changes_state(EventKind kind);
-/// Whether it is about a stored reading or another event.
+/// Whether it is about a stored reading, another event or an alarm, so that its unit is there.
 bool needs_reference(EventKind kind);
 /// The kind in a store. Throws StoreError for another text.
 EventKind stored_event(std::string_view name);

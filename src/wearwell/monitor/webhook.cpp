@@ -15,7 +15,7 @@
 namespace wearwell::monitor {
 
 void AlarmQueue::see(const std::string& unit, Alarm alarm, Clock::time_point now) {
-  if (alarm == sent(unit)) {
+  if (sent(unit) == SentAlarm{alarm, false}) {
     waiting_.erase(unit);
     return;
   }
@@ -38,13 +38,13 @@ std::vector<std::string> AlarmQueue::due(Clock::time_point now) const {
   return units;
 }
 
-Alarm AlarmQueue::sent(const std::string& unit) const {
+SentAlarm AlarmQueue::sent(const std::string& unit) const {
   const auto found = sent_.find(unit);
-  return found == sent_.end() ? Alarm::ok : found->second;
+  return found == sent_.end() ? SentAlarm() : found->second;
 }
 
 void AlarmQueue::accepted(const std::string& unit, Alarm alarm) {
-  sent_[unit] = alarm;
+  sent_[unit] = {alarm, false};
   const auto at = waiting_.find(unit);
   if (at != waiting_.end() && at->second.alarm == alarm) waiting_.erase(at);
 }
@@ -102,12 +102,38 @@ std::string message_of_alarm(const FleetView& fleet, const UnitView& unit, Alarm
   return text_of(json);
 }
 
+/// What the store is to know of sent alarms, until it knows it.
+class SentNotes {
+ public:
+  SentNotes(Store& store, Notices& notices) : store_(store), notices_(notices) {}
+
+  void add(const std::string& unit, const SentAlarm& sent) { waiting_[unit] = sent; }
+  /// A store that does not respond is tried again; the webhook does not wait for it.
+  void write() {
+    try {
+      while (!waiting_.empty()) {
+        const auto first = waiting_.begin();
+        store_.note_sent(first->first, first->second, unix_ms_now());
+        waiting_.erase(first);
+      }
+    } catch (const StoreError& error) {
+      notices_.tell("store", error.what());
+    }
+  }
+
+ private:
+  Store& store_;
+  Notices& notices_;
+  std::map<std::string, SentAlarm> waiting_;
+};
+
 }  // namespace
 
 void send_alarms(const FleetReader& reader, const WebhookSettings& settings, Store& store,
                  Notices& notices, WebhookCounts& counts, std::stop_token stop) {
   constexpr auto between = std::chrono::milliseconds(200);
   std::optional<AlarmQueue> queue;
+  SentNotes notes(store, notices);
   std::uint64_t seen = 0;
   const auto trouble = [&](const std::string& problem) {
     notices.tell("webhook", fmt::format("{}: {}; trying again", settings.url, problem));
@@ -115,6 +141,7 @@ void send_alarms(const FleetReader& reader, const WebhookSettings& settings, Sto
   while (pause(between, stop)) {
     try {
       if (!queue) queue.emplace(store.sent_alarms(), settings.lasting);
+      notes.write();
       const std::uint64_t version = reader.version();
       for (const std::string& name : reader.changed_since(seen)) {
         if (const auto unit = reader.view(name))
@@ -126,8 +153,14 @@ void send_alarms(const FleetReader& reader, const WebhookSettings& settings, Sto
         const auto unit = reader.view(name);
         // If it has changed just now, it must last first.
         if (!unit || unit->alarm != queue->waiting(name).alarm) continue;
+        const SentAlarm before = queue->sent(name);
+        queue->attempted(name);
+        if (!before.unconfirmed) {  // before the first attempt, for a start after a kill
+          notes.add(name, queue->sent(name));
+          notes.write();
+        }
         const std::string problem =
-            post(settings, message_of_alarm(reader.fleet(), *unit, queue->sent(name)), stop);
+            post(settings, message_of_alarm(reader.fleet(), *unit, before.alarm), stop);
         if (stop.stop_requested() && !problem.empty()) return;
         if (!problem.empty()) {
           ++counts.failed;
@@ -138,7 +171,8 @@ void send_alarms(const FleetReader& reader, const WebhookSettings& settings, Sto
         ++counts.sent;
         queue->accepted(name, unit->alarm);
         counts.waiting = queue->size();
-        store.note_sent(name, unit->alarm, unix_ms_now());
+        notes.add(name, queue->sent(name));
+        notes.write();
       }
     } catch (const StoreError& error) {
       notices.tell("store", error.what());

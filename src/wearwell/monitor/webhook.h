@@ -36,22 +36,25 @@ class AlarmQueue {
                         longest = std::chrono::milliseconds(300'000);
 
   /// `sent`: the alarm of each unit that was accepted last; ok where none was.
-  AlarmQueue(std::map<std::string, Alarm> sent, std::chrono::milliseconds lasting)
+  AlarmQueue(std::map<std::string, SentAlarm> sent, std::chrono::milliseconds lasting)
       : sent_(std::move(sent)), lasting_(lasting) {}
 
   void see(const std::string& unit, Alarm alarm, Clock::time_point now);
   /// Units whose alarm is due, the one that has waited longest first.
   std::vector<std::string> due(Clock::time_point now) const;
-  Alarm sent(const std::string& unit) const;
+  SentAlarm sent(const std::string& unit) const;
   const Waiting& waiting(const std::string& unit) const { return waiting_.at(unit); }
   std::size_t size() const { return waiting_.size(); }
 
+  /// An attempt begins. Until one succeeds the server may have either alarm, because the answer to
+  /// this one may be lost: no alarm of the unit counts as sent, also not the one before.
+  void attempted(const std::string& unit) { sent_[unit].unconfirmed = true; }
   void accepted(const std::string& unit, Alarm alarm);
   /// It is due again after a pause, which doubles with each failure.
   void failed(const std::string& unit, Clock::time_point now);
 
  private:
-  std::map<std::string, Alarm> sent_;
+  std::map<std::string, SentAlarm> sent_;
   std::map<std::string, Waiting> waiting_;
   std::chrono::milliseconds lasting_;
 };
