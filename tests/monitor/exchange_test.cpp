@@ -445,6 +445,7 @@ class RunningMonitors : public FleetRig {
           [](const FleetReader&) {});
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s\n", error.what());
+      std::fflush(stderr);
       _exit(2);
     }
     _exit(0);
