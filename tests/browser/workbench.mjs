@@ -154,6 +154,131 @@ async function errors(browser) {
   faults.push(...complaints.map((each) => `errors: ${each}`));
 }
 
+// Two tabs on one session, a file that another program changes, and a study that stays when another table is opened.
+async function tabs(browser) {
+  const complaints = [];
+  const inside = fresh('tabs');
+  writeFileSync(join(inside, 'pumps.csv'), messy, 'latin1');
+  writeFileSync(join(inside, 'other.csv'), `hours [h],status\n${hours.slice(3).map((each, i) => `${each},${i < 8 ? 'failure' : 'running'}\n`).join('')}`);
+  writeFileSync(join(inside, 'exact.csv'), 'a,b\n123456789012345,1e-7\n');
+  const {address, stop} = await serve(join(inside, 'pumps.csv'));
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}});
+  const first = await open(context, address, complaints), second = await open(context, address, complaints);
+  const shows = (page, table) => page.waitForFunction((name) => document.querySelector('#panel-data caption')?.textContent.startsWith(name), table, {timeout: 60000});
+  const opened = async (page, name) => {
+    await page.click('#step-data');
+    await page.selectOption('#in-folder', name);
+    await page.click('#panel-data .doors button');
+    if (name.endsWith('.csv')) await shows(page, name);
+  };
+  const good = (page) => page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  const value = (page, wanted) => page.waitForFunction((part) => document.getElementById('study').value.includes(part), wanted, {timeout: 60000});
+  const save = (page) => page.click('.editing button:has-text("Save")');
+
+  // What one tab opens the other shows, all of it.
+  await opened(second, 'other.csv');
+  await shows(first, 'other.csv');
+  await first.waitForFunction(() => document.querySelectorAll('#panel-data tbody tr').length === 12, null, {timeout: 60000});
+  await opened(first, 'exact.csv');
+  const cells = await first.$$eval('#panel-data tbody td', (all) => all.map((each) => each.textContent));
+  check(cells.join() === '123456789012345,1e-7', `tabs: cells lose digits: ${cells}`);
+  await first.click('#banners button').catch(() => {});
+
+  // A saved study stays when another table is opened, and the page says so.
+  await opened(first, 'pumps.csv');
+  await first.click('#step-model');
+  await value(first, 'pumps.csv');
+  await good(first);
+  await save(first);
+  await first.waitForFunction(() => document.querySelector('.editing').textContent.includes('Saved as pumps.toml'));
+  const study = await first.inputValue('#study');
+  await opened(first, 'other.csv');
+  await first.waitForSelector('#notice .callout', {timeout: 60000});
+  check(await first.inputValue('#study') === study, 'tabs: a table replaced a saved study');
+  await looks(first, 'tabs notice', complaints);
+  await first.screenshot({path: join(screenshots, 'workbench-notice.png')});
+  await first.click('#step-model');
+  check(!(await first.isVisible('.readings')), 'tabs: readings of another table are beside the study');
+  await first.click('#notice button:has-text("Guess")');
+  await value(first, 'other.csv');
+  check(await first.inputValue('#study-file') === 'other.toml', 'tabs: the guess has the name of the other study');
+  await first.click('button:has-text("Undo")');
+  check(await first.inputValue('#study') === study && await first.inputValue('#study-file') === 'pumps.toml', 'tabs: undo does not bring the study back');
+
+  // The same table with other settings.
+  await first.waitForSelector('#notice button:has-text("Show the table")', {timeout: 60000});
+  await first.click('#notice button:has-text("Show the table")');
+  await shows(first, 'pumps.csv');
+  await first.waitForFunction(() => !document.querySelector('#notice').children.length, null, {timeout: 60000});
+  await first.click('#step-data');
+  await first.click('#panel-data summary');
+  await first.fill('#setting-decimal', ',');
+  await first.click('#panel-data form button');
+  await first.waitForSelector('#notice .callout:has-text("Decimal mark")', {timeout: 60000});
+  await first.click('#notice button:has-text("Keep")');
+
+  // A fit is of the text that is shown: another program changes the file.
+  writeFileSync(join(inside, 'pumps.toml'), study.replace('credible_level = 0.9', 'credible_level = 0.5'));
+  await first.click('#step-fit');
+  await first.click('#panel-fit button');
+  await first.waitForSelector('#banners .callout:has-text("has been changed")', {timeout: 60000});
+  writeFileSync(join(inside, 'pumps.toml'), study);
+  complaints.splice(0, complaints.length, ...complaints.filter((each) => !each.includes('409')));
+
+  // A second run shows its own result.
+  const b10 = () => first.evaluate(() => [...document.querySelectorAll('#result tr')].map((each) => each.textContent).find((each) => each.startsWith('B10')));
+  await first.click('#panel-fit button');
+  await first.waitForSelector('#trusted', {timeout: 240000});
+  const before = await b10();
+  await first.click('#step-model');
+  await first.fill('[id="key-predict.credible_level"]', '0.99');
+  await first.press('[id="key-predict.credible_level"]', 'Tab');
+  await value(first, 'credible_level = 0.99');
+  await first.click('#step-fit');
+  await first.click('#panel-fit button');
+  await first.waitForFunction((old) => [...document.querySelectorAll('#result tr')].some((each) => each.textContent.startsWith('B10') && each.textContent !== old), before, {timeout: 240000});
+
+  // An opened study does not take unsaved text away.
+  await first.click('#step-model');
+  await first.fill('#study', `${await first.inputValue('#study')}# mine\n`);
+  await opened(first, 'pumps.toml');
+  await first.waitForFunction(() => !document.getElementById('study').value.includes('# mine'), null, {timeout: 60000});
+  await first.click('button:has-text("Undo")');
+  await value(first, '# mine');
+  await first.evaluate(() => { document.getElementById('study').value = ''; });
+  await first.close();
+  // The tab that listened for both is closed.
+  writeFileSync(join(inside, 'late.csv'), 'a,b\n1,2\n');
+  await second.reload();
+  await opened(second, 'late.csv');
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `tabs: ${each}`));
+}
+
+// A table with two readings that fit equally well: none is taken until one is chosen.
+async function readings(browser) {
+  const complaints = [];
+  const inside = fresh('readings');
+  writeFileSync(join(inside, 'two.csv'), equalTable);
+  const {address, stop} = await serve(join(inside, 'two.csv'));
+  const context = await browser.newContext({viewport: {width: 390, height: 844}, colorScheme: 'dark'});
+  const page = await open(context, address, complaints);
+  await page.click('#step-model');
+  await page.waitForSelector('.readings input', {timeout: 60000});
+  check(await page.inputValue('#study') === '', 'readings: one of two equal readings was taken');
+  await page.click('.editing button:has-text("Save")');
+  await page.waitForSelector('#banners .callout:has-text("Choose one")', {timeout: 60000});
+  await looks(page, 'readings', complaints);
+  await page.screenshot({path: join(screenshots, 'workbench-readings.png'), fullPage: true});
+  await page.click('.readings input');
+  await page.waitForSelector('.check[data-state]', {timeout: 60000});
+  check((await page.inputValue('#study')).includes('two.csv'), 'readings: the chosen reading has no study');
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `readings: ${each}`));
+}
+
 mkdirSync(screenshots, {recursive: true});
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -165,6 +290,8 @@ for (const each of [
   {name: 'narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
 ]) await walk(browser, each);
 await errors(browser);
+await tabs(browser);
+await readings(browser);
 await browser.close();
 for (const each of faults) console.log(each);
 process.exit(faults.length ? 1 : 0);

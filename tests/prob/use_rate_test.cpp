@@ -192,5 +192,29 @@ TEST(UseRate, InvalidParametersHaveNoProbability) {
   EXPECT_TRUE(std::isnan(failing_within({lognormal, lognormal, good, bad}, 3, 5)));
 }
 
+// Ages that share their integrals, exact and censored, between the nodes and far in the tails.
+TEST(UseRate, SharedIntegralsAreThoseOfEachAge) {
+  for (const auto& [life, of_life] : lives) {
+    for (const auto& [rate, of_rate] : rates) {
+      const Named u = in_order(of_life), r = in_order(of_rate);
+      const LifeAtRate unit{u.family, r.family, u.parameters, r.parameters};
+      for (const Censoring seen : {Censoring::none, Censoring::right}) {
+        for (double age = 0.03; age < 3000; age *= 1.37) {
+          double own[2 * most_response_parameters], shared[2 * most_response_parameters];
+          const Response at{.seen = seen, .at = age};
+          const double alone = log_response(unit, at, own);
+          const SharedAges ages;
+          const double together = log_response(unit, at, shared);
+          EXPECT_NEAR(together, alone, 2e-6 * (1 + std::abs(alone)))
+              << life << ' ' << rate << ' ' << age;
+          for (std::size_t s = 0; s < 2 * most_response_parameters; ++s)
+            EXPECT_NEAR(shared[s], own[s], 2e-5 * (1 + std::abs(own[s])))
+                << life << ' ' << rate << ' ' << age << ' ' << s;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -51,6 +51,17 @@ TEST(StudyForm, AValueChangesAndNothingElse) {
             replaced(study, "[\n  1,  # one percent\n  10,\n]", "[10]"));
 }
 
+TEST(StudyForm, AValueOfSeveralLinesKeepsThem) {
+  const std::string text =
+      "title = 1\nnote = \"\"\"\na = \\\"b\\\"\nc\n\"\"\"\nplain = '''\nx\\y\n'''\n";
+  EXPECT_EQ(with_value(text, "note", "a = \"b\\\"\nd\n"),
+            replaced(text, "a = \\\"b\\\"\nc\n", "a = \\\"b\\\\\\\"\nd\n"));
+  EXPECT_EQ(with_value(text, "plain", "x\\z\n\nw\n"), replaced(text, "x\\y\n", "x\\z\n\nw\n"));
+  EXPECT_EQ(with_value(text, "plain", "one"), replaced(text, "'''\nx\\y\n'''", "\"one\""));
+  EXPECT_EQ(with_value(study, "predict.b_lives", "[\n  1,  # one\n  50,\n]"),
+            replaced(study, "  1,  # one percent\n  10,\n", "  1,  # one\n  50,\n"));
+}
+
 TEST(StudyForm, AValueCannotBringOtherKeys) {
   for (const char* each : {"0.9\nother = 1", "0.9 } x = {", "", "nonsense", "[0.9"})
     EXPECT_THROW(with_value(study, "predict.credible_level", each), InputError) << each;

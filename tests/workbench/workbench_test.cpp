@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "support/scratch.h"
 #include "wearwell/http/listener.h"
 #include "wearwell/models/registry.h"
+#include "wearwell/workbench/table_view.h"
 
 namespace wearwell::workbench {
 namespace {
@@ -73,6 +75,22 @@ class WorkbenchTest : public ScratchTest {
     const HttpReply reply = post(target, body);
     EXPECT_EQ(reply.status, 200) << target << reply.body;
     return json::parse(reply.body);
+  }
+  // What a request about the open table names.
+  json named(json more = json::object()) const {
+    const json session = got("/api/session");
+    more["file"] = session["table"];
+    more["number"] = session["table_number"];
+    return more;
+  }
+  std::string named_query() const {
+    const json session = got("/api/session");
+    return "file=" + session["table"].get<std::string>() +
+           "&number=" + session["table_number"].dump();
+  }
+  json fitted(const std::string& file, const std::string& text) const {
+    done("/api/fit", {{"file", file}, {"text", text}});
+    return ended_fit();
   }
   json ended_fit() const {
     for (int i = 0; i < 1200; ++i) {
@@ -147,16 +165,18 @@ TEST_F(WorkbenchTest, RefusesHostileRequests) {
                 .status,
             400);
   EXPECT_EQ(post("/api/table", {{"settings", {{"sql", "select 1"}}}}).status, 400);
-  EXPECT_EQ(get("/api/rows?from=-1").status, 400);
+  EXPECT_EQ(get("/api/rows?from=1").status, 400);
   EXPECT_EQ(get("/api/nothing").status, 404);
   EXPECT_EQ(get("/report/0123").status, 404);
   EXPECT_EQ(send("DELETE /api/session", host(), fields()).status, 405);
   EXPECT_EQ(get("/api/fit").status, 405);
   EXPECT_EQ(post("/api/open", {{"file", "ok.csv"}}).status, 200);
-  EXPECT_EQ(post("/api/table", {{"settings", {{"sql", "select 1"}}}}).status, 400);
-  EXPECT_EQ(post("/api/table", {{"settings", {{"header_row", "1\nsql = 'select 1'"}}}}).status,
-            400);
-  EXPECT_EQ(get("/api/plot?x=0&y=9").status, 400);
+  EXPECT_EQ(post("/api/table", named({{"settings", {{"sql", "select 1"}}}})).status, 400);
+  EXPECT_EQ(
+      post("/api/table", named({{"settings", {{"header_row", "1\nsql = 'select 1'"}}}})).status,
+      400);
+  EXPECT_EQ(get("/api/rows?from=-1&" + named_query()).status, 400);
+  EXPECT_EQ(get("/api/plot?x=0&y=9&" + named_query()).status, 400);
 }
 
 TEST_F(WorkbenchTest, ShowsATableAsItWasRead) {
@@ -171,13 +191,13 @@ TEST_F(WorkbenchTest, ShowsATableAsItWasRead) {
   EXPECT_EQ(table["columns"][1]["empty"], 1);
   EXPECT_EQ(table["columns"][2]["kind"], "number");
   EXPECT_EQ(table["columns"][2]["largest"], 40);
-  const json rows = got("/api/rows?from=1&count=2")["rows"];
+  const json rows = got("/api/rows?from=1&count=2&" + named_query())["rows"];
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0]["row"], 2);
   EXPECT_EQ(rows[0]["cells"][1], "bad");
   EXPECT_THAT(rows[0]["refused"]["1"].get<std::string>(), HasSubstr("row 2"));
   EXPECT_FALSE(rows[1].contains("refused"));
-  const json plot = got("/api/plot?x=2&y=1&log_x=1");
+  const json plot = got("/api/plot?x=2&y=1&log_x=1&" + named_query());
   EXPECT_EQ(plot["points"], json::parse("[[10,1.5,1],[40,4,4]]"));
   EXPECT_EQ(plot["left_out"]["empty"], 2);
 }
@@ -189,7 +209,7 @@ TEST_F(WorkbenchTest, ThinsAPlotOfManyRows) {
     text += std::to_string(i) + "," + std::to_string((i * 7919) % 1000) + "\n";
   write("many.csv", text);
   done("/api/open", {{"file", "many.csv"}});
-  const json plot = got("/api/plot?x=0&y=1");
+  const json plot = got("/api/plot?x=0&y=1&" + named_query());
   EXPECT_EQ(plot["kept"], 60000);
   EXPECT_LE(plot["points"].size(), 161u * 91u);
   EXPECT_GT(plot["points"].size(), 5000u);
@@ -205,7 +225,7 @@ TEST_F(WorkbenchTest, FromATableToALifeAndTheProgramAgreesToTheLastDigit) {
   EXPECT_EQ(send("POST /api/upload?file=pumps.csv", host(), fields(), lives()).status, 200);
   EXPECT_EQ(send("POST /api/upload?file=pumps.csv", host(), fields(), "a\n1\n").status, 409);
 
-  const json readings = done("/api/guess", json::object())["readings"];
+  const json readings = done("/api/guess", named())["readings"];
   const std::string text = readings[0]["text"];
   EXPECT_EQ(readings[0]["questions"].size(), 0u) << readings[0]["questions"];
   const json checked = done("/api/check", {{"file", "pumps.toml"}, {"text", text}});
@@ -222,9 +242,13 @@ TEST_F(WorkbenchTest, FromATableToALifeAndTheProgramAgreesToTheLastDigit) {
   EXPECT_EQ(post("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", nullptr}}).status,
             409);
 
-  done("/api/fit", {{"file", "pumps.toml"}});
-  const json fit = ended_fit();
+  // a text that is not the file's is not fitted
+  EXPECT_EQ(post("/api/fit", {{"file", "pumps.toml"}, {"text", text}}).status, 409);
+  EXPECT_EQ(post("/api/fit", {{"file", "pumps.toml"}}).status, 400);
+  const json fit = fitted("pumps.toml", changed);
   ASSERT_EQ(fit["state"], "done") << fit;
+  EXPECT_EQ(fit["run"], 1);
+  EXPECT_EQ(fit["written"], 1);
   const json result = got("/api/result");
   EXPECT_GT(result["checks"].size(), 3u);
   EXPECT_GT(result["tables"].size(), 2u);
@@ -263,11 +287,12 @@ TEST_F(WorkbenchTest, FromATableToALifeAndTheProgramAgreesToTheLastDigit) {
 TEST_F(WorkbenchTest, AFitStopsAndWritesNothing) {
   write("pumps.csv", lives());
   done("/api/open", {{"file", "pumps.csv"}});
-  std::string text = done("/api/guess", json::object())["readings"][0]["text"];
+  std::string text = done("/api/guess", named())["readings"][0]["text"];
   text += "\n[sampler]\ndraws = 1000000\n";
   done("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", nullptr}});
-  done("/api/fit", {{"file", "pumps.toml"}});
-  EXPECT_EQ(post("/api/fit", {{"file", "pumps.toml"}}).status, 400);  // one at a time
+  done("/api/fit", {{"file", "pumps.toml"}, {"text", text}});
+  // one at a time
+  EXPECT_EQ(post("/api/fit", {{"file", "pumps.toml"}, {"text", text}}).status, 400);
   done("/api/stop", json::object());
   EXPECT_EQ(ended_fit()["state"], "stopped");
   EXPECT_FALSE(std::filesystem::exists(folder() / "pumps-results"));
@@ -275,11 +300,130 @@ TEST_F(WorkbenchTest, AFitStopsAndWritesNothing) {
 
 TEST_F(WorkbenchTest, AFitThatFailsSaysWhy) {
   write("bad.toml", "model = \"formula\"\n");
-  done("/api/fit", {{"file", "bad.toml"}});
-  const json fit = ended_fit();
+  const json fit = fitted("bad.toml", "model = \"formula\"\n");
   EXPECT_EQ(fit["state"], "failed");
   EXPECT_THAT(fit["problem"].get<std::string>(), HasSubstr("bad.toml"));
-  EXPECT_EQ(post("/api/fit", {{"file", "no.toml"}}).status, 400);
+  EXPECT_EQ(post("/api/fit", {{"file", "no.toml"}, {"text", ""}}).status, 400);
+}
+
+// Two pages: a request of the one never gets the table of the other.
+TEST_F(WorkbenchTest, ARequestIsForTheTableThatItNames) {
+  write("a.csv", "a,b\n1,2\n3,4\n");
+  write("lives.csv", lives());
+  const json a = done("/api/open", {{"file", "a.csv"}})["table"];
+  const std::string of_a = named_query();
+  EXPECT_EQ(got("/api/rows?" + of_a)["rows"].size(), 2u);
+  const json second = done("/api/open", {{"file", "lives.csv"}})["table"];
+  EXPECT_NE(a["number"], second["number"]);
+  const json names_a = {{"file", "a.csv"}, {"number", a["number"]}};
+  for (const char* path : {"/api/rows?", "/api/plot?x=0&y=1&"})
+    EXPECT_EQ(get(path + of_a).status, 409) << path;
+  for (const char* path : {"/api/guess", "/api/table"})
+    EXPECT_EQ(post(path, names_a).status, 409) << path;
+  EXPECT_EQ(got("/api/rows?" + named_query())["rows"].size(), 15u);
+  // the same file with other settings is another table
+  const std::string before = named_query();
+  done("/api/table", named({{"settings", {{"decimal", ","}}}}));
+  EXPECT_EQ(get("/api/rows?" + before).status, 409);
+  EXPECT_EQ(got("/api/table")["settings"]["decimal"], ",");
+}
+
+// With the method exact a run has no step, so its seconds stay 0: its number tells the runs apart.
+TEST_F(WorkbenchTest, EachRunHasItsNumber) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  const std::string text = done("/api/guess", named())["readings"][0]["text"];
+  done("/api/save", {{"file", "pumps.toml"}, {"text", text}, {"before", nullptr}});
+  EXPECT_EQ(fitted("pumps.toml", text)["written"], 1);
+  std::string other = text;
+  other.replace(other.find("credible_level = 0.9"), 20, "credible_level = 0.8");
+  done("/api/save", {{"file", "pumps.toml"}, {"text", other}, {"before", text}});
+  const json second = fitted("pumps.toml", other);
+  EXPECT_EQ(second["run"], 2);
+  EXPECT_EQ(second["written"], 2);
+  // a run that fails leaves the result of the second
+  write("bad.toml", "model = \"formula\"\n");
+  const json third = fitted("bad.toml", "model = \"formula\"\n");
+  EXPECT_EQ(third["run"], 3);
+  EXPECT_EQ(third["written"], 2);
+}
+
+TEST_F(WorkbenchTest, AStudyKeepsItsLineEndsAndItsLink) {
+  write("real.TOML", "model = \"formula\"\r\ntitle = \"a\"\r\n");
+  std::filesystem::create_symlink("real.TOML", folder() / "link.toml");
+  const std::string page = "model = \"formula\"\ntitle = \"a\"\n";
+  const std::string next = "model = \"formula\"\ntitle = \"b\"\n";
+  done("/api/save", {{"file", "link.toml"}, {"text", next}, {"before", page}});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder() / "link.toml"));
+  EXPECT_EQ(content(folder() / "real.TOML"), "model = \"formula\"\r\ntitle = \"b\"\r\n");
+  done("/api/save", {{"file", "real.TOML"}, {"text", page}, {"before", next}});
+  EXPECT_EQ(post("/api/save", {{"file", "real.TOML"}, {"text", next}, {"before", next}}).status,
+            409);
+}
+
+TEST_F(WorkbenchTest, OfTwoSavesFromOneTextOneWins) {
+  const std::string before = "model = \"formula\"\n";
+  for (int round = 0; round < 20; ++round) {
+    write("s.toml", before);
+    unsigned status[2] = {};
+    const auto save = [&](int i) {
+      status[i] = post("/api/save", {{"file", "s.toml"},
+                                     {"text", before + "title = \"" + std::to_string(i) + "\"\n"},
+                                     {"before", before}})
+                      .status;
+    };
+    std::thread first(save, 0), second(save, 1);
+    first.join();
+    second.join();
+    EXPECT_EQ(status[0] + status[1], 200u + 409u) << round;
+    EXPECT_EQ(content(folder() / "s.toml"),
+              before + "title = \"" + (status[0] == 200 ? "0" : "1") + "\"\n");
+  }
+}
+
+TEST_F(WorkbenchTest, AnUploadThatCannotBeReadIsRemoved) {
+  const std::string broken(2000, '\0');
+  const auto upload = [&](const std::string& bytes) {
+    return send("POST /api/upload?file=x.parquet", host(), fields(), bytes).status;
+  };
+  EXPECT_EQ(upload(broken), 400);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x.parquet"));
+  // one that was there stays
+  write("x.parquet", broken);
+  EXPECT_EQ(upload(broken), 400);
+  EXPECT_EQ(content(folder() / "x.parquet"), broken);
+}
+
+TEST(TableView, InfiniteNumbersAreNotEmptyCells) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  OpenTable open{"x.csv"};
+  open.table.rows = 4;
+  Column column;
+  column.name = "a";
+  column.is_number = true;
+  column.numbers = {infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 12345678901234};
+  open.table.columns.push_back(column);
+  const json rows = rows_json(open, 0, 4, 0, 1)["rows"];
+  EXPECT_EQ(rows[0]["cells"][0], "inf");
+  EXPECT_EQ(rows[1]["cells"][0], "-inf");
+  EXPECT_EQ(rows[2]["cells"][0], nullptr);
+  EXPECT_EQ(rows[3]["cells"][0], 12345678901234);
+}
+
+// Chosen roles name the headings of a wide table's file, as --column does.
+TEST_F(WorkbenchTest, AWideTableHasTheHeadingsOfItsFileForRoles) {
+  write("wide.csv", "Hours [h],P1 [um],P2 [um],P3 [um]\n100,1,2,3\n200,2,4,5\n300,3,6,8\n");
+  const json table = done("/api/open", {{"file", "wide.csv"}})["table"];
+  ASSERT_TRUE(table.contains("wide")) << table;
+  EXPECT_EQ(table["headings"].size(), 4u);
+  EXPECT_EQ(table["rows"], 9);
+  const json first = done("/api/guess", named())["readings"][0];
+  EXPECT_THAT(first["text"].get<std::string>(), HasSubstr("sql"));
+  const json chosen = done(
+      "/api/guess", named({{"columns", {"wear=P2 [um]", "unused=P1 [um]", "unused=P3 [um]"}}}));
+  const std::string text = chosen["readings"][0]["text"];
+  EXPECT_EQ(text.find("sql"), text.npos) << text;
+  EXPECT_THAT(text, HasSubstr("P2"));
 }
 
 TEST_F(WorkbenchTest, EventsShowEachChange) {

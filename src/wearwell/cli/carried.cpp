@@ -6,6 +6,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/option_rules.h"
 #include "wearwell/input/json_reader.h"
+#include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/update.h"
 
 namespace wearwell {
@@ -38,12 +39,7 @@ prognosis::CarriedState read_carried_data(const std::filesystem::path& result) {
 
 prognosis::CarriedState read_carried(const std::filesystem::path& result) {
   prognosis::CarriedState state = read_carried_data(result);
-  if (state.parameters.empty())
-    throw InputError(
-        fmt::format("{}: a clutch campaign has no posterior to carry on. For new data use wearwell "
-                    "update; for the life of a plate wearwell clutch life; to continue its wear "
-                    "wearwell clutch predict --state",
-                    valid_utf8(result.string())));
+  prognosis::require_posterior(state, valid_utf8(result.string()));
   return state;
 }
 

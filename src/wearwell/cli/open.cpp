@@ -6,11 +6,14 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "wearwell/base/scratch_folder.h"
 #include "wearwell/base/staged_file.h"
@@ -24,7 +27,8 @@ struct OpenCommand {
   bool no_browser = false;
 };
 
-// Whether xdg-open took the file. Command lines are seen by all users of a machine, so it gets a
+// Whether xdg-open took the file, or still works on it after some seconds, as it does while a browser
+// that it started runs. Command lines are seen by all users of a machine, so it gets a
 // file that only this user can read, and which leads to the address with its token.
 bool opens_in_browser(const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -38,8 +42,14 @@ bool opens_in_browser(const std::filesystem::path& file) {
                                   const_cast<char* const*>(arguments), environ);
   posix_spawn_file_actions_destroy(&quiet);
   if (failed) return false;
-  int status = 0;
-  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  using namespace std::chrono_literals;
+  for (auto waited = 0ms; waited < 3s; waited += 50ms) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended != 0) return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    std::this_thread::sleep_for(50ms);
+  }
+  return true;
 }
 
 void write_leading_file(const std::filesystem::path& file, const std::string& address) {
@@ -50,19 +60,27 @@ void write_leading_file(const std::filesystem::path& file, const std::string& ad
       file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
+// Any failure is one to open a browser, which the user can do.
+bool leads_browser_to(const std::string& address, std::optional<ScratchFolder>& scratch) {
+  try {
+    scratch.emplace(std::filesystem::temp_directory_path());
+    const std::filesystem::path file = scratch->path() / "open.html";
+    write_leading_file(file, address);
+    return opens_in_browser(file);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 void run_open(const OpenCommand& command, Models models) {
   std::optional<ScratchFolder> scratch;
   workbench::serve(command.opening, models, [&](const std::string& address) {
-    bool opened = false;
-    if (!command.no_browser) {
-      scratch.emplace(std::filesystem::temp_directory_path());
-      const std::filesystem::path file = scratch->path() / "open.html";
-      write_leading_file(file, address);
-      opened = opens_in_browser(file);
-    }
-    fmt::print("{}{}\nCtrl-C ends it; so does closing the page, after a minute.\n",
-               opened ? "The page is open in your browser: " : "Open this address in a browser: ",
+    // First: the address is of use whatever becomes of the browser.
+    fmt::print("The page is at {}\nCtrl-C ends it; so does closing the page, after a minute.\n",
                address);
+    std::fflush(stdout);
+    if (command.no_browser || leads_browser_to(address, scratch)) return;
+    fmt::print("No browser could be opened: open this address in one.\n");
     std::fflush(stdout);
   });
 }

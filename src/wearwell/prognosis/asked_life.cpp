@@ -29,6 +29,15 @@ void refuse_two_meanings(const CarriedState& state, const std::string& name,
 
 }  // namespace
 
+void require_posterior(const CarriedState& state, const std::string& result) {
+  if (state.parameters.empty())
+    throw InputError(
+        fmt::format("{}: a clutch campaign has no posterior to carry on. For new data use wearwell "
+                    "update; for the life of a plate wearwell clutch life; to continue its wear "
+                    "wearwell clutch predict --state",
+                    result));
+}
+
 double tolerated_risk(const std::string& text) {
   const double risk = option_value("--risk", text, "1", Allowed::positive);
   if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));

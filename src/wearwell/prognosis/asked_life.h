@@ -27,6 +27,9 @@ std::optional<AskedPart> asked_part(const CarriedState& state, const std::string
 UnitLife asked_life(const CarriedState& state, const std::string& result, Models models,
                     const LifeQuestion& question);
 
+/// Throws InputError for a result without a posterior, a clutch campaign; `result`: its name.
+void require_posterior(const CarriedState& state, const std::string& result);
+
 /// The value of --risk: "1 %". Throws InputError that names the option.
 double tolerated_risk(const std::string& text);
 

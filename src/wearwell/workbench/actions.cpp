@@ -36,10 +36,34 @@ std::shared_ptr<const OpenTable> required_table(Session& session) {
   return session.table;
 }
 
+// The open table, if it is the one that the request means: another page may have opened another.
+std::shared_ptr<const OpenTable> named_table(Session& session, const std::string& file,
+                                             std::uint64_t number) {
+  auto open = required_table(session);
+  if (open->file != file || open->number != number)
+    throw Conflict(fmt::format("the request is for {}; since then another page has opened {}{}",
+                               printable(shortened(file)), printable(open->file),
+                               open->file == file ? " with other settings" : ""));
+  return open;
+}
+
 std::string text_of_wish(const json& wish, const char* key) {
   if (!wish.contains(key) || !wish.at(key).is_string())
     throw InputError(fmt::format("\"{}\" is missing: it must be a text", key));
   return wish.at(key).get<std::string>();
+}
+
+std::shared_ptr<const OpenTable> table_of_wish(Session& session, const json& wish) {
+  if (!wish.contains("number") || !wish.at("number").is_number_unsigned())
+    throw InputError("\"number\" is missing: it must be the number of a table");
+  return named_table(session, text_of_wish(wish, "file"), wish.at("number").get<std::uint64_t>());
+}
+
+std::shared_ptr<const OpenTable> table_of_target(Session& session, const HttpTarget& target) {
+  const auto file = target.query.find("file");
+  if (file == target.query.end()) throw InputError("\"file\" is missing: it must name the table");
+  constexpr std::size_t most = 1'000'000'000;
+  return named_table(session, file->second, target.number("number", 0, most));
 }
 
 // How the file stores the table: keys of [data].
@@ -48,7 +72,8 @@ std::map<std::string, std::string> settings_of(const json& wish) {
                                       "decimal",      "thousands",   "delimiter",  "encoding",
                                       "summary_rows", "hidden_rows", "comment"};
   std::map<std::string, std::string> settings;
-  for (const auto& [key, value] : wish.value("settings", json::object()).items()) {
+  const json given = wish.value("settings", json::object());  // `items` refers to it
+  for (const auto& [key, value] : given.items()) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end() || !value.is_string())
       throw InputError(fmt::format("settings: \"{}\" is not allowed; use {}", printable(key),
                                    fmt::join(keys, ", ")));
@@ -67,17 +92,45 @@ std::map<std::string, std::string> settings_of(const json& wish) {
 Json read_and_show(Session& session, const std::string& file,
                    const std::map<std::string, std::string>& settings) {
   try {
-    const auto open = std::make_shared<const OpenTable>(open_table(session.folder, file, settings));
+    const auto open = std::make_shared<OpenTable>(open_table(session.folder, file, settings));
     Json shown = table_json(*open);
     const std::lock_guard lock(session.mutex);
+    shown["number"] = open->number = ++session.tables;
     session.table = open;
+    session.workbook.clear();
     ++session.version;
     return {{"kind", "table"}, {"table", std::move(shown)}};
   } catch (const SeveralSheets& several) {
     Json names = Json::array();
     for (const std::string& each : several.names) names.push_back(printable(each));
+    const std::lock_guard lock(session.mutex);
+    session.workbook = file;
     return {{"kind", "sheets"}, {"file", file}, {"sheets", std::move(names)}};
   }
+}
+
+// Line ends apart: a page has LF only.
+bool is_same_text(std::string a, std::string b) {
+  for (std::string* each : {&a, &b}) std::erase(*each, '\r');
+  return a == b;
+}
+
+// A file with CRLF keeps it.
+std::string with_line_ends_of(const std::string& known, const std::string& text) {
+  if (known.find("\r\n") == known.npos) return text;
+  std::string out;
+  for (const char each : text) {
+    if (each == '\n') out += '\r';
+    if (each != '\r') out += each;
+  }
+  return out;
+}
+
+Conflict changed_file(const std::string& name) {
+  return Conflict(
+      fmt::format("{} has been changed by another program or page since it was read: open it "
+                  "again, or save under another name",
+                  printable(name)));
 }
 
 Json study_json(Session& session, const std::string& name) {
@@ -88,11 +141,11 @@ Json study_json(Session& session, const std::string& name) {
 }
 
 Json table_action(Session& session, const json& wish) {
-  return read_and_show(session, required_table(session)->file, settings_of(wish));
+  return read_and_show(session, table_of_wish(session, wish)->file, settings_of(wish));
 }
 
 Json guess_action(Session& session, const json& wish) {
-  return guesses_json(*required_table(session), session.models, wish);
+  return guesses_json(*table_of_wish(session, wish), session.models, wish);
 }
 
 Json check_action(Session& session, const json& wish) {
@@ -109,21 +162,22 @@ Json set_action(Session&, const json& wish) {
 Json save_action(Session& session, const json& wish) {
   const std::string name = text_of_wish(wish, "file"), text = text_of_wish(wish, "text");
   const fs::path path = path_in(session.folder, name);
-  if (path.extension() != ".toml")
+  if (!is_study_name(path))
     throw InputError(fmt::format("{}: the name of a study ends in .toml", printable(name)));
   if (text.size() > longest_study) throw InputError("a study has at most 1 MiB");
   const bool is_new = !wish.contains("before") || wish.at("before").is_null();
+  const std::lock_guard one_writer(session.writing);
   std::error_code error;
   const bool exists = fs::exists(path, error);
-  if (is_new && exists && read_text_file(path).text != text)
+  const std::string known = exists ? read_text_file(path).text : "";
+  const bool same = exists && is_same_text(known, text);
+  if (is_new && exists && !same)
     throw Conflict(
         fmt::format("{} exists already: choose another name, or open it", printable(name)));
-  if (!is_new && exists && read_text_file(path).text != text_of_wish(wish, "before"))
-    throw Conflict(
-        fmt::format("{} has been changed by another program or page since it was read: open it "
-                    "again, or save under another name",
-                    printable(name)));
-  write_file(path, text, Links::replace);
+  if (!is_new && exists && !same && !is_same_text(known, text_of_wish(wish, "before")))
+    throw changed_file(name);
+  // The path is checked: a link leads to a file of this folder, and stays a link.
+  if (!same) write_file(fs::weakly_canonical(path), with_line_ends_of(known, text), Links::replace);
   const std::lock_guard lock(session.mutex);
   session.study = name;
   ++session.version;
@@ -131,7 +185,10 @@ Json save_action(Session& session, const json& wish) {
 }
 
 Json fit_action(Session& session, const json& wish) {
-  start_fit(session, text_of_wish(wish, "file"));
+  const std::string name = text_of_wish(wish, "file"), shown = text_of_wish(wish, "text");
+  start_fit(session, name, [&](const std::string& text) {
+    if (!is_same_text(text, shown)) throw changed_file(name);
+  });
   return Json::object();
 }
 
@@ -147,7 +204,12 @@ std::string open_result(Session& session) {
 }
 
 Json life_action(Session& session, const json& wish) {
-  return life_answer(path_in(session.folder, open_result(session)), session.models, wish);
+  const std::string result = open_result(session);
+  if (wish.contains("result") && text_of_wish(wish, "result") != result)
+    throw Conflict(fmt::format("the question is for {}; since then {} has been opened",
+                               printable(shortened(text_of_wish(wish, "result"))),
+                               printable(result)));
+  return life_answer(path_in(session.folder, result), session.models, wish);
 }
 
 Json session_look(Session& session, const HttpTarget&) {
@@ -155,12 +217,15 @@ Json session_look(Session& session, const HttpTarget&) {
 }
 
 Json table_look(Session& session, const HttpTarget&) {
-  return table_json(*required_table(session));
+  const auto open = required_table(session);
+  Json shown = table_json(*open);
+  shown["number"] = open->number;
+  return shown;
 }
 
 Json rows_look(Session& session, const HttpTarget& target) {
   constexpr std::size_t most = 1'000'000'000;
-  return rows_json(*required_table(session), target.number("from", 0, most),
+  return rows_json(*table_of_target(session, target), target.number("from", 0, most),
                    target.number("count", 50, rows_at_once), target.number("from_column", 0, most),
                    target.number("columns", 20, columns_at_once));
 }
@@ -172,7 +237,7 @@ Json plot_look(Session& session, const HttpTarget& target) {
     if (target.query.contains(column)) wanted.column = target.number(column, 0, most);
     return wanted;
   };
-  return plot_json(*required_table(session), axis("x", "log_x"), axis("y", "log_y"));
+  return plot_json(*table_of_target(session, target), axis("x", "log_x"), axis("y", "log_y"));
 }
 
 Json study_look(Session& session, const HttpTarget&) {
@@ -189,15 +254,46 @@ Json result_look(Session& session, const HttpTarget&) {
   return result_json(path_in(session.folder, open_result(session)));
 }
 
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Whether it is a new file; false: it was there already.
+bool store_upload(Session& session, const fs::path& path, const std::string& name,
+                  const std::string& bytes) {
+  const std::lock_guard one_writer(session.writing);
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    if (bytes_of(path) == bytes) return false;
+    throw Conflict(
+        fmt::format("{} exists in this folder with other content: rename the file that you chose",
+                    printable(name)));
+  }
+  if (!is_table_name(name))
+    throw InputError(fmt::format(
+        "{} is not a table: tables are .csv, .tsv, .txt, .dat, .json, .ndjson, .parquet and .xlsx",
+        printable(name)));
+  write_file(path, bytes, Links::replace);
+  return true;
+}
+
 }  // namespace
 
 Json session_json(Session& session) {
+  std::uint64_t version = 0;  // from before the listing: a later change is another event
+  {
+    const std::lock_guard lock(session.mutex);
+    version = session.version;
+  }
   Json files = listed_files(session.folder);
   const std::lock_guard lock(session.mutex);
-  return {{"version", session.version},
+  return {{"version", version},
           {"folder", printable(valid_utf8(session.folder.string()))},
           {"files", std::move(files)},
           {"table", session.table ? session.table->file : ""},
+          {"table_number", session.table ? session.table->number : 0},
+          {"workbook", session.workbook},
           {"study", session.study},
           {"result", session.result},
           {"fit", progress_json(session.fit)}};
@@ -230,22 +326,15 @@ Json open_file(Session& session, const json& wish) {
 
 Json upload(Session& session, const std::string& name, const std::string& bytes) {
   const fs::path path = path_in(session.folder, name);
-  std::error_code error;
-  if (fs::exists(path, error)) {
-    std::ifstream stream(path, std::ios::binary);
-    const std::string known{std::istreambuf_iterator<char>(stream), {}};
-    if (known != bytes)
-      throw Conflict(
-          fmt::format("{} exists in this folder with other content: rename the file that you chose",
-                      printable(name)));
+  if (!store_upload(session, path, name, bytes)) return open_file(session, {{"file", name}});
+  try {
     return open_file(session, {{"file", name}});
+  } catch (...) {
+    const std::lock_guard one_writer(session.writing);
+    std::error_code ignored;
+    if (bytes_of(path) == bytes) fs::remove(path, ignored);
+    throw;
   }
-  if (!is_table_name(name))
-    throw InputError(fmt::format(
-        "{} is not a table: tables are .csv, .tsv, .txt, .dat, .json, .ndjson, .parquet and .xlsx",
-        printable(name)));
-  write_file(path, bytes, Links::replace);
-  return open_file(session, {{"file", name}});
 }
 
 Look look_of(std::string_view path) {

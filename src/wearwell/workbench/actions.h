@@ -14,7 +14,8 @@ namespace wearwell::workbench {
 /// InputError.
 using Json = nlohmann::ordered_json;
 
-/// {folder, files, table, study, result, fit}: what is open. `table`: its file.
+/// {version, folder, files, table, table_number, workbook, study, result, fit}: what is open. `table`:
+/// its file. `workbook`: a file whose sheet is still to be chosen.
 Json session_json(Session& session);
 
 /// The answer to a GET; null if there is no such path.
@@ -26,13 +27,13 @@ using Action = Json (*)(Session& session, const nlohmann::json& wish);
 Action action_of(std::string_view path);
 
 /// Writes `bytes` as a new file `name` of the folder, and opens it. A file with other content stays, and
-/// is an error.
+/// is an error. A new file that cannot be read as a table is removed.
 Json upload(Session& session, const std::string& name, const std::string& bytes);
 
 /// Opens a table, a study or a result of the folder.
 Json open_file(Session& session, const nlohmann::json& wish);
 
-/// A file has changed since the page read it.
+/// A file has changed since the page read it, or another table or result has been opened.
 struct Conflict : InputError {
   using InputError::InputError;
 };

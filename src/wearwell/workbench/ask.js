@@ -3,7 +3,7 @@
 (() => {
   const {element, strings} = wearwell;
   const place = {};
-  let count = 0;
+  let count = 0, folder = '';
 
   function survival(answer) {
     const points = answer.survival.filter((each) => each.life !== null && each.survival > 0.004).map((each) => [each.life, each.survival]);
@@ -14,7 +14,7 @@
   }
 
   async function ask() {
-    const question = {};
+    const question = {result: folder};
     for (const each of place.form.elements) if (each.name && each.value) question[each.name] = each.value;
     if (!question.level) delete question.sides;
     const found = await wearwell.post('/api/life', question);
@@ -25,7 +25,9 @@
   }
 
   function result(found) {
+    folder = found.folder;
     place.none.hidden = found.lives;
+    place.none.textContent = found.no_lives ?? strings.noLives;
     place.form.hidden = !found.lives;
     place.cards.replaceChildren();
   }

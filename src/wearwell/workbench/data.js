@@ -3,19 +3,52 @@
 (() => {
   const {element, strings} = wearwell;
   const atOnce = 50, columnsAtOnce = 20;
-  let table = null, from = 0, fromColumn = 0;
+  let table = null, from = 0, fromColumn = 0, opening = 0, announced = 0;
   const place = {};
 
   async function opened(answer) {
     if (answer.kind === 'sheets') return sheets(answer);
     if (answer.kind === 'table') await show(answer.table);
     if (answer.kind === 'study') { wearwell.model.show(answer.study.file, answer.study.text); wearwell.step('model'); }
-    if (answer.kind === 'result') wearwell.step('fit');
+    if (answer.kind === 'result') { wearwell.step('fit'); wearwell.fit.result(); }
     return undefined;
   }
 
-  const open = (file, settings = {}) => wearwell.attempt(async () => opened(await wearwell.post('/api/open', {file, settings})));
-  const upload = (file) => wearwell.attempt(async () => opened(await wearwell.upload(file)));
+  // What a request about the table names: another page may have opened another one meanwhile.
+  const named = () => ({file: table.file, number: table.number});
+
+  async function reload() {
+    const before = table;
+    await show(await wearwell.get('/api/table'));
+    place.moved.textContent = before && before.number !== table.number ? strings.otherPage(table.file) : '';
+  }
+
+  // Of a table that is not open any more the page shows nothing further.
+  async function ofTable(act) {
+    try {
+      return await act();
+    } catch (error) {
+      if (error.status !== 409) throw error;
+      await reload();
+      return undefined;
+    }
+  }
+
+  // While this page opens a file, events about it are its own.
+  const opens = (act) => wearwell.attempt(async () => {
+    opening += 1;
+    place.moved.textContent = '';
+    try {
+      await opened(await act());
+    } finally {
+      opening -= 1;
+      catchUp();
+    }
+  });
+  function catchUp() { if (!opening && announced > (table?.number ?? 0)) wearwell.quietly(reload); }
+
+  const open = (file, settings = {}) => opens(() => wearwell.post('/api/open', {file, settings}));
+  const upload = (file) => opens(() => wearwell.upload(file));
 
   function sheets({file, sheets: names}) {
     place.sheets.replaceChildren(element('fieldset', {class: 'choices'}, element('legend', {}, strings.sheetTitle(file)),
@@ -33,7 +66,7 @@
 
   function cell(value, refusal, index) {
     const number = table.columns[index].kind === 'number';
-    const text = value === null ? '' : number ? wearwell.given(value) : value;
+    const text = value === null ? '' : String(value);  // all digits
     const made = element('td', {class: `${number || text.length < 25 ? 'short' : ''}${number ? ' number' : ''}${refusal ? ' refused' : ''}`}, text);
     if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${refusal}`));
     return made;
@@ -41,7 +74,7 @@
 
   async function rows() {
     const asked = table, columns = asked.columns.slice(fromColumn, fromColumn + columnsAtOnce);
-    const {rows: found} = await wearwell.get('/api/rows', {from, count: atOnce, from_column: fromColumn, columns: columnsAtOnce});
+    const {rows: found} = await wearwell.get('/api/rows', {...named(), from, count: atOnce, from_column: fromColumn, columns: columnsAtOnce});
     if (asked !== table) return;
     place.grid.replaceChildren(
         element('caption', {}, strings.tableCaption(table.file, wearwell.count(table.rows), wearwell.count(table.columns.length))),
@@ -60,7 +93,7 @@
   const move = (rowsBy, columnsBy) => wearwell.attempt(() => {
     from = Math.min(Math.max(0, from + rowsBy), Math.max(0, table.rows - 1));
     fromColumn = Math.min(Math.max(0, fromColumn + columnsBy), table.columns.length - 1);
-    return rows();
+    return ofTable(rows);
   });
 
   function settings() {
@@ -71,14 +104,15 @@
       event.preventDefault();
       const wanted = {};
       for (const [key, field] of inputs) { const {value} = field.querySelector('input'); if (value) wanted[key] = value; }
-      wearwell.attempt(async () => opened(await wearwell.post('/api/table', {settings: wanted})));
+      opens(() => wearwell.post('/api/table', {...named(), settings: wanted}));
     });
   }
 
   async function plot() {
     const x = place.x.value, y = Number(place.y.value);
-    const log = [place.logX.checked, place.logY.checked];
-    const found = await wearwell.get('/api/plot', {...(x === '' ? {} : {x}), y, log_x: Number(log[0]), log_y: Number(log[1])});
+    const log = [place.logX.checked, place.logY.checked], asked = table;
+    const found = await wearwell.get('/api/plot', {...named(), ...(x === '' ? {} : {x}), y, log_x: Number(log[0]), log_y: Number(log[1])});
+    if (asked !== table) return;
     const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
     const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
     if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
@@ -99,7 +133,7 @@
     place.y.replaceChildren(...options());
     place.x.selectedIndex = numbers.length > 1 ? 0 : 1;
     place.y.selectedIndex = Math.min(1, numbers.length - 1);
-    wearwell.quietly(plot);
+    wearwell.quietly(() => ofTable(plot));
   }
 
   async function show(next) {
@@ -107,8 +141,11 @@
     [from, fromColumn] = [0, 0];
     place.sheets.replaceChildren();
     place.table.hidden = false;
+    place.wide.hidden = !table.wide;
+    place.wide.textContent = table.wide ? `${wearwell.capital(table.wide)}.` : '';
     settings();
     await rows();
+    if (table !== next) return;
     plotChoices();
     wearwell.model.tableOpened(table);
   }
@@ -142,16 +179,18 @@
     place.y = element('select', {id: 'plot-y'});
     place.logX = element('input', {type: 'checkbox', id: 'log-x'});
     place.logY = element('input', {type: 'checkbox', id: 'log-y'});
-    for (const each of [place.x, place.y, place.logX, place.logY]) each.addEventListener('change', () => wearwell.attempt(plot));
+    for (const each of [place.x, place.y, place.logX, place.logY]) each.addEventListener('change', () => wearwell.attempt(() => ofTable(plot)));
     const axis = (label, select, log) => element('div', {class: 'field'}, element('label', {for: select.id}, label), select,
         element('label', {class: 'tick', for: log.id}, log, strings.log));
     place.plot = element('div', {class: 'picture'});
     place.plotting = element('div', {hidden: true}, element('h3', {}, strings.plotTitle), element('div', {class: 'fields'}, axis(strings.up, place.y, place.logY), axis(strings.across, place.x, place.logX)), place.plot);
-    place.table = element('div', {hidden: true}, place.settings, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
+    place.moved = element('p', {class: 'note', role: 'status'});
+    place.wide = element('p', {class: 'note', hidden: true});
+    place.table = element('div', {hidden: true}, place.wide, place.settings, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
         element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
     panel.append(element('h2', {}, strings.dataTitle),
         element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
-            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.table);
+            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.moved, place.table);
   }
 
   function files(all) {
@@ -163,9 +202,13 @@
     if ([...place.list.options].some((each) => each.value === chosen)) place.list.value = chosen;
   }
 
-  // A page that is opened again shows what the program has open.
   // Nothing is opened where the folder has no such table.
-  const openNamed = (file, settings) => ([...place.list.options].some((each) => each.value === file) ? open(file, settings) : undefined);
+  const has = (file) => [...place.list.options].some((each) => each.value === file);
+  const openNamed = (file, settings) => (has(file) ? open(file, settings) : undefined);
 
-  wearwell.data = {build, files, openNamed, restore: async () => show(await wearwell.get('/api/table')), table: () => table, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(plot); }};
+  // Another page has opened another table.
+  function session(now) { announced = now.table_number; catchUp(); }
+
+  // A page that is opened again shows what the program has open.
+  wearwell.data = {build, files, session, has, openNamed, ofTable, named, restore: reload, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(() => ofTable(plot)); }};
 })();

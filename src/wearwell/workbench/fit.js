@@ -60,7 +60,7 @@
   function session(now) {
     report = now.report ?? report;
     progress(now.fit);
-    const key = `${now.result} ${now.fit.state === 'done' ? now.fit.seconds : ''}`;
+    const key = `${now.result} ${now.fit.written}`;
     if (!now.result || key === shown || now.fit.state === 'running') return;
     shown = key;
     wearwell.quietly(result);
@@ -69,8 +69,7 @@
   function build(panel) {
     place.go = wearwell.button(strings.fit, () => wearwell.attempt(async () => {
       if (!wearwell.model.hasText()) throw new Error(strings.noStudy);
-      const file = await wearwell.model.save();
-      await wearwell.post('/api/fit', {file});
+      await wearwell.post('/api/fit', await wearwell.model.save());
     }));
     place.stop = wearwell.button(strings.stop, () => wearwell.attempt(() => wearwell.post('/api/stop')), 'plain');
     place.stop.hidden = true;
@@ -81,5 +80,5 @@
     panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
   }
 
-  wearwell.fit = {build, session};
+  wearwell.fit = {build, session, result: () => wearwell.quietly(result)};
 })();

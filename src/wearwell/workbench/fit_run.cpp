@@ -24,9 +24,8 @@ void change(Session& session, const std::function<void(FitProgress&)>& with) {
   ++session.version;
 }
 
-void fit_study(Session& session, const std::string& study, const std::string& result,
+void fit_study(Session& session, const Source& source, const std::string& result,
                const std::stop_token& stop) {
-  const Source source = source_of(path_in(session.folder, study));
   const auto read = read_study(source, session.models);
   ResultFolder folder(path_in(session.folder, result));
   const Monitor monitor{.progress =
@@ -43,12 +42,12 @@ void fit_study(Session& session, const std::string& study, const std::string& re
   write_result(found, source.study.text, folder);
 }
 
-void run_fit_thread(Session& session, const std::string& study, const std::string& result,
+void run_fit_thread(Session& session, const Source& source, const std::string& result,
                     const std::stop_token& stop) {
   FitState state = FitState::done;
   std::string problem;
   try {
-    stoppable(stop, [&] { fit_study(session, study, result, stop); });
+    stoppable(stop, [&] { fit_study(session, source, result, stop); });
   } catch (const Cancelled&) {
     state = FitState::stopped;
   } catch (const std::exception& error) {
@@ -58,29 +57,35 @@ void run_fit_thread(Session& session, const std::string& study, const std::strin
   const std::lock_guard lock(session.mutex);
   session.fit.state = state;
   session.fit.problem = problem;
-  if (state == FitState::done) session.result = result;
+  if (state == FitState::done) {
+    session.result = result;
+    session.fit.written = session.fit.run;
+  }
   ++session.version;
 }
 
 }  // namespace
 
-void start_fit(Session& session, const std::string& study) {
+void start_fit(Session& session, const std::string& study,
+               const std::function<void(const std::string&)>& accept) {
   const std::filesystem::path file = path_in(session.folder, study);
   if (kind_of(file) != "study")
     throw InputError(fmt::format("{} is not a study in this folder", printable(study)));
   const std::string result = file.stem().string() + "-results";
   static_cast<void>(path_in(session.folder, result));
+  const Source source = source_of(file);
+  accept(source.study.text);
   std::jthread before;  // has ended; joined after the lock is released
   const std::lock_guard lock(session.mutex);
   if (session.fit.state == FitState::running)
     throw InputError(
         fmt::format("{} is being fitted: wait, or stop it", printable(session.fit.study)));
   before = std::move(session.fitting);
-  session.fit = {FitState::running, study, result};
+  session.fit = {FitState::running, study, result, session.fit.run + 1, session.fit.written};
   session.study = study;
   ++session.version;
-  session.fitting = std::jthread([&session, study, result](const std::stop_token& stop) {
-    run_fit_thread(session, study, result, stop);
+  session.fitting = std::jthread([&session, source, result](const std::stop_token& stop) {
+    run_fit_thread(session, source, result, stop);
   });
 }
 
@@ -94,6 +99,8 @@ nlohmann::ordered_json progress_json(const FitProgress& fit) {
   return {{"state", names[static_cast<int>(fit.state)]},
           {"study", fit.study},
           {"result", fit.result},
+          {"run", fit.run},
+          {"written", fit.written},
           {"what", fit.what},
           {"done", fit.done},
           {"total", fit.total},

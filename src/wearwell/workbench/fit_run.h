@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,9 +9,11 @@
 namespace wearwell::workbench {
 
 /// Runs a study of the folder on its own thread and writes STUDY-results beside it, as `wearwell
-/// fit` does. Throws InputError if a run has not ended or the name is not a study of the folder;
-/// later problems are in `Session::fit`.
-void start_fit(Session& session, const std::string& study);
+/// fit` does. `accept` gets the text that will be fitted, and throws to refuse it. Throws InputError
+/// if a run has not ended or the name is not a study of the folder; later problems are in
+/// `Session::fit`.
+void start_fit(Session& session, const std::string& study,
+               const std::function<void(const std::string&)>& accept);
 
 /// Asks the run to stop; nothing is written then.
 void stop_fit(Session& session);

@@ -53,12 +53,16 @@ bool is_table_name(const fs::path& file) {
   return tables.contains(extension);
 }
 
+bool is_study_name(const fs::path& file) {
+  return lower_case(file.extension().string()) == ".toml";
+}
+
 std::string kind_of(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
     return fs::is_regular_file(file / "summary.json", error) ? "result" : "";
   if (!fs::is_regular_file(file, error)) return "";
-  if (lower_case(file.extension().string()) == ".toml") return "study";
+  if (is_study_name(file)) return "study";
   return is_table_name(file) ? "table" : "";
 }
 

@@ -13,8 +13,9 @@ std::filesystem::path path_in(const std::filesystem::path& folder, const std::st
 /// The kind of a name: "table", "study" or "result"; "" for others.
 std::string kind_of(const std::filesystem::path& file);
 
-/// Whether the extension is one that tables have.
+/// Whether the extension is one that tables have; that of studies, .toml.
 bool is_table_name(const std::filesystem::path& file);
+bool is_study_name(const std::filesystem::path& file);
 
 /// {"tables": [...], "studies": [...], "results": [...]}: names in the folder, sorted; at most 500
 /// of a kind.

@@ -26,20 +26,35 @@ ordered_json question_json(const TableQuestion& question) {
   return json;
 }
 
+// Chosen roles name the headings of the file: a wide table is then read without its SELECT, as
+// `wearwell new --column` does. Answers to questions about the stacked table name its headings.
+bool is_stacked(const OpenTable& open, const std::vector<std::string>& chosen) {
+  if (!open.wide || chosen.empty()) return open.wide.has_value();
+  try {
+    TableChoices unused;
+    for (const std::string& each : chosen) choose_column(open.as_stored, each, unused);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 }  // namespace
 
 ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::json& wanted) {
+  const auto chosen = wanted.value("columns", std::vector<std::string>{});
+  const bool stacked = is_stacked(open, chosen);
+  const Table& table = open.wide && !stacked ? open.as_stored : open.table;
   TableChoices choices;
-  choices.settings = data_lines(open.settings, open.wide);
+  choices.settings = data_lines(open.settings, stacked ? open.wide : std::nullopt);
   choices.limit = wanted.value("limit", "");
   if (wanted.contains("failure")) choices.failure = wanted.at("failure").get<int>();
-  for (const auto& each : wanted.value("columns", nlohmann::json::array()))
-    choose_column(open.table, each.get<std::string>(), choices);
+  for (const std::string& each : chosen) choose_column(table, each, choices);
   const std::vector<GuessedStudy> found =
-      guessed_studies(models, open.table, open.file, choices, wanted.value("preset", ""));
+      guessed_studies(models, table, open.file, choices, wanted.value("preset", ""));
   if (found.empty()) {
     std::vector<std::string> headings;
-    for (const Column& each : open.table.columns) headings.push_back(printable(each.name));
+    for (const Column& each : table.columns) headings.push_back(printable(each.name));
     if (headings.size() > 40) headings.resize(40);
     throw InputError(fmt::format(
         "{}: no study follows from its headings ({}). A study needs lives (life, cycles to "
@@ -51,7 +66,7 @@ ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::
   const std::size_t equal = equally_good(found);
   for (const GuessedStudy& each : found) {
     ordered_json guessed = texts(each.study.guesses);
-    if (open.wide) guessed.insert(guessed.begin(), printable(wide_description(*open.wide)));
+    if (stacked) guessed.insert(guessed.begin(), printable(wide_description(*open.wide)));
     ordered_json reading = {{"preset", each.preset},
                             {"reading", printable(each.study.reading)},
                             {"equal", json["readings"].size() < equal},

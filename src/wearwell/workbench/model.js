@@ -4,10 +4,14 @@
   const {element, strings} = wearwell;
   const place = {};
   const replaced = [];
-  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, asked = 0, timer = 0;
+  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
+  let keys = [], questions = [], unread = false, keptFor = 0;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
+  const isEdited = () => text() !== '' && text() !== generated && !isSaved();
+  // A study that was saved, opened or edited stays when another table is opened.
+  const isKept = () => saved !== null || isEdited();
 
   function marks() {
     place.state.textContent = text() && !isSaved() ? strings.unsaved : '';
@@ -20,11 +24,31 @@
     place.gutter.scrollTop = place.text.scrollTop;
   }
 
+  function remember() { replaced.push({text: text(), name: place.name.value, saved, savedName}); }
+
   function replace(next) {
     if (next === text()) return;
-    if (text() && text() !== generated) replaced.push(text());
+    if (text() && text() !== generated) remember();
     place.text.value = next;
     changed();
+  }
+
+  // The file has what was last saved there, not what it had when the text was replaced.
+  function undo() {
+    const last = replaced.pop();
+    if (!last) return;
+    if (last.savedName !== savedName) [saved, savedName] = [last.saved, last.savedName];
+    place.name.value = last.name;
+    place.text.value = last.text;
+    hideGuess();
+    changed();
+  }
+
+  function hideGuess() {
+    [questions, unread] = [[], false];
+    place.readings.hidden = true;
+    place.roles.hidden = true;
+    place.reasons.replaceChildren();
   }
 
   function changed() {
@@ -34,29 +58,60 @@
     timer = setTimeout(() => wearwell.quietly(check), 250);
   }
 
+  // One at a time; of the texts that come meanwhile the last is checked.
   async function check() {
-    const mine = ++asked, checked = text();
-    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); return; }
+    if (checking) { again = true; return; }
+    checking = true;
+    try {
+      await checkText(text());
+    } finally {
+      checking = false;
+      if (again) { again = false; wearwell.quietly(check); }
+    }
+  }
+
+  async function checkText(checked) {
+    keys = [];
+    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return; }
     const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
-    if (mine !== asked || checked !== text()) return;
+    if (checked !== text()) return;
+    keys = found.keys;
     gutter(found.line);
     place.text.setAttribute('aria-invalid', found.problem ? 'true' : 'false');
     place.check.replaceChildren(...(found.problem ? problem(found) : [element('p', {class: 'good'}, strings.checkGood),
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0}, found.description))]));
     form(found.keys);
-    if (table === null) openItsTable(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
+    if (table === null && saved !== null) openItsTable();
+    compare();
   }
 
-  // The table that an opened study names, read as the study says.
-  function openItsTable(keys) {
+  const valueOf = (path) => keys.find((each) => each.path === path)?.value;
+  const itsTable = () => valueOf('data.file')?.replace(/^\.\//, '');
+
+  // The table that a study names, read as the study says.
+  function openItsTable() {
     const settings = {};
-    for (const {path, value} of keys) {
-      const key = path.startsWith('data.') ? path.slice(5) : '';
-      if (key in strings.settings) settings[key] = value;
-    }
-    const file = keys.find((each) => each.path === 'data.file');
-    if (file && saved !== null) wearwell.data.openNamed(file.value, settings);
+    for (const key of Object.keys(strings.settings)) if (valueOf(`data.${key}`) !== undefined) settings[key] = valueOf(`data.${key}`);
+    if (itsTable()) return wearwell.data.openNamed(itsTable(), settings);
+    return undefined;
+  }
+
+  // A study that stays, beside a table that it does not read, or reads with other settings, says so.
+  function compare() {
+    const notice = document.getElementById('notice');
+    notice.replaceChildren();
+    if (!table || !keys.length || !isKept() || keptFor === table.number) return;
+    const files = keys.filter(({path}) => /^data\b.*\bfile$/.test(path)).map(({value}) => value.replace(/^\.\//, ''));
+    const differ = itsTable() === table.file ? Object.keys(strings.settings).filter((key) => (valueOf(`data.${key}`) ?? '') !== (table.settings[key] ?? '')) : [];
+    if (files.includes(table.file) && !differ.length) return;
+    const shown = (value) => (value === undefined || value === '' ? strings.notSet : value);
+    const buttons = [wearwell.button(strings.guessTable(table.file), () => wearwell.attempt(guessTable), 'plain')];
+    if (wearwell.data.has(itsTable())) buttons.push(wearwell.button(strings.openAsRead, () => openItsTable(), 'plain'));
+    buttons.push(wearwell.button(strings.keepStudy, () => { keptFor = table.number; compare(); }, 'plain'));
+    notice.append(element('div', {class: 'callout warn'}, element('p', {}, differ.length
+        ? strings.otherSettings(place.name.value, table.file, differ.map((key) => `${strings.settings[key]}: ${shown(valueOf(`data.${key}`))} / ${shown(table.settings[key])}`).join('; '))
+        : strings.otherTable(place.name.value, table.file)), element('div', {class: 'choices'}, ...buttons)));
   }
 
   function problem(found) {
@@ -76,7 +131,7 @@
   const plain = (text) => text.replace(/\s*\(?\[[^\]]*\]\([^)]*\)\)?/g, '').replaceAll('`', '').replace(/[:,]? see$/, '');
 
   function form(keys) {
-    if (place.form.contains(document.activeElement) && document.activeElement.matches('input')) place.form.dataset.focus = document.activeElement.id;
+    if (place.form.contains(document.activeElement) && document.activeElement.matches('input, textarea')) place.form.dataset.focus = document.activeElement.id;
     const groups = new Map();
     for (const key of keys) {
       const at = key.path.lastIndexOf('.');
@@ -87,9 +142,10 @@
     place.form.replaceChildren(...[...groups].map(([group, inside]) => element('fieldset', {}, element('legend', {}, group || strings.wholeStudy),
         ...inside.map(([key, name]) => {
           const id = `key-${key.path}`;
-          const field = wearwell.field(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
+          const make = key.value.includes('\n') ? wearwell.area : wearwell.field;
+          const field = make(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
           if (key.meaning) field.append(element('small', {id: `${id}-meaning`}, plain(key.meaning)));
-          field.querySelector('input').addEventListener('change', (event) => wearwell.attempt(async () => {
+          field.querySelector('input, textarea').addEventListener('change', (event) => wearwell.attempt(async () => {
             const before = text();
             try {
               const {text: next} = await wearwell.post('/api/set', {text: before, path: key.path, value: event.target.value});
@@ -115,82 +171,101 @@
       if (options[i] === '--failure') choices.failure = Number(options[i + 1]);
       if (options[i] === 'PRESET') choices.preset = options[i + 1];
     }
-    return wearwell.attempt(guess);
+    return wearwell.attempt(() => wearwell.data.ofTable(guess));
   }
 
   function take(reading) {
+    [questions, unread] = [reading.questions, false];
     replace(reading.text);
     generated = text();
+    reasons(reading);
   }
 
   function reasons(reading) {
-    const questions = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {}, question.text),
+    const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {}, question.text),
         ...question.readings.map((each) => wearwell.button(each.text, () => choose(each.options), 'plain'))));
-    place.reasons.replaceChildren(...[...questions, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
+    place.reasons.replaceChildren(...[...asked, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
   }
 
   async function guess() {
     roles();
+    const of = table;
     let readings = [];
     try {
-      ({readings} = await wearwell.post('/api/guess', {...choices, preset: undefined}));
+      ({readings} = await wearwell.post('/api/guess', {...wearwell.data.named(), ...choices, preset: undefined}));
     } catch (error) {
-      place.readings.hidden = true;
-      place.reasons.replaceChildren();
+      if (error.status === 409 || of !== table) throw error;
+      hideGuess();
+      if (text() === generated) replace('');  // a study of another table
+      place.roles.hidden = false;
       place.roles.open = true;
       throw error;
     }
-    const first = Math.max(0, readings.findIndex((each) => each.preset === choices.preset));
+    if (of !== table) return;
+    // Of readings that fit equally well none is the first: the user chooses.
+    const equal = readings.filter((each) => each.equal).length, chosen = readings.findIndex((each) => each.preset === choices.preset);
+    const first = chosen >= 0 ? chosen : equal > 1 ? -1 : 0;
     place.readings.replaceChildren(element('legend', {}, strings.readings), ...readings.map((each, i) => {
       const input = element('input', {type: 'radio', name: 'reading', value: each.preset, id: `reading-${i}`, checked: i === first});
-      input.addEventListener('change', () => { choices.preset = each.preset; take(each); reasons(each); });
-      return element('label', {class: 'tick', for: `reading-${i}`}, input, `${each.preset}: ${each.reading}`, i > 0 && each.equal ? element('small', {}, ` (${strings.equal})`) : null);
+      input.addEventListener('change', () => { choices.preset = each.preset; take(each); });
+      return element('label', {class: 'tick', for: `reading-${i}`}, input, `${each.preset}: ${each.reading}`, equal > 1 && each.equal ? element('small', {}, ` (${strings.equal})`) : null);
     }));
     place.readings.hidden = false;
-    reasons(readings[first]);
-    take(readings[first]);
+    if (first >= 0) { take(readings[first]); return; }
+    [questions, unread] = [[], true];
+    place.reasons.replaceChildren(element('p', {class: 'wrong'}, strings.chooseReading));
+    replace('');
+    generated = '';
   }
 
   function roles() {
     place.roles.hidden = false;
     place.role.replaceChildren(...table.roles.map((each) => element('option', {value: each}, each)));
-    place.column.replaceChildren(element('option', {value: ''}, strings.noColumn), ...table.columns.slice(0, 1000).map((each) => element('option', {value: each.name}, each.name)));
+    place.column.replaceChildren(element('option', {value: ''}, strings.noColumn), ...(table.headings ?? table.columns.map((each) => each.name)).slice(0, 1000).map((each) => element('option', {value: each}, each)));
     place.chosen.replaceChildren(...(choices.columns.length ? [element('p', {}, `${strings.chosenRoles}: ${choices.columns.join('; ')} `),
-        wearwell.button(strings.forget, () => { choices = {columns: []}; wearwell.attempt(guess); }, 'plain')] : []));
+        wearwell.button(strings.forget, () => { choices = {columns: []}; wearwell.attempt(() => wearwell.data.ofTable(guess)); }, 'plain')] : []));
   }
 
-  // A study that is open and not of this table stays.
+  function guessTable() {
+    if (text() && text() !== generated) remember();
+    generated = text();
+    place.name.value = `${table.file.replace(/\.gz$/, '').replace(/\.[^.]*$/, '')}.toml`;
+    [saved, savedName] = [null, ''];
+    compare();
+    return wearwell.data.ofTable(guess);
+  }
+
   function tableOpened(next) {
     table = next;
     choices = {columns: []};
     place.empty.hidden = true;
-    if (saved !== null && text().includes(JSON.stringify(next.file))) return;
-    place.name.value = `${next.file.replace(/\.gz$/, '').replace(/\.[^.]*$/, '')}.toml`;
-    saved = null;
     place.work.hidden = false;
-    wearwell.quietly(guess);
+    hideGuess();
+    if (isKept()) compare(); else wearwell.quietly(guessTable);
   }
 
   function show(file, content) {
+    if (isEdited()) remember();
+    hideGuess();
     place.empty.hidden = true;
     place.work.hidden = false;
     place.name.value = file;
-    [saved, savedName, generated] = [content, file, content];
-    place.text.value = content;
-    replaced.length = 0;
+    const lines = content.replace(/\r\n?/g, '\n');  // as the editor has them; the file keeps its own
+    [saved, savedName, generated, keptFor] = [lines, file, '', 0];
+    place.text.value = lines;
     changed();
   }
 
-  // Returns the name of the file, which has what the editor shows.
+  // Returns {file, text}: the file has this text. Also of a text that is saved: the file may have changed since.
   async function save() {
-    const content = text(), name = place.name.value;
-    if (!isSaved()) {
-      await wearwell.post('/api/save', {file: name, text: content, before: name === savedName ? saved : null});
-      [saved, savedName] = [content, name];
-      place.note.textContent = strings.saved(name);
-      marks();
-    }
-    return name;
+    if (unread) throw new Error(strings.chooseReading);
+    if (questions.length) throw new Error(strings.openQuestion(questions[0].text));
+    const content = text(), name = place.name.value, before = name === savedName ? saved : null;
+    await wearwell.post('/api/save', {file: name, text: content, before});
+    [saved, savedName] = [content, name];
+    place.note.textContent = strings.saved(name);
+    marks();
+    return {file: name, text: content};
   }
 
   function build(panel) {
@@ -215,14 +290,14 @@
     place.name.addEventListener('input', marks);
     place.state = element('span', {class: 'note', role: 'status'});
     place.note = element('p', {class: 'note', role: 'status'});
-    place.undo = wearwell.button(strings.undo, () => { const last = replaced.pop(); if (last !== undefined) { place.text.value = last; changed(); } }, 'plain');
+    place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
         element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));
     panel.append(element('h2', {}, strings.modelTitle), place.empty, place.work);
-    addEventListener('beforeunload', (event) => { if (text() && !isSaved() && text() !== generated) event.preventDefault(); });
+    addEventListener('beforeunload', (event) => { if (isEdited()) event.preventDefault(); });
   }
 
   wearwell.model = {build, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};

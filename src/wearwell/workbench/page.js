@@ -12,6 +12,11 @@
   };
   wearwell.field = (label, id, attributes) => element('div', {class: 'field'}, element('label', {for: id}, label),
       element('input', {id, autocomplete: 'off', spellcheck: 'false', ...attributes}));
+  wearwell.area = (label, id, {value, ...attributes}) => {
+    const area = element('textarea', {id, rows: Math.min(12, value.split('\n').length + 1), autocomplete: 'off', spellcheck: 'false', wrap: 'off', ...attributes});
+    area.value = value;
+    return element('div', {class: 'field'}, element('label', {for: id}, label), area);
+  };
 
   function complain(message) {
     const shown = element('div', {class: 'callout fail'}, element('pre', {}, message));
@@ -85,9 +90,10 @@
       session(now);
       if (now.study) await wearwell.model.restore();
       if (now.table) await wearwell.data.restore();
+      else if (now.workbook) await wearwell.data.openNamed(now.workbook);
       wearwell.step(now.table ? 'data' : now.study ? 'model' : now.result ? 'fit' : 'data');
     });
-    wearwell.follow(session, connection);
+    wearwell.follow((now) => { session(now); wearwell.data.session(now); }, connection);
   }
   start();
 })();

@@ -52,6 +52,20 @@ void add_summary(const std::vector<present::Block>& blocks, ordered_json& json) 
   }
 }
 
+// Whether there is a posterior to ask, or why not.
+void add_lives(const std::filesystem::path& folder, ordered_json& json) {
+  json["lives"] = false;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(folder / "state.bin", error)) return;
+  const std::string name = folder.filename().string();
+  try {
+    prognosis::require_posterior(prognosis::read_state(folder), name);
+    json["lives"] = true;
+  } catch (const InputError& problem) {
+    json["no_lives"] = printable_lines(problem.what());
+  }
+}
+
 std::string option_text(const nlohmann::json& question, const char* name) {
   return printable(question.value(name, ""));
 }
@@ -69,10 +83,11 @@ std::string quoted_word(const std::string& text) {
 constexpr const char* life_options[] = {"unit", "survived", "horizon", "risk", "level", "sides"};
 
 std::string life_command(const std::filesystem::path& folder, const nlohmann::json& question) {
-  std::string command = "wearwell life " + quoted_word(folder.filename().string());
+  // Another shell stands in another folder; a unit may be named "-1".
+  std::string command = "wearwell life " + quoted_word(folder.string());
   for (const char* name : life_options) {
     const std::string text = option_text(question, name);
-    if (!text.empty()) command += fmt::format(" --{} {}", name, quoted_word(text));
+    if (!text.empty()) command += fmt::format(" --{}={}", name, quoted_word(text));
   }
   return command;
 }
@@ -103,8 +118,7 @@ ordered_json result_json(const std::filesystem::path& folder) {
   for (const present::Section& section : saved.sections) add_summary(section.blocks, json);
   for (const present::Table* each : present::tables(saved.sections))
     json["tables"].push_back(table_texts(*each));
-  std::error_code error;
-  json["lives"] = std::filesystem::is_regular_file(folder / "state.bin", error);
+  add_lives(folder, json);
   return json;
 }
 
@@ -128,6 +142,7 @@ ordered_json life_answer(const std::filesystem::path& folder, Models models,
         prognosis::read_life_bounds(option_text(question, "level"), option_text(question, "sides"));
     if (bounds.asked) asked.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
     const prognosis::CarriedState state = prognosis::read_state(folder);
+    prognosis::require_posterior(state, folder.filename().string());
     const prognosis::UnitLife life =
         prognosis::asked_life(state, folder.filename().string(), models, asked);
     return {{"text", prognosis::life_text(life, bounds, {}, state.trusted)},

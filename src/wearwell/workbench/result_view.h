@@ -10,8 +10,8 @@ namespace wearwell::workbench {
 
 /// A result folder: {title, model, equation, trusted, checks: [{name, verdict, detail, advice}],
 /// leads: [sentence], tiles: [{name, value, unit, note}], tables: [{id, caption, columns, rows}], lives}. Numbers are
-/// texts as the report shows them. `lives`: whether `life_answer` has a posterior to ask. Throws
-/// InputError.
+/// texts as the report shows them. `lives`: whether `life_answer` has a posterior to ask; `no_lives`:
+/// why it cannot be read. Throws InputError.
 nlohmann::ordered_json result_json(const std::filesystem::path& folder);
 
 /// The report as a page.

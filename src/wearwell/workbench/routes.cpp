@@ -61,7 +61,7 @@ void Routes::note_use() const {
 // Another name for our address would be one of another site (DNS rebinding).
 bool Routes::is_ours(const HttpRequest& question) const {
   for (const char* name : {"127.0.0.1", "localhost"}) {
-    const std::string host = fmt::format("{}:{}", name, port_);
+    const std::string host = fmt::format("{}:{}", name, port_.load());
     if (question.host == host)
       return question.origin.empty() || question.origin == "http://" + host ||
              // the report is sandboxed and has no origin of its own
@@ -111,7 +111,10 @@ bool Routes::is_events(const HttpRequest& question) const {
 }
 
 bool Routes::is_delivery(const HttpRequest& question) const {
-  return question.method == "POST";
+  // What a user waits for does not wait behind checks and guesses.
+  static constexpr std::string_view quick[] = {"/api/stop", "/api/save", "/api/fit"};
+  return question.method == "POST" &&
+         std::find(std::begin(quick), std::end(quick), path_of(question)) == std::end(quick);
 }
 
 HttpResponse Routes::answer(const HttpRequest& question, const HttpCounts&) const {

@@ -18,7 +18,7 @@ class Routes final : public HttpHandler {
  public:
   Routes(Session& session, std::string token);
 
-  /// Before the first request: the port that `Host` must name.
+  /// The port that `Host` must name; requests before it are refused.
   void set_port(unsigned short port) { port_ = port; }
   /// Whether an authorized request has come, and the time since the last one or since a page was
   /// last known to be open, in s.
@@ -45,7 +45,7 @@ class Routes final : public HttpHandler {
   Session& session_;
   const std::string token_, report_path_;
   const ServedPage page_;
-  unsigned short port_ = 0;
+  std::atomic<unsigned short> port_ = 0;             ///< set while requests already come
   mutable std::atomic<std::int64_t> last_used_ = 0;  ///< steady clock, ms
 };
 

@@ -21,8 +21,7 @@
   wearwell.upload = (file) => answer(`/api/upload?${new URLSearchParams({file: file.name})}`,
       {method: 'POST', headers: {'Content-Type': 'application/octet-stream'}, body: file});
 
-  // Each event of the stream is the whole session; `state`: "live" or "lost".
-  wearwell.follow = async (changed, state) => {
+  async function listen(changed, state) {
     for (;;) {
       try {
         const response = await fetch('/api/events', {cache: 'no-store', headers: {Authorization: `Bearer ${token}`}});
@@ -47,5 +46,23 @@
       state('lost');
       await new Promise((done) => { setTimeout(done, 1500); });
     }
+  }
+
+  // Each event of the stream is the whole session; `state`: "live" or "lost". A browser has six connections to a program, so one tab
+  // listens for all: the one that holds the lock, which passes on when it is closed.
+  wearwell.follow = (changed, state) => {
+    const name = `wearwell-${token}`, channel = new BroadcastChannel(name);
+    let last = null;
+    channel.addEventListener('message', ({data}) => {
+      if (data === 'ask') { if (last) channel.postMessage(last); return; }
+      state(data.state);
+      if (data.session) changed(data.session);
+    });
+    channel.postMessage('ask');
+    return navigator.locks.request(name, () => {
+      last = {state: 'wait'};
+      const pass = (next) => { last = {...last, ...next}; channel.postMessage(last); };
+      return listen((session) => { changed(session); pass({session}); }, (now) => { state(now); pass({state: now}); });
+    });
   };
 })();

@@ -20,7 +20,9 @@ struct OpenTable {
   std::string file;
   std::map<std::string, std::string> settings = {};  ///< keys of [data]: "sheet"
   Table table = {};
-  std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes
+  std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes,
+  Table as_stored = {};                ///< and this is the table before it
+  std::uint64_t number = 0;  ///< of the tables opened so far: a request names the one it means
 };
 
 enum class FitState { none, running, done, failed, stopped };
@@ -29,6 +31,8 @@ enum class FitState { none, running, done, failed, stopped };
 struct FitProgress {
   FitState state = FitState::none;
   std::string study, result;      ///< the file, and the folder of its result
+  std::uint64_t run = 0;          ///< its number
+  std::uint64_t written = 0;      ///< the number of the latest run that wrote a result
   std::string what = {};          ///< the steps: "iterations"
   long long done = 0, total = 0;  ///< of them; a total of 0 is unknown
   double seconds = 0;             ///< since the start
@@ -42,9 +46,13 @@ struct Session {
   const std::filesystem::path folder;
   const Models models;
 
+  /// Held from the comparison of a file to its writing. Taken before `mutex`.
+  std::mutex writing;
   std::mutex mutex;           ///< guards the members below
   std::uint64_t version = 1;  ///< increases with each change of them
+  std::uint64_t tables = 0;   ///< opened so far
   std::shared_ptr<const OpenTable> table = {};
+  std::string workbook = {};            ///< the file whose sheet is still to be chosen; "" none
   std::string study = {}, result = {};  ///< open: a file, a folder; "" none
   FitProgress fit = {};
   std::jthread fitting = {};  ///< last, so that it ends first

@@ -11,6 +11,7 @@ wearwell.strings = {
   inFolder: 'In the folder', open: 'Open', nothingHere: 'no tables, studies or results yet',
   tables: 'Tables', studies: 'Studies', results: 'Results',
   sheetTitle: (file) => `${file} has several sheets. Which one?`,
+  otherPage: (file) => `Another page has opened ${file}. All pages show the same table.`,
   stored: 'How the table is stored', apply: 'Read again',
   settings: {sheet: 'Sheet', range: 'Range (B4:G22)', header_row: 'Line of the headings', units_row: 'Line of units: below or none',
              decimal: 'Decimal mark: . or ,', thousands: 'Thousands separator, or none', delimiter: 'Separator of the columns',
@@ -27,8 +28,14 @@ wearwell.strings = {
   plotHint: 'Point at the plot for the nearest row.', point: (row, x, y) => `Row ${row}: ${x}, ${y}`,
   plotDescription: (y, x) => `${y} against ${x}; the values are in the table above`,
 
+  otherTable: (study, table) => `${study || 'The study'} is kept. It does not read ${table}, the table that is shown.`,
+  otherSettings: (study, table, differ) => `${study || 'The study'} is kept. It reads ${table} with other settings than the table that is shown (study / shown): ${differ}.`,
+  notSet: 'not set', guessTable: (table) => `Guess a study from ${table} as shown`, openAsRead: 'Show the table that the study reads', keepStudy: 'Keep the study',
+
   modelTitle: 'Model', noTable: 'Open a table first, or a study.',
   readings: 'How this table can be read', equal: 'fits equally well',
+  chooseReading: 'The table can be read in several ways that fit equally well. Choose one.',
+  openQuestion: (question) => `Answer this question of the step Model first: ${question}`,
   taken: 'From the headings', guesses: 'Check these guesses', unstated: 'State what no heading says',
   columnRole: 'Name a role of a column', role: 'Role', column: 'Column', noColumn: '(no column)', setRole: 'Set', chosenRoles: 'Chosen', forget: 'Forget these choices',
   formTitle: 'Values', wholeStudy: 'study', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,

@@ -89,6 +89,26 @@ bool is_quoted(std::string_view text, const Place& place) {
   return place.begin < text.size() && (text[place.begin] == '"' || text[place.begin] == '\'');
 }
 
+// A text in quotes; over several lines if it has them and the marks that stand there allow it.
+std::string quoted_value(const std::string& mark, const std::string& value) {
+  const bool is_long = mark == "'''" || mark == "\"\"\"";
+  if (!is_long || value.find('\n') == value.npos) return toml_text(value);
+  if (mark == "'''" && value.find("'''") == value.npos && value.back() != '\'')
+    return "'''\n" + value + "'''";
+  std::string out = "\"\"\"\n";
+  for (const char each : value) {
+    if (each == '"' || each == '\\') out += '\\';
+    out += each;
+  }
+  return out + "\"\"\"";
+}
+
+std::string text_at(const TomlReader& root, const std::string& path) {
+  for (const TomlReader::Present& each : root.present())
+    if (each.path == path) return each.text;
+  return "";
+}
+
 std::vector<std::string> paths_of(const TomlReader& root) {
   std::vector<std::string> paths;
   for (const TomlReader::Present& each : root.present()) paths.push_back(each.path);
@@ -167,11 +187,12 @@ std::string with_value(const std::string& text, const std::string& path, const s
   for (const TomlReader::Present& each : root.present()) {
     if (each.is_table || printable(each.path) != path) continue;
     const Place place = place_of(text, each);
+    const bool quoted = is_quoted(text, place);
     std::string changed = text;
     changed.replace(place.begin, place.end - place.begin,
-                    is_quoted(text, place) ? toml_text(value) : value);
+                    quoted ? quoted_value(text.substr(place.begin, 3), value) : value);
     const TomlReader after = TomlReader::parse({"the study", changed});
-    if (paths_of(after) != paths_of(root))
+    if (paths_of(after) != paths_of(root) || (quoted && text_at(after, each.path) != value))
       throw InputError(
           fmt::format("{}: \"{}\" is not one value", path, printable(shortened(value))));
     return changed;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -63,7 +64,7 @@ ordered_json column_json(const Table& table, const Column& column) {
       continue;
     }
     if (!column.is_number && !mostly) continue;
-    if (refused >= most_refused) break;
+    if (refused >= most_refused) continue;  // each costs an exception
     const double value = number_in(table, column, row, nullptr);
     if (std::isnan(value)) {
       ++(column.is_number ? empty : refused);
@@ -75,7 +76,7 @@ ordered_json column_json(const Table& table, const Column& column) {
   json["empty"] = empty;
   if (mostly) json["refused"] = refused;
   if (!column.doubt.empty()) json["doubt"] = printable(column.doubt);
-  if (least <= largest) {
+  if (least <= largest && refused < most_refused) {
     json["least"] = least;
     json["largest"] = largest;
   }
@@ -98,7 +99,8 @@ OpenTable open_table(const std::filesystem::path& folder, const std::string& fil
       text.empty() ? TableSettings() : read_table_settings(TomlReader::parse({"[data]", text}));
   OpenTable open{file, settings, read_table(path, {}, {}, read)};
   open.wide = wide_table(open.table);
-  if (open.wide) open.table = read_table(path, open.wide->sql, {}, read);
+  if (open.wide)
+    open.as_stored = std::exchange(open.table, read_table(path, open.wide->sql, {}, read));
   return open;
 }
 
@@ -107,7 +109,12 @@ ordered_json table_json(const OpenTable& open) {
                        {"rows", open.table.rows},
                        {"layout", printable(open.table.layout.text)}};
   json["settings"] = open.settings;
-  if (open.wide) json["wide"] = printable(wide_description(*open.wide));
+  if (open.wide) {
+    json["wide"] = printable(wide_description(*open.wide));
+    json["headings"] = ordered_json::array();
+    for (const Column& each : open.as_stored.columns)
+      json["headings"].push_back(printable(each.name));
+  }
   json["columns"] = ordered_json::array();
   for (const Column& each : open.table.columns)
     json["columns"].push_back(column_json(open.table, each));
@@ -132,7 +139,13 @@ ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t coun
       const Column& column = table.columns[c];
       if (column.is_number) {
         const double value = column.numbers[row];
-        std::isfinite(value) ? cells.push_back(value) : cells.push_back(nullptr);
+        if (std::isfinite(value)) {
+          cells.push_back(value);
+        } else if (std::isnan(value)) {
+          cells.push_back(nullptr);
+        } else {
+          cells.push_back(value > 0 ? "inf" : "-inf");
+        }
         continue;
       }
       cells.push_back(printable(shortened(column.text[row], 200)));

@@ -14,13 +14,13 @@ namespace wearwell::workbench {
 OpenTable open_table(const std::filesystem::path& folder, const std::string& file,
                      const std::map<std::string, std::string>& settings);
 
-/// {file, rows, layout, remarks, settings, wide, columns: [{name, unit, kind, empty, refused, least,
-/// largest}], roles}. `kind`: "number", or "text"; text in which most cells are numbers has `refused`, the
-/// number of the others (at most 1000 are counted).
+/// {file, rows, layout, remarks, settings, wide, headings, columns: [{name, unit, kind, empty,
+/// refused, least, largest}], roles}. `headings`: of a wide table before its SELECT; chosen roles name them. `kind`: "number", or "text"; text in which most cells are numbers has `refused`, the
+/// number of the others; at most 1000 are counted, and then there is no least and largest.
 nlohmann::ordered_json table_json(const OpenTable& open);
 
 /// {from, rows: [{row, line, cells, refused: {COLUMN: message}}]} of `count` rows and `columns`
-/// columns; a missing number is null.
+/// columns; a missing number is null, an infinite one "inf" or "-inf".
 nlohmann::ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t count,
                                  std::size_t from_column, std::size_t columns);
 

@@ -230,11 +230,12 @@ nlohmann::ordered_json left_out_json(const LeftOut& left_out,
   }
   for (std::size_t i = 0; i < std::min(units_shown, wear.size()); ++i) {
     const MissingWear& each = wear[i];
-    units.push_back({{"unit", each.unit.empty() ? nlohmann::ordered_json() : each.unit},
-                     {"rows", each.rows},
-                     {"cycles", each.cycles},
-                     {"volume", each.volume / mm3},
-                     {"sd", each.sd / mm3}});
+    units.push_back(
+        {{"unit", each.unit.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(each.unit)},
+         {"rows", each.rows},
+         {"cycles", each.cycles},
+         {"volume", each.volume / mm3},
+         {"sd", each.sd / mm3}});
   }
   return {{"rows", left_out.rows},
           {"without_unit", left_out.count[LeftOut::unit]},
