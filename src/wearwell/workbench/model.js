@@ -28,7 +28,7 @@
 
   function replace(next) {
     if (next === text()) return;
-    if (text() && text() !== generated) remember();
+    if (text() && (text() !== generated || saved !== null)) remember();
     place.text.value = next;
     changed();
   }
@@ -227,7 +227,7 @@
   }
 
   function guessTable() {
-    if (text() && text() !== generated) remember();
+    if (text() && isKept()) remember();
     generated = text();
     place.name.value = `${table.file.replace(/\.gz$/, '').replace(/\.[^.]*$/, '')}.toml`;
     [saved, savedName] = [null, ''];
