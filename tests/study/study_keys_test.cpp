@@ -713,6 +713,8 @@ TEST_F(StudyKeysTest, ListsHoldWhatReadersAskForAndDocsShowThem) {
     const Asked& asked = asked_[std::string(each.key)];
     for (const auto& [path, kinds] : asked) of_all[path].insert(kinds.begin(), kinds.end());
     for (const auto& [path, kinds] : asked) {
+      // A staircase asks for them to refuse them with the reason.
+      if (each.key == "staircase" && path == "predict.b_lives") continue;
       const bool known =
           std::any_of(keys.begin(), keys.end(), [&, &path = path](const StudyKey& key) {
             return matches_key(key.path, path) || key.path.starts_with(path + ".");

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/http/settings.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/monitor/alarm.h"
-#include "wearwell/http/settings.h"
 #include "wearwell/monitor/reading_mapping.h"
 #include "wearwell/monitor/topic_pattern.h"
 #include "wearwell/monitor/webhook_settings.h"

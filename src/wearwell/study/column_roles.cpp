@@ -16,6 +16,7 @@
 #include "wearwell/study/column_values.h"
 #include "wearwell/study/heading_words.h"
 
+// Longer than others: one pass over the columns, each role with its questions and its reasons.
 namespace wearwell {
 namespace {
 

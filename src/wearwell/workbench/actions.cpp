@@ -22,6 +22,7 @@
 #include "wearwell/workbench/study_form.h"
 #include "wearwell/workbench/table_view.h"
 
+// Longer than others: one short function for each request of the page.
 namespace wearwell::workbench {
 namespace {
 

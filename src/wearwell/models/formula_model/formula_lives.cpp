@@ -13,6 +13,7 @@
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/predict/interpolated.h"
 
+// Longer than others: lives of new units and of those with readings, over lines and over points.
 namespace wearwell::formula_model {
 namespace {
 
