@@ -227,7 +227,7 @@ class FitLives:
         ...         for hours in ([312, 480, 510, 640, 700], [150, 210, 260, 330, 420])]
         >>> found = fits[0].against(fits[1], confidence=0.95)
         >>> found.differences.loc["B10 ratio", ["at_least", "q50"]].round(1).tolist()
-        [0.9, 1.9]
+        [0.8, 2.3]
         """
         from ._against import against
 

@@ -124,7 +124,8 @@ def returns(data, *, sold=None, quantity=None, returned=None, until=None, period
     >>> import wearwell as ww
     >>> triangle = {"shipped in": ["Jun 2010", "Jul 2010", "Aug 2010"], "quantity": [100, 140, 150],
     ...             "Jul 2010": [3, None, None], "Aug 2010": [3, 2, None], "Sep 2010": [5, 4, 4]}
-    >>> fit = ww.returns(triangle, ages="whole", ahead="1 month", priors="flat", method="exact", report=False)
+    >>> priors = {"characteristic": ww.uniform("1 month", "100 month"), "slope": ww.uniform(0.2, 8)}
+    >>> fit = ww.returns(triangle, ages="whole", ahead="1 month", priors=priors, method="exact", report=False)
     >>> mode = fit.results["mode"]["parameters"]
     >>> round(mode["slope"]["value"], 2), round(mode["characteristic"]["value"], 2)
     (2.49, 6.7)

@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -160,9 +159,11 @@ class AgeTable {
     if (valid_) step_ = std::exp2(std::floor(std::log2(of_width * first_step(unit))));
   }
 
-  bool is_of(const LifeAtRate& unit, Censoring seen, bool sloped) const {
-    return life_ == unit.life && rate_ == unit.rate && seen_ == seen && sloped_ == sloped &&
-           std::equal(unit.life_parameters, unit.life_parameters + per_family,
+  bool is_like(const LifeAtRate& unit, Censoring seen, bool sloped) const {
+    return life_ == unit.life && rate_ == unit.rate && seen_ == seen && sloped_ == sloped;
+  }
+  bool has_parameters(const LifeAtRate& unit) const {
+    return std::equal(unit.life_parameters, unit.life_parameters + per_family,
                       parameters_.begin()) &&
            std::equal(unit.rate_parameters, unit.rate_parameters + per_family,
                       parameters_.begin() + per_family);
@@ -210,25 +211,33 @@ class AgeTable {
 
 }  // namespace
 
-struct SharedAges::Tables {
-  std::vector<AgeTable> all;
+namespace {
+
+// Of the last parameters in a thread, for each kind of ages. Values do not depend on what was asked
+// before, so they may outlive their scope.
+struct AgeTables {
+  int scopes = 0;
+  std::vector<AgeTable> all = {};
+
   AgeTable& of(const LifeAtRate& unit, Censoring seen, bool sloped) {
-    for (AgeTable& each : all)
-      if (each.is_of(unit, seen, sloped)) return each;
+    for (AgeTable& each : all) {
+      if (!each.is_like(unit, seen, sloped)) continue;
+      if (!each.has_parameters(unit)) each = AgeTable(unit, seen, sloped);
+      return each;
+    }
     return all.emplace_back(unit, seen, sloped);
   }
 };
+thread_local AgeTables age_tables;
 
-namespace {
-thread_local SharedAges::Tables* shared = nullptr;
-}
+}  // namespace
 
-SharedAges::SharedAges() : tables_(std::make_unique<Tables>()), before_(shared) {
-  shared = tables_.get();
+SharedAges::SharedAges() {
+  ++age_tables.scopes;
 }
 
 SharedAges::~SharedAges() {
-  shared = before_;
+  --age_tables.scopes;
 }
 
 bool can_be_life_at_rate(ResponseFamily family) {
@@ -246,7 +255,8 @@ double log_response(const LifeAtRate& unit, const Response& age, std::span<doubl
   std::fill(slope.begin(), slope.end(), 0.0);
   const bool sloped = !slope.empty();
   const bool one_age = age.at > 0 && (age.seen == Censoring::none || age.seen == Censoring::right);
-  AgeTable* const table = one_age && shared ? &shared->of(unit, age.seen, sloped) : nullptr;
+  AgeTable* const table =
+      one_age && age_tables.scopes > 0 ? &age_tables.of(unit, age.seen, sloped) : nullptr;
   if (table ? !table->valid() : !has_valid_parameters(unit)) return -infinity;
   if (age.at == infinity) return age.seen == Censoring::left ? 0 : -infinity;
   const LogIntegral found = table ? table->at(unit, age) : log_integral(unit, age, sloped);

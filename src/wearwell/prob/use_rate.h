@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 
 #include "wearwell/prob/response.h"
@@ -38,11 +37,6 @@ class SharedAges {
   ~SharedAges();
   SharedAges(const SharedAges&) = delete;
   SharedAges& operator=(const SharedAges&) = delete;
-  struct Tables;
-
- private:
-  std::unique_ptr<Tables> tables_;
-  Tables* before_;
 };
 
 /// Log density or log probability of one age, without its entry; -infinity where a parameter is invalid, or so extreme
