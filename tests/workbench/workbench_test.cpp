@@ -16,6 +16,7 @@
 #include "wearwell/models/registry.h"
 #include "wearwell/workbench/table_view.h"
 
+// Longer than others: one fixture, a running server, for every route.
 namespace wearwell::workbench {
 namespace {
 

@@ -22,6 +22,7 @@
 #include "wearwell/workbench/study_form.h"
 #include "wearwell/workbench/table_view.h"
 
+// Longer than others: all requests of the page that change or read the session, and its table of them.
 namespace wearwell::workbench {
 namespace {
 
