@@ -223,7 +223,6 @@ async function tabs(browser) {
   await first.click('#panel-fit button');
   await first.waitForSelector('#banners .callout:has-text("has been changed")', {timeout: 60000});
   writeFileSync(join(inside, 'pumps.toml'), study);
-  complaints.splice(0, complaints.length, ...complaints.filter((each) => !each.includes('409')));
 
   // A second run shows its own result.
   const b10 = () => first.evaluate(() => [...document.querySelectorAll('#result tr')].map((each) => each.textContent).find((each) => each.startsWith('B10')));
@@ -253,7 +252,8 @@ async function tabs(browser) {
   await opened(second, 'late.csv');
   await context.close();
   await stop();
-  faults.push(...complaints.map((each) => `tabs: ${each}`));
+  // Refusals that the above wants: the changed file (409), tables from whose headings no study follows (400).
+  faults.push(...complaints.filter((each) => !/status of 40[09]/.test(each)).map((each) => `tabs: ${each}`));
 }
 
 // Nothing is taken where a table leaves a question open, or has readings that fit equally well (as if there were two).

@@ -16,6 +16,7 @@
 #include "wearwell/models/registry.h"
 #include "wearwell/workbench/table_view.h"
 
+// Longer than others: one fixture, a running server, for every route.
 namespace wearwell::workbench {
 namespace {
 
@@ -420,7 +421,7 @@ TEST_F(WorkbenchTest, AWideTableHasTheHeadingsOfItsFileForRoles) {
   const json first = done("/api/guess", named())["readings"][0];
   EXPECT_THAT(first["text"].get<std::string>(), HasSubstr("sql"));
   const json chosen = done(
-      "/api/guess", named({{"columns", {"wear=P2 [um]", "unused=P1 [um]", "unused=P3 [um]"}}}));
+      "/api/guess", named({{"columns", {"depth=P2 [um]", "unused=P1 [um]", "unused=P3 [um]"}}}));
   const std::string text = chosen["readings"][0]["text"];
   EXPECT_EQ(text.find("sql"), text.npos) << text;
   EXPECT_THAT(text, HasSubstr("P2"));
