@@ -225,7 +225,7 @@ TEST_F(Door, SlipsInACommandLine) {
   write("other/model.json", "{}");
   const std::pair<const char*, const char*> slips[] = {
       {"fti joint/study.toml",
-       "'fti' is not a command of wearwell; did you mean 'fit'? (commands: new, check, fit, "
+       "'fti' is not a command of wearwell; did you mean 'fit'? (commands: open, new, check, fit, "
        "report, "
        "life, "
        "decide, plan, update, backtest, compare, monitor, bearing, clutch, fleet, fatigue, export, "
@@ -233,8 +233,8 @@ TEST_F(Door, SlipsInACommandLine) {
        "help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
       {"joint/study.toml",
-       "'joint/study.toml' is not a command of wearwell (commands: new, check, fit, "},
-      {"", "wearwell needs a command: new, check, fit, "},
+       "'joint/study.toml' is not a command of wearwell (commands: open, new, check, fit, "},
+      {"", "wearwell needs a command: open, new, check, fit, "},
       {"clutch",
        "wearwell clutch needs a command: design, simulate, features, predict, life, compare, sql "
        "(see "

@@ -87,7 +87,10 @@ class MeanLifeTest : public ScratchTest {
 
 TEST_F(MeanLifeTest, OfSpecimens) {
   PosteriorStudy study;
-  sn("", "mean_life = true\nstress = { bar = { alternating = \"280 MPa\" } }\n", study);
+  sn("",
+     "mean_life = true\nstress = { bar = { alternating_stress = \"280 MPa\" } "
+     "}\n",
+     study);
   // log10 N = (log10 S/Pa - log10 a)/b.
   const double log10_a = 9.5, b = -0.2, sigma = 0.3, s = sigma * std::log(10.0),
                center = (std::log10(280e6) - log10_a) / b,
