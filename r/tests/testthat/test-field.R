@@ -1,7 +1,7 @@
 # Units that are repaired, warranty returns, and lives of two fits against each other.
 
 test_that("repairs in one line are those of the study file", {
-  seats <- read.csv(example("repairable", "valve_seats.csv"))
+  seats <- read.csv(example("repairable", "valve_seats.csv"), check.names = FALSE)
   repairs <- function(frame, event = "event", ...) {
     quiet(ww_repairable(frame, age = "age", unit = "engine", event = event, units = c(age = "day"), rounding = "1 day", at = "600 day",
                                    ahead = "100 day", ..., seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))

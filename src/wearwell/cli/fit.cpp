@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
@@ -46,6 +47,7 @@ int run_fit(const FitOptions& options, Models models) {
   const bool netcdf = !options.netcdf.empty();
   if (netcdf) static_cast<void>(require_posterior_study(*study));
   const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
+  std::optional<Source> carried = prognosis::source_to_carry(source, *study);
   if (of_posterior && !options.quiet) {
     const std::string note = method_note(*of_posterior, options.sampler);
     if (!note.empty()) fmt::print(stderr, "wearwell: {}\n", note);
@@ -57,7 +59,8 @@ int run_fit(const FitOptions& options, Models models) {
     ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
     const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
                           .threads = options.threads};
-    return prognosis::carried_run(source, *study, {options.sampler, !options.no_report}, monitor);
+    return prognosis::carried_run(std::move(carried), *study, {options.sampler, !options.no_report},
+                                  monitor);
   }();
   if (draws) {
     draws->write(

@@ -1,6 +1,5 @@
 #include "wearwell/prognosis/carried_run.h"
 
-#include <optional>
 #include <utility>
 
 #include "wearwell/prognosis/carry.h"
@@ -8,12 +7,14 @@
 
 namespace wearwell::prognosis {
 
-Result carried_run(const Source& source, const Study& study, const RunOptions& options,
+std::optional<Source> source_to_carry(const Source& source, const Study& study) {
+  const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(&study);
+  if (!of_posterior) return {};
+  return carried_source(source, *of_posterior);
+}
+
+Result carried_run(std::optional<Source> carried, const Study& study, const RunOptions& options,
                    const Monitor& monitor) {
-  // Before the run: the files may change meanwhile.
-  std::optional<Source> carried;
-  if (const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(&study))
-    carried = carried_source(source, *of_posterior);
   Result result = study.run(options, monitor);
   if (carried)
     result.files.emplace_back("state.bin",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "wearwell/base/monitor.h"
 #include "wearwell/input/source.h"
 #include "wearwell/study/result.h"
@@ -7,9 +9,14 @@
 
 namespace wearwell::prognosis {
 
-/// The result of a study that was read from `source`, with state.bin among its files if it has a
-/// posterior: what `wearwell fit` writes. Throws like Study::run and carried_source.
-Result carried_run(const Source& source, const Study& study, const RunOptions& options,
+/// What state.bin is to hold of a study that was read from `source`; none if it has no posterior. It
+/// reads the tables again, so it belongs right behind the reading of the study. Throws like
+/// carried_source.
+std::optional<Source> source_to_carry(const Source& source, const Study& study);
+
+/// The result of a study, with state.bin among its files if there is something to carry: what
+/// `wearwell fit` writes. Throws like Study::run.
+Result carried_run(std::optional<Source> carried, const Study& study, const RunOptions& options,
                    const Monitor& monitor);
 
 }  // namespace wearwell::prognosis

@@ -27,6 +27,7 @@ void change(Session& session, const std::function<void(FitProgress&)>& with) {
 void fit_study(Session& session, const Source& source, const std::string& result,
                const std::stop_token& stop) {
   const auto read = read_study(source, session.models);
+  std::optional<Source> carried = prognosis::source_to_carry(source, *read);
   ResultFolder folder(path_in(session.folder, result));
   const Monitor monitor{.progress =
                             [&](const Step& step) {
@@ -38,7 +39,7 @@ void fit_study(Session& session, const Source& source, const std::string& result
                               });
                             },
                         .stop = stop};
-  const Result found = prognosis::carried_run(source, *read, {}, monitor);
+  const Result found = prognosis::carried_run(std::move(carried), *read, {}, monitor);
   write_result(found, source.study.text, folder);
 }
 
