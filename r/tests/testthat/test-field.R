@@ -2,6 +2,10 @@
 
 test_that("repairs in one line are those of the study file", {
   seats <- read.csv(example("repairable", "valve_seats.csv"), check.names = FALSE)
+  with_event <- function(event) {
+    seats$event <- event
+    seats
+  }
   repairs <- function(frame, event = "event", ...) {
     quiet(ww_repairable(frame, age = "age", unit = "engine", event = event, units = c(age = "day"), rounding = "1 day", at = "600 day",
                                    ahead = "100 day", ..., seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
@@ -9,14 +13,14 @@ test_that("repairs in one line are those of the study file", {
   fit <- repairs(seats)
   file <- quiet(ww_fit(example("repairable", "study.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
   expect_equal(fit$parameters[c("q05", "q50", "q95")], file$parameters[c("q05", "q50", "q95")], tolerance = 1e-12)
-  expect_identical(repairs(transform(seats, event = event == "failure"))$parameters, fit$parameters)
-  expect_identical(repairs(transform(seats, event = as.integer(event == "failure")))$parameters, fit$parameters)
-  words <- transform(seats, event = ifelse(event == "failure", "cambio", "hoy"))
+  expect_identical(repairs(with_event(seats$event == "failure"))$parameters, fit$parameters)
+  expect_identical(repairs(with_event(as.integer(seats$event == "failure")))$parameters, fit$parameters)
+  words <- with_event(ifelse(seats$event == "failure", "cambio", "hoy"))
   expect_identical(repairs(words, list(column = "event", failure = "cambio", end = "hoy"))$parameters, fit$parameters)
   refused(ww_repairable(seats, "age", "engin", "event"), "no column 'engin'")
   refused(ww_repairable(seats, "age", "engine", list(column = "event", runout = 0)), "event is")
   refused(ww_repairable(seats, "age", "engine", "event", process = "power"), "process is")
-  refused(ww_repairable(transform(seats, event = ifelse(event == "failure", 1, 2)), "age", "engine", "event", units = c(age = "day")), "two ways")
+  refused(ww_repairable(with_event(ifelse(seats$event == "failure", 1, 2)), "age", "engine", "event", units = c(age = "day")), "two ways")
   refused(ww_repairable(seats, "age", "engine", "event", agead = "3 day"), "did you mean 'ahead'")
 })
 
