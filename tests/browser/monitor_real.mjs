@@ -110,12 +110,12 @@ try {
 
   // A part is replaced, by the form; then the replacement is cancelled.
   await page.click('.report summary');
-  await page.fill('.event-form input[name="by"]', 'A. <b>Smith</b>');
-  await page.fill('.event-form input[name="note"]', 'new laser');
-  await page.fill('.event-form .fields input[type="number"]', '2500');
-  await page.fill('.event-form input[type="datetime-local"]', '2100-01-01T00:00');
+  await page.fill('.report .event-form input[name="by"]', 'A. <b>Smith</b>');
+  await page.fill('.report .event-form input[name="note"]', 'new laser');
+  await page.fill('.report .event-form .fields input[type="number"]', '2500');
+  await page.fill('.report .event-form input[type="datetime-local"]', '2100-01-01T00:00');
   await page.screenshot({path: join(folder, 'form.png'), fullPage: true});
-  await page.click('.event-form button');
+  await page.click('.report .event-form button');
   await page.waitForFunction(() => document.querySelector('.events-list li')?.textContent.includes('A new part is installed'), null, {timeout: 60000})
       .catch(() => faults.push('the reported event does not show'));
   check((await page.textContent('.events-list')).includes('A. <b>Smith</b>'), 'who reported it does not show as text');

@@ -300,5 +300,27 @@ TEST(Stages, ProperPriorsMakeAProperPosterior) {
   }
 }
 
+// On a plateau or at an edge a search for the mode may end little above the draws: no mass is missed. Far above them it is.
+TEST(StageDiagnostics, ASearchThatFellShort) {
+  const Posterior posterior = line({1, 2, 3, 4}, {1.1, 1.9, 3.2, 3.9}, 1);
+  const Fit found = fit(posterior, exact_settings());
+  NaturalMode mode;
+  mode.problem = "the search did not converge";
+  EXPECT_THAT(later_stage_diagnostics(posterior, found, mode), testing::IsEmpty());
+  mode.fell_short = true;
+  mode.above_draws = 0.3;
+  auto stages = later_stage_diagnostics(posterior, found, mode);
+  ASSERT_EQ(stages.size(), 1u);
+  EXPECT_EQ(stages[0].verdict, Verdict::warn);
+  EXPECT_THAT(stages[0].what,
+              HasSubstr("the draws do not miss mass: the search reached only e^0.3 times"));
+  for (const double above : {40.0, double(NAN)}) {
+    mode.above_draws = above;
+    stages = later_stage_diagnostics(posterior, found, mode);
+    ASSERT_EQ(stages.size(), 1u);
+    EXPECT_EQ(stages[0].verdict, Verdict::fail) << above;
+  }
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -211,7 +211,7 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
       reading.fail("time_format", "must be \"unix ms\" for {timestamp}");
   }
   for (const std::string& label : mapping.labels) check("columns", label);
-  if (check("sequence", mapping.sequence))
+  if (check("sequence", mapping.sequence) && mapping.sequence != timestamp_field)
     reading.fail("sequence", "does not distinguish readings: it is part of the topic");
   check_places(reading, source);
 }

@@ -8,6 +8,7 @@
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
+#include "wearwell/math/rounded.h"
 #include "wearwell/predict/item_mixture.h"
 
 namespace wearwell {
@@ -136,8 +137,9 @@ DominantDraws::DominantDraws(const WeightedDraws& draws) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.values.rows()));
   std::iota(order.begin(), order.end(), 0);
   if (!draws.lower.empty()) {
-    std::sort(order.begin(), order.end(),
-              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+      return rounded(draws.weights[a]) > rounded(draws.weights[b]);
+    });
   }
   double total = 0;
   for (const Eigen::Index i : order) {

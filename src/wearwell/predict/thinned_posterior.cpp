@@ -12,6 +12,26 @@ namespace {
 
 using Eigen::Index;
 
+// Whitened coordinates of symmetric nodes, weights and spreads are often equal but for rounding
+// errors. These must not choose: the points would be others on another processor.
+constexpr double equal = 1e-9;
+constexpr double least_size = 1e-5;  // of a spread or direction that is no rounding error
+
+// Gram and Schmidt's basis of the columns, in their order, without those that follow from others:
+// among nodes of a lattice moments do, and would leave directions to rounding errors.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd basis(columns.rows(), std::min(columns.rows(), columns.cols()));
+  Index found = 0;
+  for (Index i = 0; i < columns.cols() && found < basis.cols(); ++i) {
+    Eigen::VectorXd each = columns.col(i);
+    const auto before = basis.leftCols(found);
+    for (int again = 0; again < 2; ++again) each -= before * (before.transpose() * each);
+    const double size = each.norm();
+    if (size > least_size) basis.col(found++) = each / size;
+  }
+  return basis.leftCols(found);
+}
+
 // Points of a region of the whitened posterior.
 struct Cloud {
   Points at;
@@ -34,8 +54,9 @@ Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
   }
   const Eigen::MatrixXd covariance = cloud.at.transpose() * w.asDiagonal() * cloud.at;
   const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  if (llt.info() != Eigen::Success) return cloud;
-  cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
+  if (llt.info() == Eigen::Success)
+    cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
+  cloud.at = (cloud.at / equal).array().round() * equal;
   return cloud;
 }
 
@@ -58,7 +79,7 @@ class Region {
       square += cloud.weight[i] * (cloud.at.row(static_cast<Index>(i)) - middle_).cwiseAbs2();
     }
     size_ = (square / sum).cwiseSqrt();
-    for (double& each : size_) each = each > 0 ? each : 1;
+    for (double& each : size_) each = each > least_size ? each : 1;
   }
 
   static Index moments(Index d) { return 1 + d + d * (d + 1) / 2; }
@@ -97,24 +118,32 @@ class Region {
     return sums;
   }
 
+  // Combinations of points with zero moments.
+  static Eigen::MatrixXd null_combinations(const Eigen::MatrixXd& sums) {
+    const Eigen::MatrixXd q = orthonormal(sums);
+    // The projection depends on the moments alone, where Householder's directions depend on the
+    // signs of zeros, too.
+    return orthonormal(Eigen::MatrixXd::Identity(q.rows(), q.rows()) - q * q.transpose());
+  }
+
   void take_away(std::vector<std::size_t>& points, std::vector<double>& weight) const {
     const Eigen::MatrixXd sums = sums_of(points);
-    const Index n = sums.rows(), free = n - sums.cols();
-    const Eigen::MatrixXd q = sums.householderQr().householderQ();
-    Eigen::MatrixXd none = q.rightCols(free);  // combinations with zero moments
+    Eigen::MatrixXd none = null_combinations(sums);
+    const Index n = sums.rows(), free = none.cols();
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
     std::vector<bool> gone(static_cast<std::size_t>(n));
     for (Index c = 0; c < free; ++c) {
       Index first = -1;
-      double least = 0;
+      double least_share = 0;
+      const double least = equal * none.col(c).cwiseAbs().maxCoeff();
       for (Index i = 0; i < n; ++i) {
-        if (gone[static_cast<std::size_t>(i)] || !(std::abs(none(i, c)) > 1e-12)) continue;
-        if (!(none(i, c) > 0)) continue;
+        if (gone[static_cast<std::size_t>(i)] || !(none(i, c) > least)) continue;
         const double share = w[i] / none(i, c);
-        if (first < 0 || share < least) least = share, first = i;
+        if (first < 0 || share < (1 - equal) * least_share) least_share = share, first = i;
       }
       if (first < 0) continue;
-      w -= least * none.col(c);
+      w -= least_share * none.col(c);
+      w = (w.array().abs() > equal * w.maxCoeff()).select(w, 0);
       for (Index other = c + 1; other < free; ++other) {
         none.col(other) -= none(first, other) / none(first, c) * none.col(c);
       }
@@ -151,13 +180,15 @@ void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t region
     second += cloud.weight[i] * x.cwiseAbs2();
     sum += cloud.weight[i];
   }
+  const Eigen::RowVectorXd spread = second / sum - (first / sum).cwiseAbs2();
   Index axis = 0;
-  (second / sum - (first / sum).cwiseAbs2()).maxCoeff(&axis);
+  while (spread[axis] < (1 - equal) * spread.maxCoeff()) ++axis;
   std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
     return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
   });
   const std::size_t left = regions / 2;
-  const double wanted = sum * static_cast<double>(left) / static_cast<double>(regions);
+  const double wanted =
+      (1 - equal) * sum * static_cast<double>(left) / static_cast<double>(regions);
   std::size_t cut = 0;
   for (double below = 0; cut + 1 < points.size() && below < wanted; ++cut) {
     below += cloud.weight[points[cut]];
