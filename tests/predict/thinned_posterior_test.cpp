@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "wearwell/base/rng.h"
+#include "wearwell/predict/prediction.h"
 
 namespace wearwell {
 namespace {
@@ -54,9 +54,34 @@ WeightedDraws with_rounding_errors(WeightedDraws draws, unsigned seed) {
   return draws;
 }
 
+// Of all points and of the few.
+void expect_same_moments(const WeightedDraws& draws, const ThinnedPosterior& few) {
+  const Eigen::Map<const Eigen::VectorXd> w(few.weights.data(), few.values.rows());
+  const DominantDraws dominant(draws);
+  const auto n = static_cast<Eigen::Index>(dominant.rows.size());
+  const Points values = draws.values(dominant.rows, Eigen::all);
+  const Eigen::Map<const Eigen::VectorXd> v(dominant.weights.data(), n);
+  EXPECT_NEAR(w.sum(), 1, 1e-9);
+  EXPECT_GT(w.minCoeff(), 0);
+  const Eigen::RowVectorXd mean = v.transpose() * values;
+  const auto second = [&](const Points& of, const auto& weight) -> Eigen::MatrixXd {
+    const Points away = of.rowwise() - mean;
+    return away.transpose() * weight.asDiagonal() * away;
+  };
+  const Eigen::MatrixXd all = second(values, v), thinned = second(few.values, w);
+  for (Eigen::Index a = 0; a < mean.size(); ++a) {
+    EXPECT_NEAR(w.dot(few.values.col(a)), mean[a], 1e-6 * std::sqrt(all(a, a)));
+    for (Eigen::Index b = 0; b <= a; ++b)
+      EXPECT_NEAR(thinned(a, b), all(a, b), 1e-6 * std::sqrt(all(a, a) * all(b, b)));
+  }
+}
+
 void expect_same_points(const WeightedDraws& draws, std::size_t most) {
   const ThinnedPosterior few(draws, most);
-  ASSERT_LT(few.values.rows(), draws.values.rows());
+  ASSERT_LE(few.values.rows(), static_cast<Eigen::Index>(most));
+  const int d = static_cast<int>(draws.values.cols());
+  const bool by_moments = 8 * (1 + d + d * (d + 1) / 2) <= static_cast<int>(most);
+  if (by_moments) expect_same_moments(draws, few);
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const ThinnedPosterior other(with_rounding_errors(draws, seed), most);
     ASSERT_EQ(few.values.rows(), other.values.rows()) << seed;
@@ -77,6 +102,14 @@ TEST(ThinnedPosterior, HasTheSamePointsOfALattice) {
   expect_same_points(lattice(3, 25, 0.35), 128);
   expect_same_points(lattice(3, 25, 0.35), 1000);
   expect_same_points(lattice(5, 7, 1), 400);
+}
+
+TEST(ThinnedPosterior, HasTheSamePointsOfASkewedLattice) {
+  WeightedDraws draws = lattice(3, 25, 0.35);
+  draws.values.col(1) = (0.05 * (draws.values.col(1).array() - 70)).exp();
+  draws.values.col(2) =
+      (0.005 * (draws.values.col(2).array() - 700)).exp() / draws.values.col(1).array();
+  for (const std::size_t most : {100, 150, 800}) expect_same_points(draws, most);
 }
 
 TEST(ThinnedPosterior, HasTheSamePointsOfASample) {

@@ -118,41 +118,49 @@ class Region {
     return sums;
   }
 
-  // Combinations of points with zero moments.
+  // Orthonormal combinations of points with zero moments.
   static Eigen::MatrixXd null_combinations(const Eigen::MatrixXd& sums) {
-    const Eigen::MatrixXd q = orthonormal(sums);
-    // The projection depends on the moments alone, where Householder's directions depend on the
-    // signs of zeros, too.
-    return orthonormal(Eigen::MatrixXd::Identity(q.rows(), q.rows()) - q * q.transpose());
+    const Eigen::MatrixXd independent = orthonormal(sums);
+    const Eigen::MatrixXd q = independent.householderQr().householderQ();
+    return q.rightCols(q.cols() - independent.cols());
+  }
+
+  // Those of them without point i.
+  static Eigen::MatrixXd without(Eigen::MatrixXd combinations, Index i) {
+    Eigen::VectorXd essential(combinations.cols() - 1), workspace(combinations.rows());
+    double tau = 0, size = 0;
+    Eigen::VectorXd(combinations.row(i)).makeHouseholder(essential, tau, size);
+    combinations.applyHouseholderOnTheRight(essential, tau, workspace.data());
+    combinations.row(i).setZero();
+    return combinations.rightCols(combinations.cols() - 1);
   }
 
   void take_away(std::vector<std::size_t>& points, std::vector<double>& weight) const {
-    const Eigen::MatrixXd sums = sums_of(points);
-    Eigen::MatrixXd none = null_combinations(sums);
-    const Index n = sums.rows(), free = none.cols();
+    Eigen::MatrixXd none = null_combinations(sums_of(points));
+    const Index n = none.rows();
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
-    std::vector<bool> gone(static_cast<std::size_t>(n));
-    for (Index c = 0; c < free; ++c) {
+    while (none.cols() > 0) {
+      // The projection of a point does not depend on the basis.
+      Index start = 0;
+      while (start < n && !(none.row(start).norm() > least_size)) ++start;
+      if (start == n) break;
+      const Eigen::VectorXd step = none * none.row(start).transpose();
+      const double least_step = equal * step.maxCoeff();
       Index first = -1;
       double least_share = 0;
-      const double least = equal * none.col(c).cwiseAbs().maxCoeff();
       for (Index i = 0; i < n; ++i) {
-        if (gone[static_cast<std::size_t>(i)] || !(none(i, c) > least)) continue;
-        const double share = w[i] / none(i, c);
+        if (!(step[i] > least_step)) continue;
+        const double share = w[i] / step[i];
         if (first < 0 || share < (1 - equal) * least_share) least_share = share, first = i;
       }
-      if (first < 0) continue;
-      w -= least_share * none.col(c);
+      w -= least_share * step;
       w = (w.array().abs() > equal * w.maxCoeff()).select(w, 0);
-      for (Index other = c + 1; other < free; ++other) {
-        none.col(other) -= none(first, other) / none(first, c) * none.col(c);
-      }
       w[first] = 0;
-      gone[static_cast<std::size_t>(first)] = true;
+      none = without(std::move(none), first);
     }
     std::size_t left = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (gone[i] || !(weight[i] > 0)) continue;
+      if (!(weight[i] > 0)) continue;
       points[left] = points[i];
       weight[left++] = weight[i];
     }
