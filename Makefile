@@ -47,6 +47,7 @@ package: setup
 
 # Simulation-based calibration: slow, so apart from `make test`.
 calibrate: build
+	@cmake --build --preset release --target calibration
 	@ctest --preset calibration
 
 # All tests but those in a browser, under strace, and of programs outside, which know nothing of sanitizers; threads where there
@@ -69,6 +70,7 @@ tidy: setup-clang
 	@run-clang-tidy-14 -quiet -p build/tidy '^$(CURDIR)/src/'
 
 bench: build
+	@cmake --build --preset release --target bench
 	@bench/run
 
 build: setup-tests

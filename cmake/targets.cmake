@@ -26,23 +26,30 @@ if(WEARWELL_BUILD_TESTS)
 endif()
 
 # Sources of one folder are compiled two dozen at a time where WEARWELL_UNITY says so (presets `release` and of sanitizers): most of what a
-# source costs is what its neighbours cost too. Helpers of a folder therefore have names of their own; ALONE are those that
-# do not.
+# source costs is what its neighbours cost too. Helpers of a folder therefore have names of their own. APART are those whose helpers
+# have names of the others but not of one another: they have batches of their own. ALONE are those that are compiled one by one.
 function(wearwell_batches target)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;APART;ALONE" ${ARGN})
   if(NOT WEARWELL_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # What a neighbour names is no global that a local would hide, nor does its source become a header.
   target_compile_options(${target} PRIVATE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local;-Wno-subobject-linkage>")
-  set(at 0)
+  foreach(group batch apart)
+    set(at_${group} 0)
+  endforeach()
   foreach(source ${ARG_SOURCES})
-    if(NOT source IN_LIST ARG_ALONE)
-      math(EXPR batch "${at} / 24")
-      math(EXPR at "${at} + 1")
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP batch${batch})
+    if(source IN_LIST ARG_ALONE)
+      continue()
     endif()
+    set(group batch)
+    if(source IN_LIST ARG_APART)
+      set(group apart)
+    endif()
+    math(EXPR batch "${at_${group}} / 24")
+    math(EXPR at_${group} "${at_${group}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}${batch})
   endforeach()
 endfunction()
 
@@ -50,15 +57,15 @@ endfunction()
 #
 #   wearwell_library(bayes SOURCES posterior.cpp USES prob table LIBRARIES fmt::fmt)
 #
-# A folder without sources is a header-only library. USES names folders, LIBRARIES third parties, ALONE those sources that are
-# not compiled together with others (wearwell_batches).
+# A folder without sources is a header-only library. USES names folders, LIBRARIES third parties, APART and ALONE those sources
+# that are not compiled together with the others (wearwell_batches).
 function(wearwell_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES;APART;ALONE" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   if(ARG_SOURCES)
     add_library(wearwell_${name} STATIC ${ARG_SOURCES})
     target_precompile_headers(wearwell_${name} REUSE_FROM wearwell_headers)
-    wearwell_batches(wearwell_${name} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})
+    wearwell_batches(wearwell_${name} SOURCES ${ARG_SOURCES} APART ${ARG_APART} ALONE ${ARG_ALONE})
     set(scope PUBLIC)
   else()
     add_library(wearwell_${name} INTERFACE)
@@ -83,16 +90,18 @@ function(wearwell_commands name group)
   set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
 endfunction()
 
-# One test program per folder under tests/, linked to the folder it tests.
+# One test program per folder under tests/, linked to the folder it tests. `make test` neither builds nor runs those that are ON_REQUEST
+# (the presets of tests leave their names out where they are not built).
 #
 #   wearwell_test(prob SOURCES distribution_test.cpp USES prob)
 function(wearwell_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "ON_REQUEST" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES;APART;ALONE" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   add_executable(test_${name} ${ARG_SOURCES})
+  set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL ${ARG_ON_REQUEST})
   target_compile_options(test_${name} PRIVATE ${test_options})
   target_precompile_headers(test_${name} REUSE_FROM wearwell_test_headers)
-  wearwell_batches(test_${name} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})
+  wearwell_batches(test_${name} SOURCES ${ARG_SOURCES} APART ${ARG_APART} ALONE ${ARG_ALONE})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE
     ${ARG_USES} ${ARG_LIBRARIES} Eigen3::Eigen fmt::fmt GTest::gmock_main rapidcheck)
