@@ -36,6 +36,7 @@ def subjects():
     made = {"liners": liners(os.path.join(examples, "formula")), "springs": springs, "lives": pd.DataFrame({"life [h]": lives}),
             "hours": pd.DataFrame({"hours": lives}),
             "many": ww.life({"hours": lives[:200_000]}, "hours", units={"hours": "h"}, seed=1, draws=100, method="exact", report=False)}
+    made.update(wide=linear(400, 40), terms=linear(400, 9), repairs=repairs(20_000))
     made["folder"] = os.path.join(examples, "formula", "wear.csv")
     return made
 
@@ -71,9 +72,9 @@ calls = {
     "ask": lambda s: s["liners"].ask({"along": "distance", "at": [f"{k} km" for k in range(1, 400)], "given": {"force": "20 N"}}),
     "update": lambda s: s["liners"].update(pd.DataFrame({"h_um": [50.0], "F": [20.0], "s": [30.0], "machine": ["1"]})),
     "backtest": lambda s: s["liners"].backtest(s["folder"], pd.DataFrame({"machine": [str(i) for i in range(1, 13)], "life [km]": 80.0})),
-    "select": lambda s: ww.select(linear(400, 40), "y", inputs=[f"x{k}" for k in range(40)], degree=1),
-    "select, nested": lambda s: ww.select(linear(400, 9), "y", inputs=[f"x{k}" for k in range(9)], degree=2, nested=10),
-    "repairable": lambda s: ww.repairable(repairs(20_000), "age", unit="unit", event="event", units={"age": "h"}),
+    "select": lambda s: ww.select(s["wide"], "y", inputs=[f"x{k}" for k in range(40)], degree=1),
+    "select, nested": lambda s: ww.select(s["terms"], "y", inputs=[f"x{k}" for k in range(9)], degree=2, nested=10),
+    "repairable": lambda s: ww.repairable(s["repairs"], "age", unit="unit", event="event", units={"age": "h"}),
     "residuals": lambda s: s["many"].residuals(),
     "life of a large table": lambda s: ww.life(s["hours"], "hours", units={"hours": "h"}, seed=1, report=False),
 }
