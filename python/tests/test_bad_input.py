@@ -79,3 +79,11 @@ def test_levels_of_an_index_and_of_headings_are_refused_by_name(life):
     levels = frame.set_axis(pd.MultiIndex.from_product([["x"], frame.columns]), axis=1)
     with pytest.raises(ww.InputError, match=r"the heading \('x', 'hours'\) has 2 levels; columns have one name each"):
         life(levels)
+
+
+def test_a_table_without_rows_or_columns_is_refused(life):
+    frame = pd.DataFrame({"hours": hours, "event": event, "group": group, "T": stress})
+    with pytest.raises(ww.InputError, match="data has no rows"):
+        life(frame.iloc[:0])
+    with pytest.raises(ww.InputError, match="data has no column"):
+        life(pd.DataFrame())

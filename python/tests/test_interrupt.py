@@ -34,13 +34,29 @@ def subjects():
         warnings.simplefilter("ignore", ww.CheckWarning)
         springs = ww.fit(os.path.join(examples, "spring", "sensible.toml"), seed=1, draws=100, method="exact", report=False)
     made = {"liners": liners(os.path.join(examples, "formula")), "springs": springs, "lives": pd.DataFrame({"life [h]": lives}),
-            "hours": pd.DataFrame({"hours": lives})}
+            "hours": pd.DataFrame({"hours": lives}),
+            "many": ww.life({"hours": lives[:200_000]}, "hours", units={"hours": "h"}, seed=1, draws=100, method="exact", report=False)}
+    made.update(wide=linear(400, 40), terms=linear(400, 9), repairs=repairs(20_000))
     made["folder"] = os.path.join(examples, "formula", "wear.csv")
     return made
 
 
 def springs_to_test(n):
     return pd.DataFrame({"alternating_stress_MPa": np.linspace(240, 300, n), "mean_stress_MPa": 1000.0, "specimens": 3})
+
+
+def linear(rows, columns):
+    """A response that six of the columns make, with noise."""
+    random = np.random.default_rng(3)
+    x = random.normal(size=(rows, columns))
+    frame = pd.DataFrame(x, columns=[f"x{k}" for k in range(columns)])
+    return frame.assign(y=x[:, :6].sum(axis=1) + random.normal(size=rows))
+
+
+def repairs(units):
+    """Ten failures of each unit, and the end of its observation."""
+    ages = np.tile(np.arange(1, 12) * 100.0, units) + np.random.default_rng(4).uniform(0, 50, 11 * units)
+    return pd.DataFrame({"unit": np.repeat(np.arange(units).astype(str), 11), "age": ages, "event": (["failure"] * 10 + ["end"]) * units})
 
 
 def readings(n):
@@ -56,6 +72,10 @@ calls = {
     "ask": lambda s: s["liners"].ask({"along": "distance", "at": [f"{k} km" for k in range(1, 400)], "given": {"force": "20 N"}}),
     "update": lambda s: s["liners"].update(pd.DataFrame({"h_um": [50.0], "F": [20.0], "s": [30.0], "machine": ["1"]})),
     "backtest": lambda s: s["liners"].backtest(s["folder"], pd.DataFrame({"machine": [str(i) for i in range(1, 13)], "life [km]": 80.0})),
+    "select": lambda s: ww.select(s["wide"], "y", inputs=[f"x{k}" for k in range(40)], degree=1),
+    "select, nested": lambda s: ww.select(s["terms"], "y", inputs=[f"x{k}" for k in range(9)], degree=2, nested=10),
+    "repairable": lambda s: ww.repairable(s["repairs"], "age", unit="unit", event="event", units={"age": "h"}),
+    "residuals": lambda s: s["many"].residuals(),
     "life of a large table": lambda s: ww.life(s["hours"], "hours", units={"hours": "h"}, seed=1, report=False),
 }
 

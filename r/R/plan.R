@@ -115,12 +115,15 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
   about <- fit_or_folder(fit)
   several <- if (is.list(tests) && !is.data.frame(tests) && is.null(names(tests))) tests else if (!is.null(tests)) list(tests)
   files <- vapply(several, is_path, NA)
+  surv <- surv_call(fit)
+  env <- parent.frame()
+  done <- lapply(several[!files], function(each) if (is_of_surv(surv, each)) rows_of_surv(surv, each, env, "tests") else table_of(each, "tests"))
   plan_of("next", list(goal = goal, grid = grid, specimens = specimens, cost = cost, specimen_cost = specimen_cost, use_cost = use_cost,
                        measure = measure, by = by, value = value, budget = budget, batch = batch, until = until, samples = samples,
                        nodes = nodes, seed = seed_text(seed), failure_cost = failure_cost, replacement_cost = replacement_cost,
                        fleet_use = fleet_use,
                        tests = if (any(files)) I(vapply(several[files], path_of, "", "tests"))),
-          run = about$run, path = about$path, tables = c(plan_tables(candidates, "candidates"), plan_tables(several[!files], "tests")),
+          run = about$run, path = about$path, tables = c(plan_tables(candidates, "candidates"), stats::setNames(done, rep("tests", length(done)))),
           threads = threads, progress = progress)
 }
 

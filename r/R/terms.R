@@ -68,14 +68,17 @@ condition_of <- function(name, columns, taken, what) {
   found <- list(source = name, name = language_name(name, taken), label = is_label(values), unit = each$unit)
   if (found$label) {
     found$levels <- levels_of(values)
-    if (length(found$levels) < 2) stop_input(what, ": column '", each$heading, "' has one level only, ", found$levels, ": leave it out")
+    if (length(found$levels) < 2 && !reading$new_rows) stop_input(what, ": column '", each$heading, "' has one level only, ", found$levels, ": leave it out")
     found$values <- as.character(values)
     found$reference <- found$levels[1]
     return(found)
   }
   found$values <- as.double(values)
   found$range <- diff(range(found$values))
-  if (found$range == 0) stop_input(what, ": column '", each$heading, "' is ", found$values[1], " in all rows: leave it out")
+  if (found$range == 0) {
+    if (!reading$new_rows) stop_input(what, ": column '", each$heading, "' is ", found$values[1], " in all rows: leave it out")
+    found$range <- 1  # the priors of the fit hold, not those that this would scale
+  }
   found$reference <- signif(mean(found$values), 3)
   found
 }
@@ -86,7 +89,7 @@ reference_name <- function(condition) paste0(condition$name, "_reference")
 pieces_of <- function(condition) {
   if (condition$label) {
     levels <- condition$levels[-1]
-    return(lapply(stats::setNames(levels, paste0(condition$name, language_suffix(levels))), function(level) {
+    return(lapply(stats::setNames(levels, paste0(condition$name, language_suffix(levels))[seq_along(levels)]), function(level) {
       list(expression = paste0("(", condition$name, " == ", quoted(level), ")"), unit = "", size = 1, label = TRUE,
            value = as.double(condition$values == level))
     }))

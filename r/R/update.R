@@ -14,16 +14,25 @@ surv_call <- function(fit) {
   if (is.call(call) && "Surv" %in% unlist(lapply(as.list(call), all.names))) call
 }
 
+# Whether rows are read for a fit that is there: a condition may then be the same in all of them.
+reading <- new.env(parent = emptyenv())
+reading$new_rows <- FALSE
+
 # New rows as the call of the fit reads them, with the columns of its study and their units.
-rows_of_surv <- function(call, data, env) {
+rows_of_surv <- function(call, data, env, name = "data") {
   options <- c("seed", "method", "chains", "draws", "warmup", "threads", "report", "progress", "title", "predict", "given")
   call <- call[!names(call) %in% options]
   call[[1]] <- ww_life
   call$data <- data
   call$fit <- FALSE
+  reading$new_rows <- TRUE
+  on.exit(reading$new_rows <- FALSE)
   columns <- eval(call, env)$columns
-  table_of(lapply(columns, `[[`, "values"), "data", Filter(nzchar, vapply(columns, `[[`, "", "unit")))
+  table_of(lapply(columns, `[[`, "values"), name, Filter(nzchar, vapply(columns, `[[`, "", "unit")))
 }
+
+# Whether a table has what the call by Surv() reads, and not the columns that it made.
+is_of_surv <- function(call, data) !is.null(call) && is.data.frame(data) && !any(grepl("^(life|lower|upper)($| *\\[)", names(data)))
 
 ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, progress = interactive()) {
   if (!is.null(repeated) && !(is_path(repeated) && repeated %in% c("once", "another"))) {
@@ -32,8 +41,7 @@ ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, pr
   threads <- whole(threads, "threads", 0, 1024)
   report <- one_truth(report, "report")
   surv <- surv_call(fit)
-  of_surv <- !is.null(surv) && is.data.frame(data) && !any(grepl("^(life|lower|upper)($| *\\[)", names(data)))
-  rows <- if (of_surv) list(rows_of_surv(surv, data, parent.frame())) else several_rows(data, "data")
+  rows <- if (is_of_surv(surv, data)) list(rows_of_surv(surv, data, parent.frame())) else several_rows(data, "data")
   about <- fit_or_folder(fit)
   run <- with_progress(progress, function(report_progress) {
     core(C_update, about$run, about$path, rows, if (is.null(repeated)) "" else repeated, threads, report, report_progress)

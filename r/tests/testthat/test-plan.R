@@ -140,6 +140,21 @@ test_that("next tests are the program's, of folders and fits, files and frames",
   refused(ww_plan_next(fit, goal, candidates = tests, seed = -1), "seed is -1")
 })
 
+test_that("tests that were done are read as the Surv() of their fit", {
+  lives <- data.frame(hours = c(5200, 3900, 8000, 1300, 2100, 990, 420, 610), failed = c(1, 1, 0, 1, 1, 1, 1, 1),
+                      temperature = rep(c(330, 360, 390), c(3, 3, 2)))
+  fit <- quiet(ww_life(Surv(hours, failed) ~ 1, data = lives, stress = c(temperature = "arrhenius"), units = c(hours = "h", temperature = "K"),
+                       seed = 1, method = "exact", draws = 100, report = FALSE))
+  goal <- "eta"
+  done <- data.frame(hours = c(1500, 400), failed = c(1, 0), temperature = c(360, 390))
+  own <- data.frame("life [h]" = done$hours, status = c("failure", "runout"), "temperature [K]" = done$temperature, check.names = FALSE)
+  plan <- function(tests) quiet(ww_plan_next(fit, goal, grid = list(temperature = c(340, 380)), tests = tests, samples = 64, nodes = 200))$summary
+  expect_identical(plan(done)$candidates, plan(own)$candidates)
+  expect_identical(plan(done)$candidates, plan(list(done[1, ], done[2, ]))$candidates)
+  expect_false(identical(plan(done)$candidates, plan(NULL)$candidates))
+  refused(ww_plan_next(fit, goal, grid = list(temperature = 340), tests = done[c("hours", "temperature")]), "failed")
+})
+
 test_that("sizes are the program's", {
   study <- tempfile(fileext = ".toml")
   writeLines(c('title = "Wear of a liner"', 'model = "formula"', "[data]", 'file = "not-measured-yet.csv"', "[data.columns]",

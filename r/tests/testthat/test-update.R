@@ -100,5 +100,12 @@ test_that("new rows of a fit by Surv() are read as its call reads them", {
   again <- quiet(ww_update(later, data.frame(hours = 610, failed = 1), report = FALSE))  # of a fit that was updated
   expect_identical(again$summary$update$rows_before, 12)
   refused(ww_update(fit, data.frame(hours = 3)), "failed")
+  pumps$speed <- rep(c(10, 20), 5)
+  pumps$site <- rep(c("a", "b"), c(4, 6))
+  varied <- quiet(ww_life(Surv(hours, failed) ~ speed + site, data = pumps, units = c(hours = "h"), seed = 1, method = "exact", draws = 100,
+                          report = FALSE))
+  one <- quiet(ww_update(varied, data.frame(hours = 420, failed = 1, speed = 15, site = "b"), report = FALSE))  # one row does not vary
+  expect_identical(one$summary$update$counted, 1)
+  expect_error(ww_life(Surv(hours, failed) ~ speed, data = pumps[1, ]), "in all rows")
   expect_identical(ww_life(fit, b = 10, survived = 100), ww_life(fit, b = 10, survived = "100 h"))
 })

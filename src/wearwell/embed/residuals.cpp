@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/study/inference_data.h"
 
 namespace wearwell::embed {
@@ -38,6 +39,7 @@ Residuals residuals(const Run& run) {
   const Eigen::Index count = std::min(draws.rows(), most_draws);
   std::vector<std::vector<NormalScore>> scores(static_cast<std::size_t>(count));
   tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t s) {
+    check_stop();
     const Eigen::VectorXd x = draws.row(static_cast<Eigen::Index>(s) * draws.rows() / count);
     scores[s] = data.scores(x.data());
   });
@@ -45,6 +47,7 @@ Residuals residuals(const Run& run) {
   for (const UnitEffect& effect : data.effects) rows -= effect.of.size();
   Residuals found{{}, {}, data.noun};
   for (std::size_t i = 0; i < rows; ++i) {
+    check_stop();
     std::vector<double> values;
     for (const std::vector<NormalScore>& each : scores) values.push_back(middle_score(each[i]));
     const int times = data.counts.empty() ? 1 : data.counts[i];

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell {
 namespace {
@@ -31,6 +32,7 @@ double remainder_step(double a, double b) {
 }
 
 bool most(const std::vector<double>& values, const auto& holds) {
+  check_stop();
   const auto count = std::count_if(values.begin(), values.end(), holds);
   return static_cast<double>(count) >= most_of_all * static_cast<double>(values.size());
 }
@@ -96,6 +98,7 @@ std::optional<CopiedRows> copied_rows(const FitData& data, const std::vector<dou
   }
   const Alike alike{data};
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    check_stop();
     const int c = alike.compare(a, b);
     return c != 0 ? c < 0 : value[a] < value[b];
   });

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/copied_rows.h"
 #include "wearwell/infer/distribution_tests.h"
 #include "wearwell/infer/judged_counts.h"
@@ -274,6 +275,7 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   // Of observations that are not judged the score of the first draw.
   Rng lots(seed, of_the_others);
   for (std::size_t i = 0, at = 0; i < rows; ++i) {
+    check_stop();
     if (at == row.size() || row[at] != i) {
       outcome.residuals.push_back(drawn(of_first[i], lots));
       continue;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/left_out.h"
 #include "wearwell/infer/pareto_smoothing.h"
 #include "wearwell/math/view.h"
@@ -133,6 +134,7 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
   std::vector<double> third(terms);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, terms, 4096), [&](const auto& part) {
     for (std::size_t i = part.begin(); i != part.end(); ++i) {
+      check_stop();
       LeftOut sums;
       double mean = 0, square = 0;
       for (std::size_t s = 0; s < count; ++s) {

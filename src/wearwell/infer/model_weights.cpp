@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell {
 
 std::vector<double> model_weights(const std::vector<const Loo*>& models) {
@@ -35,6 +37,7 @@ std::vector<double> model_weights(const std::vector<const Loo*>& models) {
   constexpr double near_enough = 1e-9;
   constexpr int most_steps = 200'000;
   for (int step = 0; step < most_steps; ++step) {
+    check_stop();
     const Eigen::VectorXd mixture = density * weights;
     const Eigen::VectorXd gain = density.transpose() * count.cwiseQuotient(mixture);
     weights.array() *= gain.array();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/gauss_of_points.h"
 
@@ -27,8 +28,10 @@ double spread_of(std::vector<double> values) {
 
 // Cells of this width; of none only equal values are one.
 std::vector<WeightedPoint> in_cells(std::vector<WeightedPoint> points, double width) {
-  std::stable_sort(points.begin(), points.end(),
-                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    check_stop();
+    return a.at < b.at;
+  });
   const auto cell = [&](const WeightedPoint& each) {
     return width > 0 ? std::floor(each.at / width) : each.at;
   };

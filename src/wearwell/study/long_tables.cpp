@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/csv_reader.h"
 
 namespace wearwell {
@@ -90,6 +91,7 @@ std::vector<LooTerm> read_loo_table(const std::filesystem::path& folder) {
                     tail = csv.column("tail");
   std::vector<LooTerm> terms;
   while (csv.next()) {
+    check_stop();
     const long long alike = csv.integer(count);
     if (alike < 1 || alike > std::numeric_limits<int>::max()) csv.fail(count, "1 or more");
     terms.push_back({csv.number(elpd), csv.number(lpd), csv.number(khat), static_cast<int>(alike),

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/stop_scope.h"
@@ -29,11 +31,13 @@ auto find(const Columns& columns, const std::string& name) {
 
 LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
   LabelColumn result{name, column.name, {}, {}};
+  std::unordered_map<std::string, int> known;
   for (std::size_t i = 0; i < table.rows; ++i) {
-    const std::string text = label_word(table, column, i);
-    const auto at = std::find(result.levels.begin(), result.levels.end(), text);
-    result.at.push_back(static_cast<int>(at - result.levels.begin()));
-    if (at == result.levels.end()) result.levels.push_back(text);
+    check_stop();
+    std::string text = label_word(table, column, i);
+    const auto [at, is_new] = known.try_emplace(text, static_cast<int>(result.levels.size()));
+    result.at.push_back(at->second);
+    if (is_new) result.levels.push_back(std::move(text));
   }
   return result;
 }
@@ -45,6 +49,7 @@ NumberColumn read_numbers(const Table& table, const std::string& name, const Col
   std::vector<double> values;
   std::vector<Censoring> seen(table.rows, Censoring::none);
   for (std::size_t i = 0; i < table.rows; ++i) {
+    check_stop();
     const CellValue cell = cell_value(table, column, i);
     if (cell.unstated && std::isnan(limit))
       refuse_unstated_limit(table, column, i,

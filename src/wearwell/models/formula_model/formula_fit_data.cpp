@@ -7,6 +7,7 @@
 #include <map>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/mode_fit_data.h"
 #include "wearwell/models/formula_model/use_rate_fit_data.h"
@@ -143,6 +144,7 @@ void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
   const std::size_t count = column.life.parameters();
   if (column.reporting) return add_report_scores(column, family_parameters.data(), scores);
   for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
+    check_stop();
     scores.push_back(score_of(*column.form, column.life, column.observed.responses[i],
                               &family_parameters[i * count]));
   }

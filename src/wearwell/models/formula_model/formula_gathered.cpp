@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/models/formula_model/formula_row_columns.h"
 #include "wearwell/prob/gathered_responses.h"
 
@@ -31,6 +32,7 @@ std::optional<std::vector<Alike>> alike_rows(const FormulaModel& model, const Bo
   std::vector<Alike> groups;
   std::vector<double> key;
   for (std::size_t i = 0; i < table_rows.size(); ++i) {
+    check_stop();
     key.clear();
     for (const auto& each : columns.numbers) {
       if (!each.empty()) key.push_back(each[i]);

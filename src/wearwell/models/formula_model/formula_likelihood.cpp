@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "wearwell/base/stop_scope.h"
+#include "wearwell/math/compensated_sum.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/models/formula_model/formula_gathered.h"
@@ -44,6 +45,7 @@ BoundColumn bind_column(const FormulaModel& model, const Measured& measured, std
   std::vector<std::size_t> which;
   std::vector<Response> responses;
   for (const std::size_t row : model.order) {
+    check_stop();
     const bool observed = seen[row] != none && row < count;
     if (!observed && !paths) continue;
     which.push_back(row);
@@ -130,6 +132,7 @@ void UnitRows::visit(std::span<const std::uint8_t> wanted, const Visit& visit) {
       }
       const std::size_t end = column.begin[last];
       for (std::size_t at = begin; at < end; at += column.most_rows) {
+        check_stop();
         visit(Chunk{&column, c, at, std::min(end, at + column.most_rows)});
       }
       u = last;
@@ -424,6 +427,18 @@ void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
   });
   held_ = nullptr;
   for (std::size_t i = 0; i < inner_.size(); ++i) gradient[model_.shared[i]] += inner_gradient_[i];
+}
+
+double UnitRows::accurate_sum() {
+  CompensatedSum sum;
+  visit(std::vector<std::uint8_t>(model_.units.size(), 1), [&](const Chunk& chunk) {
+    forward(chunk, {}, false);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const double count = chunk.column->count[i];
+      if (count != 0) sum.add(count * value_[i - chunk.begin]);
+    }
+  });
+  return sum.total();
 }
 
 std::vector<std::vector<double>> UnitRows::each_term(std::span<const double> z) {
@@ -737,15 +752,13 @@ FormulaRows::FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t 
 }
 
 void FormulaRows::keep_gathered_at(const double* x) {
-  // Of the log likelihood: far below what moves a posterior, and above what rounding does to a sum of a million terms.
+  // Of the log likelihood: far below what moves a posterior. A plain sum of ten million terms is rounded by more.
   constexpr double close = 1e-4;
   if (gathered_.empty()) return;
   const auto sum = [&](const std::vector<BoundColumn>& columns) {
-    std::vector<double> of_unit(model_->units.size());
     UnitRows rows(*model_, columns);
     rows.move_to(x);
-    rows.evaluate({}, std::vector<std::uint8_t>(of_unit.size(), 1), of_unit, {});
-    return std::accumulate(of_unit.begin(), of_unit.end(), 0.0);
+    return rows.accurate_sum();
   };
   if (std::abs(sum(gathered_) - sum(columns_)) <= close) return;
   gathered_.clear();

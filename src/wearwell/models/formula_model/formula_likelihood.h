@@ -74,6 +74,9 @@ class UnitRows final : public latent::UnitTerms {
     population_at_.add_gradient(x_, by, gradient);
   }
 
+  /// The log density of all rows of a model without integrated effects, to the last digits however many they are;
+  /// NaN or infinite where that of a row is.
+  double accurate_sum();
   /// log density of each observation at z, by column, in the order of `Observed`.
   std::vector<std::vector<double>> each_term(std::span<const double> z);
 

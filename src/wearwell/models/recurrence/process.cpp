@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/dual.h"
 
 namespace wearwell::recurrence {
@@ -70,7 +71,10 @@ class PhaseLikelihood final : public LogDensity {
   std::vector<double> pointwise(std::span<const double> x) const override {
     std::vector<double> terms;
     terms.reserve(gaps_.size());
-    for (const Gap& gap : gaps_) terms.push_back(log_factor(process_, gap, x.data()));
+    for (const Gap& gap : gaps_) {
+      check_stop();
+      terms.push_back(log_factor(process_, gap, x.data()));
+    }
     return terms;
   }
 
@@ -111,7 +115,10 @@ class ProcessLikelihood final : public LogDensity {
   std::vector<double> pointwise(std::span<const double> x) const override {
     std::vector<double> terms;
     terms.reserve(gaps_.size());
-    for (const Gap& gap : gaps_) terms.push_back(finite(log_factor(process_, gap, x.data())));
+    for (const Gap& gap : gaps_) {
+      check_stop();
+      terms.push_back(finite(log_factor(process_, gap, x.data())));
+    }
     return terms;
   }
 
@@ -160,6 +167,7 @@ Scores process_scores(const Process& process, const RecurrenceData& data) {
     std::vector<NormalScore> scores;
     scores.reserve(gaps.size());
     for (const Gap& gap : gaps) {
+      check_stop();
       if (gap.failed && !(gap.to > gap.from)) {
         const double hazard = process.minimal_repair()
                                   ? process.intensity(x, gap.to) * process.rounding
