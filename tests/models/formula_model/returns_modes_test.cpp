@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double seconds_of_month = 2629746;  // s
+constexpr double seconds_of_month = 3.15569259747e7 / 12;  // of UDUNITS
 
 std::string modes_content(const std::string& file) {
   std::ifstream in(PROJECT_SOURCE_DIR "/" + file);
