@@ -97,25 +97,30 @@ std::string conclusion(const FamilyRanking& ranking) {
       "The data do not separate {}: differences of elpd are below {:.0f}, or below twice their "
       "standard error.",
       fmt::join(ranking.close, ", "), small_difference);
+  std::vector<std::string> agree, differ;
   for (const QuantitySummary& wanted : studies.front().result.quantities) {
     if (!is_b_life(wanted)) continue;
-    double least = INFINITY, most = 0;
+    double least = INFINITY, most = 0, lowest = 0, highest = INFINITY;
     for (const Comparison::Entry& each : studies) {
-      if (!contains(ranking.close, each.name)) continue;
-      const QuantitySummary* const found = same(each.result, wanted);
+      const QuantitySummary* const found =
+          contains(ranking.close, each.name) ? same(each.result, wanted) : nullptr;
       if (!found) continue;
       least = std::min(least, found->best().q50);
       most = std::max(most, found->best().q50);
+      lowest = std::max(lowest, found->best().q05);
+      highest = std::min(highest, found->best().q95);
     }
-    const bool inside = most <= wanted.best().q95 && least >= wanted.best().q05;
-    return text + fmt::format(" Over them the median of the {} is {} to {} {}: {}", wanted.name,
-                              plain_number(least), plain_number(most), wanted.unit,
-                              inside ? fmt::format("within the 90 % interval of {}, so one "
-                                                   "distribution will do for it.",
-                                                   studies.front().name)
-                                     : "more than the 90 % interval of the best, so the choice "
-                                       "matters; report all of them.");
+    (least >= lowest && most <= highest ? agree : differ)
+        .push_back(
+            fmt::format("{} ({} to {})", label(wanted), plain_number(least), plain_number(most)));
   }
+  if (!agree.empty())
+    text +=
+        fmt::format(" One of them will do for {}: each median lies in the 90 % interval of all.",
+                    fmt::join(agree, ", "));
+  if (!differ.empty())
+    text += fmt::format(" The choice matters for {}: report all of them.", fmt::join(differ, ", "));
+  if (!agree.empty() || !differ.empty()) return text;
   return text + " State predict.b_lives to see whether the choice matters.";
 }
 
