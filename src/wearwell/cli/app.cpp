@@ -60,7 +60,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   plan::add_plan_command(*app, models, exit_code);
   add_update_command(*app, models, exit_code);
   add_backtest_command(*app, models, exit_code);
-  add_compare_command(*app, exit_code);
+  add_compare_command(*app, models, exit_code);
   add_monitor_command(*app, models, exit_code);
   bearing::add_bearing_command(*app);
   clutch::add_clutch_commands(*app, exit_code);

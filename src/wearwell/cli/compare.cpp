@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/staged_file.h"
+#include "wearwell/cli/compare_families.h"
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/saved_result.h"
 
@@ -20,23 +22,44 @@ namespace {
 struct CompareOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path page;
+  std::string families;
   bool json = false;
 };
 
-int run_compare(const CompareOptions& options) {
+FamilyRanking ranking_of(const CompareOptions& options, Models models) {
+  const std::filesystem::path& study = options.folders.front();
+  if (options.folders.size() != 1 || study.extension() != ".toml")
+    throw InputError(
+        fmt::format("--families: needs one study, FILE.toml, but got {}{}", study.string(),
+                    options.folders.size() > 1 ? " and others"
+                                               : "; from a table: wearwell new NAME --from TABLE"));
+  return rank_families(source_of(study), options.families, models);
+}
+
+Comparison compare_folders(const CompareOptions& options) {
+  if (options.folders.size() == 1)
+    throw InputError(fmt::format(
+        "{}: one result cannot be compared; name two or more, or a study with --families",
+        options.folders.front().string()));
+  std::vector<std::pair<std::string, SavedResult>> results;
+  for (const auto& folder : options.folders)
+    results.emplace_back(folder.string(), read_saved_result(folder));
+  return compare(std::move(results));
+}
+
+int run_compare(const CompareOptions& options, Models models) {
   if (!options.page.empty() && options.page.extension() != ".html") {
     throw InputError(fmt::format("-o {}: the page must be named FILE.html", options.page.string()));
   }
-  std::vector<std::pair<std::string, SavedResult>> results;
-  for (const auto& folder : options.folders) {
-    results.emplace_back(folder.string(), read_saved_result(folder));
-  }
-  const Comparison comparison = compare(std::move(results));
+  std::optional<FamilyRanking> ranking;
+  if (!options.families.empty()) ranking = ranking_of(options, models);
+  const Comparison comparison = ranking ? ranking->comparison : compare_folders(options);
   if (!options.page.empty()) write_file(options.page, comparison_page(comparison));
   if (options.json) {
-    fmt::print("{}\n", printable_json(to_json(comparison).dump(2)));
+    fmt::print("{}\n",
+               printable_json((ranking ? ranking_json(*ranking) : to_json(comparison)).dump(2)));
   } else {
-    fmt::print("{}", comparison_text(comparison));
+    fmt::print("{}{}", comparison_text(comparison), ranking ? ranking_text(*ranking) : "");
     if (!options.page.empty()) fmt::print("The page is {}\n", options.page.string());
   }
   return std::all_of(comparison.studies.begin(), comparison.studies.end(),
@@ -47,24 +70,32 @@ int run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, int& exit_code) {
+void add_compare_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* compare = app.add_subcommand(
       "compare", "Rank fitted studies of the same data by how well they predict");
-  compare->add_option("DIR", options->folders, "Folders that `wearwell fit` wrote")
+  compare
+      ->add_option("DIR", options->folders,
+                   "Folders that `wearwell fit` wrote; or a study, with --families")
       ->required()
-      ->expected(2, 100);
+      ->expected(1, 100);
+  compare
+      ->add_option("--families", options->families,
+                   "Fit the study with each of these families of lives and rank them: "
+                   "weibull,lognormal,... or all")
+      ->type_name("NAMES");
   compare->add_option(
       "-o,--output", options->page,
       "Page to write, FILE.html: the tables, and the posteriors of the parameters overlaid");
   compare->add_flag("--json", options->json, "Print one JSON object and nothing else");
   compare->footer(
-      "Example:\n"
-      "  wearwell compare goodman-results gerber-results -o comparison.html\n\n"
+      "Examples:\n"
+      "  wearwell compare goodman-results gerber-results -o comparison.html\n"
+      "  wearwell compare study.toml --families weibull,lognormal\n\n"
       "Studies of different data are shown but not ranked. Exit codes: 0 all studies are trusted; "
       "1 one is not; 2 a\n"
       "folder holds no result.");
-  compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
+  compare->callback([options, models, &exit_code] { exit_code = run_compare(*options, models); });
 }
 
 }  // namespace wearwell

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "wearwell/study/model.h"
+
 namespace CLI {
 class App;
 }
 
 namespace wearwell {
 
-/// `wearwell compare DIR DIR ...`: sets `exit_code` when it ran.
-void add_compare_command(CLI::App& app, int& exit_code);
+/// `wearwell compare DIR DIR ...`, `wearwell compare STUDY --families NAMES`: sets `exit_code` when it ran.
+void add_compare_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

@@ -116,7 +116,7 @@ scale = {{ distribution = "lognormal", median = "60 month", log_sd = 0.4 }}
                                 }).cdf(truth[is_scale ? 0 : 1]);
     }
     const ReturnsResult result =
-        returns_result(read_asked_returns(root, source, model), posterior.nodes, false);
+        returns_result(read_asked_returns(root, source, model), posterior.nodes);
     for (const ReturnsPeriod& each : result.forecast) returned += *each.observed;
     const ReturnsPeriod& next = result.forecast.front();
     first = *next.observed >= next.number.count_low && *next.observed <= next.number.count_high;

@@ -160,6 +160,11 @@ std::size_t place_of(std::vector<std::string>& all, const std::string& name) {
   return place;
 }
 
+std::string heading_of_modes(const TomlReader& columns, const std::string& name) {
+  return columns.is_text(name) ? columns.required_text(name)
+                               : columns.required_table(name).required_text("column");
+}
+
 }  // namespace
 
 std::vector<std::string> modes_with_tables(const TomlReader& failure_modes) {
@@ -176,10 +181,10 @@ FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
                                 const Observed& all) {
   const TomlReader section = root.required_table("failure_modes");
   FailureModes found{section.required_text("column"), {}, {}};
-  const TomlReader columns = root.required_table("data").required_table("columns");
-  const std::string heading = columns.is_text(found.name)
-                                  ? columns.required_text(found.name)
-                                  : columns.required_table(found.name).required_text("column");
+  const TomlReader of_data = root.required_table("data");
+  const std::string heading = of_data.has("returns")
+                                  ? found.name
+                                  : heading_of_modes(of_data.required_table("columns"), found.name);
   const ModeCells cells(section, data, all, heading);
   found.possible.assign(data.table.rows, 0);
   std::vector<std::size_t> unknown;

@@ -63,15 +63,28 @@ void read_delays(const TomlReader& keys, const Source& source, FieldReturns& ret
 
 struct LifeRows {
   std::vector<double> lower, upper, count;
-  std::vector<std::string> sold;
+  std::vector<std::string> sold, mode;
+  std::vector<std::size_t> origin;  // of the mode: row of the table, from 1
 
-  void add(double from, double to, int units, const std::string& period) {
+  void add(double from, double to, int units, const std::string& period,
+           const ModeReturns& by = {}) {
     lower.push_back(from);
     upper.push_back(to);
     count.push_back(units);
     sold.push_back(period);
+    mode.push_back(by.mode);
+    origin.push_back(by.row + 1);
   }
 };
+
+// The returns of one cell, mode by mode where the table has modes.
+std::vector<ModeReturns> cell_of(const SalesPeriod& sale, std::size_t after) {
+  if (sale.by_mode.empty()) return {{"", 0, {sale.returns[after]}}};
+  std::vector<ModeReturns> cell;
+  for (const ModeReturns& each : sale.by_mode)
+    if (each.returns[after] > 0) cell.push_back({each.mode, each.row, {each.returns[after]}});
+  return cell;
+}
 
 void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows& rows) {
   const std::string period = returns.triangle.names.text(sale.at);
@@ -92,11 +105,9 @@ void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows
                 "\"middle\""));
     if (!returns.claimed(after)) continue;  // beyond the warranty: they survived it
     surviving -= count;
-    if (returns.whole) {
-      rows.add(upper, upper, count, period);
-    } else {
-      rows.add(lower > 0 ? lower : NAN, upper, count, period);
-    }
+    const double from = returns.whole ? upper : lower > 0 ? lower : NAN;
+    for (const ModeReturns& by : cell_of(sale, static_cast<std::size_t>(after)))
+      rows.add(from, upper, by.returns.front(), period, by);
   }
   const int after = returns.last() - sale.at;
   const double now = returns.age(after);
@@ -179,6 +190,10 @@ FormulaData lives_of_returns(const FieldReturns& returns) {
                         table_column("upper", returns.period, rows.upper),
                         table_column("count", plain, rows.count)};
   data.table.columns.push_back(Column{"sold", false, {}, rows.sold});
+  if (!returns.triangle.mode_column.empty()) {
+    data.table.columns.push_back(Column{mode_of_returns, false, {}, rows.mode});
+    data.table.origins = rows.origin;  // messages about modes name the row of the triangle
+  }
   data.numbers.push_back(column_of_lives("lower", returns.period, rows.lower));
   data.numbers.push_back(column_of_lives("upper", returns.period, rows.upper));
   data.numbers.push_back(column_of_lives("count", plain, rows.count));

@@ -321,15 +321,37 @@ double detection_limit(const TomlReader& choice, const formula::AnyUnit& unit) {
   return choice.required_quantity("detection_limit", si).si();
 }
 
+// A triangle by failure mode goes with [failure_modes], and the other way round.
+void require_modes_of_returns(const TomlReader& root, const FieldReturns& returns) {
+  const auto modes = root.table("failure_modes");
+  const bool in_table = !returns.triangle.mode_column.empty();
+  if (in_table && !modes)
+    root.required_table("data").required_table("returns").fail(
+        "mode", "needs [failure_modes] column = \"mode\", which gives each failure mode a life");
+  if (!modes) return;
+  if (!in_table)
+    modes->fail("column",
+                "needs [data.returns] mode = HEADING, the column of failure modes of the returns");
+  if (const std::string name = modes->required_text("column"); name != mode_of_returns)
+    modes->fail("column",
+                fmt::format("must be \"{}\", the key of [data.returns]", mode_of_returns));
+  if (returns.reporting)
+    modes->fail("",
+                "is not possible with delays that vary; state fixed delays, or fit the returns "
+                "of all modes together");
+}
+
 }  // namespace
 
 FormulaData read_own_data(const TomlReader& root, const Source& source,
                           const std::vector<std::string>& label_names) {
   const TomlReader section = root.required_table("data");
   if (section.has("returns")) {
-    for (const char* key : {"failure_modes", "random_effects"})
-      if (root.has(key)) root.fail(key, "is not possible with [data.returns]");
-    return lives_of_returns(*read_field_returns(section, source));
+    if (root.has("random_effects"))
+      root.fail("random_effects", "is not possible with [data.returns]");
+    const auto returns = read_field_returns(section, source);
+    require_modes_of_returns(root, *returns);
+    return lives_of_returns(*returns);
   }
   const TomlReader columns = section.required_table("columns");
   FormulaData data{read_table(section, source), {}, {}, {}};

@@ -176,8 +176,12 @@ class Reader {
     if (table.is_text("family") && !ranking.count(table.required_text("family"))) return;
     table.fail(
         "family",
-        "is one family. To rank several for the same data, write a study for each, fit them, "
-        "and compare the results: wearwell compare RESULT RESULT ...");
+        fmt::format("is one family. To rank several for the same data, run: wearwell compare {} "
+                    "--families {}",
+                    source_.study.path.string(),
+                    table.is_text("family")
+                        ? "all"
+                        : fmt::format("{}", fmt::join(table.texts("family"), ","))));
   }
 
   WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,

@@ -1,6 +1,8 @@
 #include "wearwell/models/formula_model/joint_failures.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/formula_row_columns.h"
@@ -23,8 +25,18 @@ JointFailures::JointFailures(const FormulaModel& model, std::size_t rows) : mode
     workspaces_.push_back(mode.program.workspace(which.size()));
   }
   value_.resize(joint_.size());
+  open_of_.resize(joint_.size());
   family_parameters_.resize(joint_.size() * families_.size() * most_response_parameters);
   slope_.resize(family_parameters_.size());
+  find_equal();
+}
+
+void JointFailures::find_equal() {
+  std::map<std::tuple<std::uint32_t, double, double>, std::size_t> seen;
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    const JointFailure& each = joint_[i];
+    first_.push_back(seen.try_emplace({each.possible, each.from, each.until}, i).first->second);
+  }
 }
 
 const double* JointFailures::family_parameters(std::size_t i) const {
@@ -32,12 +44,14 @@ const double* JointFailures::family_parameters(std::size_t i) const {
 }
 
 void JointFailures::forward(std::span<const double> x) {
+  uniform_ = true;
   const std::size_t stride = families_.size() * most_response_parameters;
   for (std::size_t k = 0; k < families_.size(); ++k) {
     const Measured& mode = model_.measured[k];
     mode.program.forward(data_[k], 0, joint_.size(), {x, {}}, workspaces_[k]);
     for (std::size_t o = 0; o < mode.wanted.size(); ++o) {
       const std::span<const double> values = workspaces_[k].values(o);
+      uniform_ = uniform_ && values.size() == 1;
       const std::size_t at = k * most_response_parameters + mode.family_parameter[o];
       for (std::size_t i = 0; i < joint_.size(); ++i)
         family_parameters_[i * stride + at] = values[values.size() == 1 ? 0 : i];
@@ -67,6 +81,13 @@ std::span<const double> JointFailures::evaluate(std::span<const double> x,
   forward(x);
   const std::size_t stride = families_.size() * most_response_parameters;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
+    if (const std::size_t first = first_[i]; uniform_ && first < i) {
+      value_[i] = value_[first];
+      std::copy_n(&slope_[first * stride], gradient.empty() ? 0 : stride, &slope_[i * stride]);
+      sum_ += count_[i] * value_[i];
+      open_ += count_[i] * open_of_[first];
+      continue;
+    }
     const JointFailure& each = joint_[i];
     const ModeLives lives{families_, family_parameters(i)};
     const std::span<double> slope =
@@ -76,6 +97,7 @@ std::span<const double> JointFailures::evaluate(std::span<const double> x,
                               : log_failure(lives, each.possible, each.from, each.until, slope);
     value_[i] = term.value;
     sum_ += count_[i] * term.value;
+    open_of_[i] = term.open;
     open_ += count_[i] * term.open;
   }
   if (!gradient.empty() && sum_ > -infinity && sum_ < infinity) reverse(x, gradient);

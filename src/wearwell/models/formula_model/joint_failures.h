@@ -29,13 +29,17 @@ class JointFailures {
   const std::vector<ResponseFamily>& families() const { return families_; }
 
  private:
+  void find_equal();
   void forward(std::span<const double> x);
   void reverse(std::span<const double> x, std::span<double> gradient);
 
   const FormulaModel& model_;
   std::vector<JointFailure> joint_;
-  std::vector<double> count_, value_, family_parameters_, slope_;
+  std::vector<double> count_, value_, open_of_, family_parameters_, slope_;
   std::vector<ResponseFamily> families_;
+  // Rows of a triangle of returns repeat ages: where no parameter depends on the row, equal failures are computed once.
+  std::vector<std::size_t> first_;
+  bool uniform_ = false;
   std::vector<formula::Data> data_;  // by mode
   std::vector<formula::Workspace> workspaces_;
   double sum_ = 0, open_ = 0;

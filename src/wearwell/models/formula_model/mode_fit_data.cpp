@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "wearwell/infer/judged_counts.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/formula_fit_data.h"
 #include "wearwell/models/formula_model/joint_failures.h"
@@ -90,13 +91,47 @@ class Drawing {
   Rng& rng_;
 };
 
+// What the check judges: rows with their counts. A failure that is drawn given the parameters is drawn for each of its
+// items: one draw for all of them would scatter too much.
+struct JudgedItems {
+  std::vector<std::size_t> first;  // of each row; one more for the end
+  std::vector<std::size_t> row;
+  std::vector<int> count;
+
+  explicit JudgedItems(const FormulaModel& model) {
+    const std::size_t n = model.lives.rows.size();
+    double share = 1;
+    const std::vector<int> judged = judged_counts(model.lives.counts, n, n, share);
+    std::vector<bool> is_drawn(n);
+    for (const JointFailure& each : model.joint) is_drawn[each.row] = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      first.push_back(row.size());
+      const int items = is_drawn[i] ? std::max(1, judged[i]) : 1;
+      row.insert(row.end(), static_cast<std::size_t>(items), i);
+      count.insert(count.end(), static_cast<std::size_t>(items),
+                   is_drawn[i] ? std::min(1, judged[i]) : judged[i]);
+    }
+    first.push_back(row.size());
+  }
+
+  // The same for each mode.
+  template <class T>
+  std::vector<T> for_each_mode(const FormulaModel& model, const std::vector<T>& by_row) const {
+    std::vector<T> all;
+    for (std::size_t k = 0; k < model.measured.size(); ++k)
+      for (const std::size_t i : row) all.push_back(by_row[i]);
+    return all;
+  }
+};
+
 class ModeScores {
  public:
-  explicit ModeScores(std::shared_ptr<const FormulaRows> rows) : rows_(std::move(rows)) {}
+  ModeScores(std::shared_ptr<const FormulaRows> rows, std::shared_ptr<const JudgedItems> items)
+      : rows_(std::move(rows)), items_(std::move(items)) {}
 
   std::vector<NormalScore> operator()(const double* x) const {
     const FormulaModel& model = rows_->model();
-    const std::size_t n = model.lives.rows.size();
+    const std::size_t n = items_->row.size();
     UnitRows& units = rows_->mine().rows;
     units.move_to(x);
     const std::vector<std::vector<double>> family_parameters = units.each_family_parameter({});
@@ -104,22 +139,26 @@ class ModeScores {
     for (std::size_t k = 0; k < model.measured.size(); ++k) {
       const Measured& mode = model.measured[k];
       for (std::size_t i = 0; i < mode.observed.rows.size(); ++i)
-        scores[k * n + mode.observed.rows[i]] =
+        scores[k * n + items_->first[mode.observed.rows[i]]] =
             score_of(*mode.form, mode.observed.responses[i],
                      &family_parameters[k][i * most_response_parameters]);
     }
     Rng rng = lots_at(x, model.parameters.size());
-    JointFailures joint(model, n);
+    JointFailures joint(model, model.lives.rows.size());
     joint.evaluate({x, model.parameters.size()});
     for (std::size_t i = 0; i < joint.failures().size(); ++i) {
       const JointFailure& failure = joint.failures()[i];
-      const Drawn drawn = Drawing(joint.families(), joint.family_parameters(i), rng).draw(failure);
-      Response y = model.lives.responses[failure.row];
-      y.at = drawn.life;
-      for (std::size_t k = 0; k < model.measured.size(); ++k) {
-        y.seen = k == drawn.mode ? Censoring::none : Censoring::right;
-        scores[k * n + failure.row] = as_drawn(score_of(
-            *model.measured[k].form, y, joint.family_parameters(i) + k * most_response_parameters));
+      Drawing drawing(joint.families(), joint.family_parameters(i), rng);
+      for (std::size_t e = items_->first[failure.row]; e < items_->first[failure.row + 1]; ++e) {
+        const Drawn drawn = drawing.draw(failure);
+        Response y = model.lives.responses[failure.row];
+        y.at = drawn.life;
+        for (std::size_t k = 0; k < model.measured.size(); ++k) {
+          y.seen = k == drawn.mode ? Censoring::none : Censoring::right;
+          scores[k * n + e] =
+              as_drawn(score_of(*model.measured[k].form, y,
+                                joint.family_parameters(i) + k * most_response_parameters));
+        }
       }
     }
     return scores;
@@ -127,46 +166,40 @@ class ModeScores {
 
  private:
   std::shared_ptr<const FormulaRows> rows_;
+  std::shared_ptr<const JudgedItems> items_;
 };
 
-// The same for each mode.
-template <class T>
-std::vector<T> for_each_mode(const FormulaModel& model, const std::vector<T>& by_row) {
-  std::vector<T> all;
-  for (std::size_t k = 0; k < model.measured.size(); ++k)
-    all.insert(all.end(), by_row.begin(), by_row.end());
-  return all;
-}
-
-void add_conditions(const FormulaModel& model, FitData& data) {
+void add_conditions(const FormulaModel& model, const JudgedItems& items, FitData& data) {
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
     const bool used =
         std::any_of(model.measured.begin(), model.measured.end(),
                     [c](const Measured& each) { return each.program.uses_column(c); });
     const std::string& name = model.row_symbols.columns[c].name;
-    if (used) data.drivers.push_back({name, for_each_mode(model, model.data.number(name)->values)});
+    if (used)
+      data.drivers.push_back({name, items.for_each_mode(model, model.data.number(name)->values)});
   }
   for (const LabelColumn& column : model.data.labels) {
     if (column.name == "status") continue;
     const std::vector<std::size_t> level(column.at.begin(), column.at.end());
-    data.labels.push_back({column.name, for_each_mode(model, level)});
+    data.labels.push_back({column.name, items.for_each_mode(model, level)});
   }
 }
 
-MeasuredValues exact_lives(std::shared_ptr<const FormulaRows> rows) {
+MeasuredValues exact_lives(std::shared_ptr<const FormulaRows> rows,
+                           std::shared_ptr<const JudgedItems> items) {
   const FormulaModel& model = rows->model();
   const Unit& unit = model.measured.front().unit;
   const std::size_t n = model.lives.rows.size();
   MeasuredValues values;
   for (std::size_t k = 0; k < model.measured.size(); ++k) {
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : items->row) {
       const bool exact = model.modes->possible[i] == std::uint32_t{1} << k &&
                          model.lives.responses[i].seen == Censoring::none;
       values.value.push_back(exact ? from_si(unit, model.lives.responses[i].at) : NAN);
       values.unit.push_back(unit.scale);
     }
   }
-  values.log_density = [rows, n](const double* x) {
+  values.log_density = [rows, items, n](const double* x) {
     UnitRows& units = rows->mine().rows;
     units.move_to(x);
     std::vector<double> by_row(n);
@@ -175,7 +208,7 @@ MeasuredValues exact_lives(std::shared_ptr<const FormulaRows> rows) {
       const std::vector<std::size_t>& row = rows->model().measured[k].observed.rows;
       for (std::size_t i = 0; i < row.size(); ++i) by_row[row[i]] += terms[k][i];
     }
-    return for_each_mode(rows->model(), by_row);
+    return items->for_each_mode(rows->model(), by_row);
   };
   return values;
 }
@@ -191,18 +224,20 @@ NormalScore as_drawn(const NormalScore& score) {
 FitData mode_fit_data(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();
   FitData data;
-  data.scores = ModeScores(rows);
-  data.counts = for_each_mode(model, model.lives.counts);
+  const auto items = std::make_shared<const JudgedItems>(model);
+  data.scores = ModeScores(rows, items);
+  for (std::size_t k = 0; k < model.measured.size(); ++k)
+    data.counts.insert(data.counts.end(), items->count.begin(), items->count.end());
   data.terms = false;  // a row is one factor, but has a residual for each mode
   data.noun = "residual";
   for (std::size_t k = 0; k < model.measured.size(); ++k) {
-    for (std::size_t i = 0; i < model.lives.rows.size(); ++i) {
+    for (const std::size_t i : items->row) {
       data.column.push_back(k);
       data.names.push_back(fmt::format("row {}, as to {},", i + 1, model.modes->modes[k]));
     }
   }
-  add_conditions(model, data);
-  data.measured = exact_lives(rows);
+  add_conditions(model, *items, data);
+  data.measured = exact_lives(rows, items);
   data.remedies.scatter =
       "Use an expression of conditions for the scatter (or shape) of the mode, or another family.";
   return data;

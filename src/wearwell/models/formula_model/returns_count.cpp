@@ -6,7 +6,10 @@
 #include <map>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/returns_period.h"
 #include "wearwell/present/plain.h"
 
@@ -17,11 +20,12 @@ constexpr int most_periods = 1200;
 
 struct CountedSales {
   double units = 0;
-  std::map<int, double> returns = {};  // by period
+  // By failure mode (one, without a name, where the table has no modes), then by period.
+  std::map<std::string, std::map<int, double>> returns = {};
 };
 
 struct UnitColumns {
-  std::string sold, returned, quantity = {};
+  std::string sold, returned, quantity = {}, mode = {};
 };
 
 // Counts by period of sale and of return, and what lies after the end.
@@ -29,6 +33,27 @@ struct UnitCounts {
   std::map<int, CountedSales> sales = {};
   double rows = 0, late_sales = 0, late_returns = 0;
 };
+
+// The failure mode of a unit that came back (`returned`), or did not.
+std::string mode_of_unit(const Table& units, const UnitColumns& columns, std::size_t row,
+                         bool returned) {
+  if (columns.mode.empty()) return "";
+  const std::string text = cell_word(units.column(columns.mode), row);
+  if (is_missing_mark(text)) return "";
+  const bool runout = censoring_by_word(text) == Censoring::right &&
+                      folded_word(text).size() >= shortest_runout_word;
+  if (returned && runout)
+    throw InputError(
+        fmt::format("{} is a run-out, but column '{}' has a return, '{}'; correct one of them",
+                    quoted_place(units, columns.mode, row), columns.returned,
+                    cell_word(units.column(columns.returned), row)));
+  if (!returned && !text.empty() && censoring_by_word(text) != Censoring::right &&
+      folded_word(text) != "unknown")
+    throw InputError(
+        fmt::format("{} is a failure mode, but column '{}' has no return; correct one of them",
+                    quoted_place(units, columns.mode, row), columns.returned));
+  return text;
+}
 
 Period read_until(const TomlReader& keys) {
   const std::string text = keys.is_integer("until")
@@ -67,7 +92,9 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const Perio
     }
     CountedSales& sales = counts.sales[sold.number];
     sales.units += number;
-    if (cell_word(units.column(columns.returned), row).empty()) continue;
+    const bool came_back = !cell_word(units.column(columns.returned), row).empty();
+    const std::string mode = mode_of_unit(units, columns, row, came_back);
+    if (!came_back) continue;
     const Period returned = unit_period(units, columns.returned, row, until, prefix);
     if (returned.number < sold.number)
       throw InputError(fmt::format("{}: a return before the sale, '{}'",
@@ -76,30 +103,36 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const Perio
     if (returned.number > until.number) {
       counts.late_returns += number;
     } else {
-      sales.returns[returned.number] += number;
+      sales.returns[mode][returned.number] += number;
     }
   }
   return counts;
 }
 
-// The triangle as a table, a row for each period of sale.
+// The triangle as a table: a row for each period of sale, or for each of its failure modes.
 Table table_of(const UnitCounts& counts, const TriangleColumns& columns, const PeriodNames& names,
                int until) {
   const int first = counts.sales.begin()->first;
+  const std::map<std::string, std::map<int, double>> none = {{"", {}}};
   Table table;
-  table.rows = counts.sales.size();
   table.columns = {Column{columns.period, false, {}, {}}, Column{columns.quantity, true, {}, {}}};
   for (int period = first; period <= until; ++period)
     table.columns.push_back(Column{names.text(period), true, {}, {}});
+  Column modes{columns.mode, false, {}, {}};
   for (const auto& [at, sales] : counts.sales) {
-    table.columns[0].text.push_back(names.text(at));
-    table.columns[1].numbers.push_back(sales.units);
-    for (int period = first; period <= until; ++period) {
-      const auto found = sales.returns.find(period);
-      table.columns[static_cast<std::size_t>(period - first) + 2].numbers.push_back(
-          found == sales.returns.end() ? 0 : found->second);
+    for (const auto& [mode, returns] : sales.returns.empty() ? none : sales.returns) {
+      ++table.rows;
+      table.columns[0].text.push_back(names.text(at));
+      table.columns[1].numbers.push_back(sales.units);
+      modes.text.push_back(mode);
+      for (int period = first; period <= until; ++period) {
+        const auto found = returns.find(period);
+        table.columns[static_cast<std::size_t>(period - first) + 2].numbers.push_back(
+            found == returns.end() ? 0 : found->second);
+      }
     }
   }
+  if (!columns.mode.empty()) table.columns.push_back(std::move(modes));
   return table;
 }
 
@@ -111,6 +144,9 @@ ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
   if (read.sold == read.returned)
     keys.fail("returned", fmt::format("is the column of `sold`, '{}'", read.sold));
   if (keys.has("quantity")) read.quantity = column_named(keys, "quantity", units, "");
+  if (keys.has("mode")) read.mode = column_named(keys, "mode", units, "");
+  if (!read.mode.empty() && (read.mode == read.sold || read.mode == read.returned))
+    keys.fail("mode", fmt::format("is the column of a period, '{}'", read.mode));
   const Period until = read_until(keys);
   const UnitCounts counts = counts_of(units, read, until);
   const PeriodNames names{until.calendar, until.prefix};
@@ -123,7 +159,7 @@ ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
         "possible: is a date of sale wrong?",
         units.source, until.number - counts.sales.begin()->first + 1,
         names.text(counts.sales.begin()->first), names.text(until.number), most_periods));
-  const TriangleColumns columns = {"sold", "units"};
+  const TriangleColumns columns = {"sold", "units", read.mode.empty() ? "" : "failure mode"};
   Table table = table_of(counts, columns, names, until.number);
   table.source = units.source;
   table.layout = units.layout;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "wearwell/models/formula_model/group_colour.h"
 #include "wearwell/models/formula_model/returns_report.h"
 #include "wearwell/present/plot.h"
 
@@ -140,13 +141,60 @@ html::Figure sum_figure(const AskedReturns& asked, const ReturnsResult& result, 
           true};
 }
 
+// By failure mode: what came back, what the fit expects and the forecast.
+html::Figure modes_figure(const AskedReturns& asked, const ReturnsResult& result, int last) {
+  std::vector<plot::Json> marks;
+  for (std::size_t k = 0; k < asked.modes.size(); ++k) {
+    const char* const paint = group_colour(k + 1);
+    Band ahead;
+    std::vector<double> x, observed, fitted_x, fitted;
+    for (const ReturnsPeriod& each : result.fitted) {
+      x.push_back(each.at);
+      observed.push_back(each.by_mode[k].observed);
+      fitted_x.push_back(each.at);
+      fitted.push_back(each.by_mode[k].number.expected);
+    }
+    for (const ReturnsPeriod& each : result.forecast) {
+      ahead.add(each.at, each.by_mode[k].number);
+      if (!each.observed) continue;
+      x.push_back(each.at);
+      observed.push_back(each.by_mode[k].observed);
+    }
+    if (!ahead.x.empty())
+      marks.push_back(
+          plot::area({{"x", ahead.x}, {"y", ahead.high}, {"y2", ahead.low}}, {paint, "", 0.2}));
+    marks.push_back(plot::line({{"x", fitted_x}, {"y", fitted}, {"expected", fitted}},
+                               {paint, "", 1, 2, true}));
+    if (!ahead.x.empty())
+      marks.push_back(
+          plot::line({{"x", ahead.x}, {"y", ahead.expected}, {"expected", ahead.expected}},
+                     {paint, "", 1, 2}));
+    marks.push_back(
+        plot::points({{"x", x}, {"y", observed}, {"returned", observed}}, {paint, asked.modes[k]}));
+  }
+  return {"returns-by-mode",
+          fmt::format("Returns by {} and failure mode", asked.period(1)),
+          "Points are returns whose failure mode is known. Dashed lines are what the fit expects, "
+          "given what came back before; full lines the forecast. Bands hold the whole number of "
+          "returns by the mode with 90 %.",
+          plot::plot(fmt::format("Returns by {} and failure mode", asked.period(1)),
+                     period_axis(asked, result.fitted.front().at, last), {"Returns", false, 0, {}},
+                     marks, 320, true),
+          {},
+          true};
+}
+
 }  // namespace
 
 std::vector<html::Figure> returns_figures(const AskedReturns& asked, const WeightedDraws& draws) {
-  const ReturnsResult result = returns_result(asked, draws, false);
+  const ReturnsResult result = returns_result(asked, draws, {.modes = true});
   if (result.fitted.empty()) return {};
   const int last = result.forecast.empty() ? result.fitted.back().at : result.forecast.back().at;
-  return {returns_figure(asked, result, last), sum_figure(asked, result, last)};
+  std::vector<html::Figure> figures = {returns_figure(asked, result, last),
+                                       sum_figure(asked, result, last)};
+  if (asked.modes.size() > 1)
+    figures.insert(figures.begin() + 1, modes_figure(asked, result, last));
+  return figures;
 }
 
 }  // namespace wearwell::formula_model

@@ -1,5 +1,8 @@
 #include "wearwell/models/formula_model/returns_forecast.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +18,7 @@ constexpr double lower_share = 0.05, upper_share = 0.95;
 }  // namespace
 
 ReturnsForecast::ReturnsForecast(const FieldReturns& returns, std::span<const Risk> risks,
-                                 const WeightedDraws& draws, int most_after)
+                                 const WeightedDraws& draws, int most_after, bool by_mode)
     : ages_(static_cast<std::size_t>(most_after) + 2) {
   const ThinnedPosterior few(draws, points_of_counts);
   weight_ = few.weights;
@@ -32,22 +35,71 @@ ReturnsForecast::ReturnsForecast(const FieldReturns& returns, std::span<const Ri
                                          : log_survival(age);
     }
   }
+  if (by_mode && risks.size() > 1) add_incidence(risks, returns, few.values);
+}
+
+// The integral of each mode is known to 1e-7 of it; of a period, the modes share what fails in all, which has a closed form.
+void ReturnsForecast::add_incidence(std::span<const Risk> risks, const FieldReturns& returns,
+                                    const Points& points) {
+  modes_ = risks.size();
+  incidence_.resize(weight_.size() * modes_ * ages_);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, weight_.size()), [&](const auto& range) {
+    LifeAtPoint life(risks);
+    std::vector<double> before(modes_), step(modes_);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      life.move_to(points.row(static_cast<Eigen::Index>(i)).data());
+      std::fill(before.begin(), before.end(), 0.0);
+      double survival = 1;
+      for (std::size_t a = 1; a < ages_; ++a) {
+        const double age = to_si(returns.period, returns.age(static_cast<int>(a) - 1));
+        double all = 0;
+        for (std::size_t k = 0; k < modes_; ++k) {
+          const double until = age > 0 ? life.incidence(k, age) : 0;
+          step[k] = std::max(0.0, until - before[k]);
+          all += step[k];
+          before[k] = until;
+        }
+        const double now = std::exp(log_survival_[i * ages_ + a]);
+        for (std::size_t k = 0; k < modes_; ++k) {
+          double* const sum = &incidence_[(i * modes_ + k) * ages_ + a];
+          *sum = sum[-1] + (all > 0 ? step[k] / all * (survival - now) : 0);
+        }
+        survival = now;
+      }
+    }
+  });
 }
 
 ReturnsCount ReturnsForecast::count(std::span<const UnitsAtRisk> groups) const {
+  return count_of(groups, [this](std::size_t i, const UnitsAtRisk& each) {
+    const double* const log_survival = &log_survival_[i * ages_ + 1];  // by period after the sale
+    const double now = log_survival[each.seen], from = log_survival[each.first - 1],
+                 to = log_survival[each.last];
+    // Where none can have survived until now, none are left.
+    return std::isfinite(now) ? std::exp(from - now) * -std::expm1(to - from) : 0;
+  });
+}
+
+ReturnsCount ReturnsForecast::count(std::span<const UnitsAtRisk> groups, std::size_t risk) const {
+  return count_of(groups, [this, risk](std::size_t i, const UnitsAtRisk& each) {
+    const double now = (&log_survival_[i * ages_ + 1])[each.seen];
+    const double* const until = &incidence_[(i * modes_ + risk) * ages_ + 1];
+    return std::isfinite(now) ? (until[each.last] - until[each.first - 1]) * std::exp(-now) : 0;
+  });
+}
+
+template <class Fails>
+ReturnsCount ReturnsForecast::count_of(std::span<const UnitsAtRisk> groups,
+                                       const Fails& fails) const {
   std::vector<CountAtPoint> points(weight_.size());
   Points means(static_cast<Eigen::Index>(weight_.size()), 1);
   double square = 0, variance = 0;
   ReturnsCount found;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double* const log_survival = &log_survival_[i * ages_ + 1];  // by period after the sale
     CountAtPoint& at = points[i];
     at.weight = weight_[i];
     for (const UnitsAtRisk& each : groups) {
-      const double now = log_survival[each.seen], from = log_survival[each.first - 1],
-                   to = log_survival[each.last];
-      // Where none can have survived until now, none are left.
-      const double p = std::isfinite(now) ? std::exp(from - now) * -std::expm1(to - from) : 0;
+      const double p = std::min(1.0, fails(i, each));
       if (!(p > 0)) continue;
       at.mean += each.units * p;
       at.variance += each.units * p * (1 - p);

@@ -29,16 +29,27 @@ struct UnitsAtRisk {
 /// mean and the variance of a sum of binomial numbers (predict/count_quantile.h).
 class ReturnsForecast {
  public:
-  /// `most_after`: the last period after a sale that is asked about.
+  /// `most_after`: the last period after a sale that is asked about. `by_mode`: each of several risks, too.
   ReturnsForecast(const FieldReturns& returns, std::span<const Risk> risks,
-                  const WeightedDraws& draws, int most_after);
+                  const WeightedDraws& draws, int most_after, bool by_mode = false);
 
   ReturnsCount count(std::span<const UnitsAtRisk> groups) const;
+  /// Those whose life ends through this risk (its cumulative incidence); only with `by_mode`.
+  ReturnsCount count(std::span<const UnitsAtRisk> groups, std::size_t risk) const;
+  std::size_t modes() const { return modes_; }  ///< 0 without `by_mode`
 
  private:
+  void add_incidence(std::span<const Risk> risks, const FieldReturns& returns,
+                     const Points& points);
+  // `fails(point, group)`: the probability of a unit.
+  template <class Fails>
+  ReturnsCount count_of(std::span<const UnitsAtRisk> groups, const Fails& fails) const;
+
   std::vector<double> weight_;
   std::size_t ages_ = 0;
   std::vector<double> log_survival_;  // point after point, by period after the sale from -1
+  std::size_t modes_ = 0;
+  std::vector<double> incidence_;  // likewise, point after point and mode after mode
 };
 
 }  // namespace wearwell::formula_model

@@ -48,6 +48,9 @@ StudyKeys returns_keys() {
       {"data.returns.returned", "\"failure date\"",
        "the table has a row for each unit instead: heading of its month or day of return, empty if "
        "it did not come back; `quantity` then says how many units a row stands for (1)"},
+      {"data.returns.mode", "\"failure mode\"",
+       "heading of the failure mode of the returns, with `[failure_modes] column = \"mode\"`: each "
+       "month of sale has a row for each mode; or that of a unit, with `returned`"},
       {"data.returns.until", "\"2025-12\"",
        "with `returned`: the last month that the table covers"},
       {"data.returns.period", "\"month\"",

@@ -176,26 +176,20 @@ std::string forecast_text(const AskedReturns& asked, const ReturnsResult& result
   return text_table(lines);
 }
 
-Json count_json(const ReturnsCount& count) {
-  return {{"expected", count.expected},
-          {"expected_q05", count.low},
-          {"expected_q95", count.high},
-          {"number_q05", count.count_low},
-          {"number_q95", count.count_high}};
-}
-
 Json period_json(const AskedReturns& asked, const ReturnsPeriod& each, bool to_come) {
   Json json = {{"period", asked.returns->triangle.names.text(each.at)}};
   if (each.observed) json["observed"] = *each.observed;
   json.update(count_json(each.number));
   if (!to_come) {
     json["residual"] = residual(*each.observed, each.number);
+    if (!each.by_mode.empty()) json["modes"] = modes_json(asked, each, false);
     return json;
   }
   json["of_units_in_use"] = each.field.expected;
   json["of_later_sales"] = each.planned.expected;
   json["until_then"] = count_json(each.until);
   if (asked.cost) json["cost_until_then"] = *asked.cost * each.until.expected;
+  if (!each.by_mode.empty()) json["modes"] = modes_json(asked, each, true);
   return json;
 }
 
@@ -233,8 +227,16 @@ Json returns_json(const AskedReturns& asked, const ReturnsResult& result) {
 
 }  // namespace
 
+Json count_json(const ReturnsCount& count) {
+  return {{"expected", count.expected},
+          {"expected_q05", count.low},
+          {"expected_q95", count.high},
+          {"number_q05", count.count_low},
+          {"number_q95", count.count_high}};
+}
+
 PresetAddition returns_addition(const AskedReturns& asked, const WeightedDraws& draws) {
-  const ReturnsResult result = returns_result(asked, draws, true);
+  const ReturnsResult result = returns_result(asked, draws, {.sales = true, .modes = true});
   PresetAddition added;
   added.body["returns"] = returns_json(asked, result);
   std::vector<present::Block>& predictions = added.blocks["predictions"];
@@ -246,15 +248,20 @@ PresetAddition returns_addition(const AskedReturns& asked, const WeightedDraws& 
       predictions.push_back({present::Prose{held_out_text(asked, held)}});
     }
     predictions.push_back({forecast_table(asked, result)});
+    if (asked.modes.size() > 1) {
+      added.text += "Returns to come by failure mode\n" + modes_text(asked, result);
+      predictions.push_back({modes_forecast_table(asked, result)});
+    }
     predictions.push_back({cells_table(asked, result)});
   }
   added.blocks["fit"].push_back({fitted_table(asked, result)});
+  if (asked.modes.size() > 1) added.blocks["fit"].push_back({modes_fitted_table(asked, result)});
   added.blocks["fit"].push_back({sales_table(asked, result)});
   return added;
 }
 
 std::string returns_clause(const AskedReturns& asked, const WeightedDraws& draws) {
-  const ReturnsResult result = returns_result(asked, draws, false);
+  const ReturnsResult result = returns_result(asked, draws);
   const ReturnsPeriod& last = result.forecast.back();
   const std::string cost =
       asked.cost

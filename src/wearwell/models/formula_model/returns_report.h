@@ -16,6 +16,7 @@ namespace wearwell::formula_model {
 struct AskedReturns {
   std::shared_ptr<const FieldReturns> returns;
   std::vector<Risk> risks;
+  std::vector<std::string> modes = {};  ///< failure modes, one for each risk; empty without
   int ahead = 0;  ///< periods of the forecast, from the last fitted one on; 0: none
   std::optional<double> cost = {};
   std::string currency = {};
@@ -26,6 +27,13 @@ struct AskedReturns {
   std::string period(int count) const;
 };
 
+/// Returns of one period by one failure mode.
+struct ReturnsByMode {
+  int observed = 0;     ///< with this mode for certain
+  ReturnsCount number;  ///< given what was observed before
+  ReturnsCount until;   ///< of a forecast: from its beginning on
+};
+
 /// Returns of one period of the calendar: fitted, or to come.
 struct ReturnsPeriod {
   int at = 0;
@@ -33,6 +41,8 @@ struct ReturnsPeriod {
   ReturnsCount number;          ///< given what was observed before
   ReturnsCount field, planned;  ///< of a forecast: from the units in use, and from planned sales
   ReturnsCount until;           ///< of a forecast: from its beginning on
+  std::vector<ReturnsByMode> by_mode = {};
+  int masked = 0;  ///< observed, by one of several modes
 };
 
 /// The returns of the units of one period of sale.
@@ -48,12 +58,25 @@ struct ReturnsResult {
   std::vector<ReturnsOfSale> sales;
 };
 
-/// `with_sales`: by period of sale, too.
+/// What a result has beside the returns of each period.
+struct ReturnsParts {
+  bool sales = false;  ///< by period of sale
+  bool modes = false;  ///< by failure mode, if there are several
+};
 ReturnsResult returns_result(const AskedReturns& asked, const WeightedDraws& draws,
-                             bool with_sales);
+                             const ReturnsParts& parts = {});
 
 /// Observed less expected, in standard deviations of the number.
 double residual(int observed, const ReturnsCount& number);
+
+/// Tables of returns by failure mode, the sums of the forecast as text for a terminal, and their JSON (returns_modes.cpp).
+present::Table modes_fitted_table(const AskedReturns& asked, const ReturnsResult& result);
+present::Table modes_forecast_table(const AskedReturns& asked, const ReturnsResult& result);
+std::string modes_text(const AskedReturns& asked, const ReturnsResult& result);
+nlohmann::ordered_json modes_json(const AskedReturns& asked, const ReturnsPeriod& each,
+                                  bool to_come);
+/// expected, expected_q05, ..., number_q95.
+nlohmann::ordered_json count_json(const ReturnsCount& count);
 
 /// Tables, terminal text, and `returns` in summary.json.
 PresetAddition returns_addition(const AskedReturns& asked, const WeightedDraws& draws);

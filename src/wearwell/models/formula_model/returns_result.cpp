@@ -22,6 +22,23 @@ int claims_in(const FieldReturns& returns, int period) {
   return sum;
 }
 
+// Of one period by failure mode; those of several possible modes apart.
+void add_observed(const AskedReturns& asked, ReturnsPeriod& found) {
+  const FieldReturns& returns = *asked.returns;
+  for (const SalesPeriod& sale : returns.triangle.sales) {
+    const int after = found.at - sale.at;
+    if (after < 0 || !returns.claimed(after)) continue;
+    for (const ModeReturns& each : sale.by_mode) {
+      const int count = each.returns[static_cast<std::size_t>(after)];
+      const auto mode = std::find(asked.modes.begin(), asked.modes.end(), each.mode);
+      if (mode == asked.modes.end())
+        found.masked += count;
+      else
+        found.by_mode[static_cast<std::size_t>(mode - asked.modes.begin())].observed += count;
+    }
+  }
+}
+
 // Units that are sold after the fit: held out, or planned.
 std::vector<std::pair<int, int>> later_sales(const AskedReturns& asked) {
   std::vector<std::pair<int, int>> later;
@@ -80,6 +97,9 @@ ReturnsPeriod forecast_of(const AskedReturns& asked, const ReturnsForecast& fore
   const std::vector<UnitsAtRisk> sold = sold_later(asked, first, period);
   until.insert(until.end(), sold.begin(), sold.end());
   found.until = forecast.count(until);
+  for (std::size_t k = 0; k < forecast.modes(); ++k)
+    found.by_mode.push_back({0, forecast.count(field, k), forecast.count(until, k)});
+  if (found.observed && forecast.modes() > 0) add_observed(asked, found);
   return found;
 }
 
@@ -112,23 +132,27 @@ std::string AskedReturns::period(int count) const {
 }
 
 ReturnsResult returns_result(const AskedReturns& asked, const WeightedDraws& draws,
-                             bool with_sales) {
+                             const ReturnsParts& parts) {
   const FieldReturns& returns = *asked.returns;
-  const ReturnsForecast forecast(returns, asked.risks, draws, asked.most_after());
+  const ReturnsForecast forecast(returns, asked.risks, draws, asked.most_after(), parts.modes);
   ReturnsResult result;
   const int begin = std::max(returns.triangle.first, returns.triangle.sales.front().at);
   for (int period = begin; period <= returns.last(); ++period)
-    result.fitted.push_back({period, claims_in(returns, period), {}, {}, {}, {}});
+    result.fitted.push_back({period, claims_in(returns, period), {}, {}, {}, {}, {}, 0});
   tbb::parallel_for(std::size_t{0}, result.fitted.size(), [&](std::size_t i) {
     ReturnsPeriod& each = result.fitted[i];
-    each.number = forecast.count(in_fitted_period(returns, each.at));
+    const std::vector<UnitsAtRisk> groups = in_fitted_period(returns, each.at);
+    each.number = forecast.count(groups);
+    for (std::size_t k = 0; k < forecast.modes(); ++k)
+      each.by_mode.push_back({0, forecast.count(groups, k), {}});
+    if (forecast.modes() > 0) add_observed(asked, each);
   });
   result.forecast.resize(static_cast<std::size_t>(asked.ahead));
   tbb::parallel_for(0, asked.ahead, [&](int k) {
     result.forecast[static_cast<std::size_t>(k)] =
         forecast_of(asked, forecast, returns.last() + 1 + k);
   });
-  if (!with_sales) return result;
+  if (!parts.sales) return result;
   const auto end = std::find_if(returns.triangle.sales.begin(), returns.triangle.sales.end(),
                                 [&](const SalesPeriod& each) { return each.at > returns.last(); });
   result.sales.resize(static_cast<std::size_t>(end - returns.triangle.sales.begin()));

@@ -51,6 +51,7 @@ void read_predict(const TomlReader& predict, const Source& source, AskedReturns&
 }
 
 void require_single_life(const TomlReader& root, const FormulaModel& model) {
+  if (model.modes) return;  // whose families are positive
   const Measured& measured = model.measured.front();
   const TomlReader likelihood = root.required_table("likelihood");
   if (model.measured.size() > 1)
@@ -69,9 +70,10 @@ AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
   asked.returns = read_field_returns(root.required_table("data"), source);
   asked.ahead = asked.returns->held_out;
   if (const auto predict = root.table("predict")) read_predict(*predict, source, asked);
-  const Measured& measured = model->measured.front();
-  asked.risks.push_back(risk_of(
-      make_path(model, root, "likelihood", measured.wanted, false, Conditions()), measured));
+  for (const Measured& measured : model->measured)
+    asked.risks.push_back(risk_of(
+        make_path(model, root, "likelihood", measured.wanted, false, Conditions()), measured));
+  if (model->modes) asked.modes = model->modes->modes;
   return asked;
 }
 

@@ -9,11 +9,14 @@
 
 #include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/returns_period.h"
 
+// Longer than others: one table, with all that is wrong with its headings, rows and cells.
 namespace wearwell::formula_model {
 namespace {
 
@@ -60,7 +63,8 @@ const Column* quantity_among(const std::vector<const Column*>& columns) {
 // Headings in the order of time, one for each period.
 std::vector<Heading> ordered_headings(const TomlReader& keys, const Table& table,
                                       const TriangleColumns& columns) {
-  std::vector<Heading> headings = period_headings(table, {columns.period, columns.quantity});
+  std::vector<Heading> headings =
+      period_headings(table, {columns.period, columns.quantity, columns.mode});
   if (headings.empty())
     keys.fail("", fmt::format("{} has no column of a period of return: a heading is {}",
                               table.source, allowed_months));
@@ -110,11 +114,14 @@ Period period_of_sale(const Table& table, const std::string& column, std::size_t
                                quoted_place(table, column, row), like.column->name));
 }
 
-void read_returns(const Table& table, const std::string& quantity_column,
-                  const std::vector<Heading>& headings, std::size_t row, SalesPeriod& sale) {
-  int left = sale.sold;
+// Adds the returns of a row to those of its period of sale; those of the row alone.
+std::vector<int> read_returns(const Table& table, const std::string& quantity_column,
+                              const std::vector<Heading>& headings, std::size_t row,
+                              SalesPeriod& sale) {
+  int left = sale.sold - std::accumulate(sale.returns.begin(), sale.returns.end(), 0);
   const int first = headings.front().period.number, last = headings.back().period.number;
-  sale.returns.assign(static_cast<std::size_t>(std::max(0, last - sale.at + 1)), 0);
+  sale.returns.resize(static_cast<std::size_t>(std::max(0, last - sale.at + 1)));
+  std::vector<int> own(sale.returns.size());
   for (const Heading& each : headings) {
     const int count = units_in(table, each.column->name, row, 0);
     const int after = each.period.number - sale.at;
@@ -130,13 +137,90 @@ void read_returns(const Table& table, const std::string& quantity_column,
       throw InputError(fmt::format("{}: with this, {} of the {} units sold ('{}') have come back",
                                    quoted_place(table, each.column->name, row), sale.sold - left,
                                    sale.sold, quantity_column));
-    sale.returns[static_cast<std::size_t>(after)] = count;
+    sale.returns[static_cast<std::size_t>(after)] += count;
+    own[static_cast<std::size_t>(after)] = count;
   }
   if (sale.at < first - 1)
     throw InputError(fmt::format(
         "{}: sold before '{}', the first column of returns: returns between are missing; add their "
         "columns, with 0 if nothing came back",
         place(table, quantity_column, row), headings.front().column->name));
+  return own;
+}
+
+// A run-out is no mode of a return.
+std::string mode_of_return(const Table& table, const std::string& column, std::size_t row) {
+  const std::string text = cell_word(table.column(column), row);
+  if (is_missing_mark(text)) return "";
+  if (censoring_by_word(text) == Censoring::right &&
+      folded_word(text).size() >= shortest_runout_word)
+    throw InputError(
+        fmt::format("{} is a run-out, but the row has returns: units that did not "
+                    "come back have no row of a mode",
+                    quoted_place(table, column, row)));
+  return text;
+}
+
+// Of a row with its period of sale.
+void read_row(const Table& table, const TriangleColumns& columns,
+              const std::vector<Heading>& headings, std::size_t row, SalesPeriod& sale) {
+  ModeReturns own;
+  own.row = row;
+  own.returns = read_returns(table, columns.quantity, headings, row, sale);
+  const bool any =
+      std::any_of(own.returns.begin(), own.returns.end(), [](int count) { return count > 0; });
+  if (columns.mode.empty() || !any) return;
+  own.mode = mode_of_return(table, columns.mode, row);
+  for (const ModeReturns& each : sale.by_mode)
+    if (each.mode == own.mode)
+      throw InputError(
+          fmt::format("{}: the same period of sale and failure mode as in row {}; add them up",
+                      quoted_place(table, columns.mode, row), each.row + 1));
+  sale.by_mode.push_back(std::move(own));
+}
+
+// The units sold in the period of these rows; it may stand in one of them.
+int sold_in(const Table& table, const TriangleColumns& columns,
+            const std::vector<std::size_t>& rows) {
+  int sold = -1;
+  std::size_t of = 0;
+  for (const std::size_t row : rows) {
+    if (cell_word(table.column(columns.quantity), row).empty()) continue;
+    const int units = units_in(table, columns.quantity, row, -1);
+    if (sold >= 0 && units != sold)
+      throw InputError(fmt::format(
+          "{}: {} units sold, but {} in row {} of the same period; each row of a failure mode has "
+          "all units of its period, or an empty cell",
+          place(table, columns.quantity, row), units, sold, of + 1));
+    sold = units;
+    of = row;
+  }
+  return sold >= 0 ? sold : units_in(table, columns.quantity, rows.front(), -1);
+}
+
+// The rows of each period of sale: one, or one for each failure mode.
+std::map<int, std::vector<std::size_t>> rows_of_periods(const Table& table,
+                                                        const TriangleColumns& columns,
+                                                        const std::vector<Heading>& headings) {
+  std::map<int, std::vector<std::size_t>> rows;
+  std::string prefix = headings.front().period.prefix;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const Period period = period_of_sale(table, columns.period, row, headings.front());
+    require_kind(table, columns.period, row, period, prefix);
+    std::vector<std::size_t>& of = rows[period.number];
+    if (!of.empty() && columns.mode.empty())
+      throw InputError(
+          fmt::format("{}: the same period of sale as in row {}; add them up, or name the column "
+                      "of failure modes: [data.returns] mode",
+                      quoted_place(table, columns.period, row), of.front() + 1));
+    if (period.number > headings.back().period.number)
+      throw InputError(
+          fmt::format("{}: sold after '{}', the last column of returns; sales to come belong to "
+                      "predict.planned_sales",
+                      quoted_place(table, columns.period, row), headings.back().column->name));
+    of.push_back(row);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -199,9 +283,12 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
 ReturnsTriangle read_triangle(const TomlReader& keys, Table table) {
   const TriangleColumns found = triangle_columns(table).value_or(TriangleColumns{});
   const TriangleColumns columns = {column_named(keys, "sold", table, found.period),
-                                   column_named(keys, "quantity", table, found.quantity)};
+                                   column_named(keys, "quantity", table, found.quantity),
+                                   keys.has("mode") ? column_named(keys, "mode", table, "") : ""};
   if (columns.period == columns.quantity)
     keys.fail("quantity", fmt::format("is the column of `sold`, '{}'", columns.period));
+  if (columns.mode == columns.period || columns.mode == columns.quantity)
+    keys.fail("mode", fmt::format("is the column of the units sold, '{}'", columns.mode));
   return read_triangle(keys, std::move(table), columns);
 }
 
@@ -212,38 +299,24 @@ ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const Triangl
   require_consecutive(table, headings, triangle.names);
   require_last_column(table, headings.back());
   triangle.last = headings.back().period.number;
-  std::map<int, std::size_t> rows;
-  std::string prefix = triangle.names.prefix;
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    const Period period = period_of_sale(table, columns.period, row, headings.front());
-    require_kind(table, columns.period, row, period, prefix);
-    SalesPeriod sale{period.number, units_in(table, columns.quantity, row, -1)};
-    const auto [at, is_new] = rows.try_emplace(sale.at, row);
-    if (!is_new)
-      throw InputError(fmt::format("{}: the same period of sale as in row {}; add them up",
-                                   quoted_place(table, columns.period, row), at->second + 1));
-    if (sale.at > triangle.last)
-      throw InputError(
-          fmt::format("{}: sold after '{}', the last column of returns; sales to come belong to "
-                      "predict.planned_sales",
-                      quoted_place(table, columns.period, row), headings.back().column->name));
-    read_returns(table, columns.quantity, headings, row, sale);
+  for (const auto& [at, rows] : rows_of_periods(table, columns, headings)) {
+    SalesPeriod sale{at, sold_in(table, columns, rows)};
+    for (const std::size_t row : rows) read_row(table, columns, headings, row, sale);
     if (sale.sold > 0) triangle.sales.push_back(std::move(sale));
   }
   triangle.first = headings.front().period.number;
   if (triangle.sales.empty())
     throw InputError(fmt::format("{}: no units were sold ('{}')", table.source, columns.quantity));
-  std::sort(triangle.sales.begin(), triangle.sales.end(),
-            [](const SalesPeriod& a, const SalesPeriod& b) { return a.at < b.at; });
   for (const Column& each : table.columns) {
-    const bool used = each.name == columns.period || each.name == columns.quantity ||
-                      std::any_of(headings.begin(), headings.end(), [&](const Heading& heading) {
-                        return heading.column->name == each.name;
-                      });
+    const bool used =
+        each.name == columns.period || each.name == columns.quantity || each.name == columns.mode ||
+        std::any_of(headings.begin(), headings.end(),
+                    [&](const Heading& heading) { return heading.column->name == each.name; });
     if (!used) triangle.unread.push_back(each.name);
   }
   triangle.period_column = columns.period;
   triangle.quantity_column = columns.quantity;
+  triangle.mode_column = columns.mode;
   triangle.table = std::move(table);
   return triangle;
 }

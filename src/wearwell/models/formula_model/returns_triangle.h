@@ -10,11 +10,20 @@
 
 namespace wearwell::formula_model {
 
+/// Returns by one failure mode.
+struct ModeReturns {
+  std::string mode;     ///< as the table has it: "seal", "seal|motor"; empty if it is not known
+  std::size_t row = 0;  ///< of the table that names it first
+  std::vector<int> returns = {};
+};
+
 /// The units sold in one period, and how many of them came back in each later one.
 struct SalesPeriod {
   int at = 0;  ///< the period of sale
   int sold = 0;
   std::vector<int> returns = {};  ///< by period from that of the sale to the last of the table
+  std::vector<ModeReturns> by_mode =
+      {};  ///< the same by failure mode, if the table has a column of modes
 
   int returned(int until) const;  ///< up to and including this period
 };
@@ -32,7 +41,8 @@ struct ReturnsTriangle {
   Table table;  ///< as read
   PeriodNames names;
   std::string period_column, quantity_column;
-  int first = 0, last = 0;  ///< periods of the first and the last column of returns
+  std::string mode_column = {};  ///< of failure modes; empty: the table has none
+  int first = 0, last = 0;       ///< periods of the first and the last column of returns
   std::vector<SalesPeriod> sales;
   std::vector<std::string> unread;      ///< headings that are no period
   std::vector<std::string> notes = {};  ///< of its rows, as sentences
@@ -41,6 +51,7 @@ struct ReturnsTriangle {
 /// The columns of a table that looks like a triangle.
 struct TriangleColumns {
   std::string period, quantity;          ///< of sale
+  std::string mode = {};                 ///< of failure modes, if it is named
   std::string first = {}, last = {};     ///< of return
   std::vector<std::string> unread = {};  ///< headings that are no period
   bool calendar = true;                  ///< months, not numbers
@@ -51,8 +62,9 @@ struct TriangleColumns {
 /// each other, and a column of periods of the same kind. Empty for any other table.
 std::optional<TriangleColumns> triangle_columns(const Table& table);
 
-/// Reads a triangle. `keys` names the columns (`sold`, `quantity`) and is the place of messages. An
-/// empty cell is no return. Throws InputError that names file, row and column: an unreadable period,
+/// Reads a triangle. `keys` names the columns (`sold`, `quantity`, `mode`) and is the place of messages. An
+/// empty cell is no return. With `mode` a period of sale has a row for each failure mode; its quantity may stand
+/// in one of them. Throws InputError that names file, row and column: an unreadable period,
 /// months beside numbers, a missing or repeated period, no quantity, a return before the sale, more
 /// returns than sold, a last column without any entry.
 ReturnsTriangle read_triangle(const TomlReader& keys, Table table);

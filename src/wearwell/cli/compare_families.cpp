@@ -1,0 +1,186 @@
+#include "wearwell/cli/compare_families.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "wearwell/base/contains.h"
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/infer/exact.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/progress_line.h"
+#include "wearwell/present/text_table.h"
+#include "wearwell/study/family_study.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell {
+namespace {
+
+// elpd differences below it are small (Sivula, Magnusson, Vehtari 2020).
+constexpr double small_difference = 4;
+
+std::vector<std::string> listed_families(const std::string& text) {
+  if (text == "all") {
+    const auto all = exchangeable_families();
+    return {all.begin(), all.end()};
+  }
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    std::string name = text.substr(at, comma - at);
+    std::erase(name, ' ');
+    at = comma + 1;
+    if (name.empty()) throw InputError("--families: an empty name; write weibull,lognormal");
+    if (contains(names, name)) throw InputError(fmt::format("--families: '{}' twice", name));
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+SavedResult fitted(const Source& source, const std::string& family, Models models) {
+  const auto study = read_study(source, models);
+  const auto* const posterior = dynamic_cast<const PosteriorStudy*>(study.get());
+  RunOptions options;
+  options.report = false;
+  if (posterior && posterior->parameters.size() <= max_exact_dimension)
+    options.sampler.method = Method::exact;
+  ProgressLine line(isatty(STDERR_FILENO) ? stderr : nullptr);
+  const Monitor monitor{.progress = [&](const Step& step) { line.show(step); }};
+  Result result = study->run(options, monitor);
+  if (!result.posterior)
+    throw InputError(
+        fmt::format("{}: has no posterior for {} lives", source.study.path.string(), family));
+  const PosteriorSummary& summary = *result.posterior;
+  return {std::move(result.header),
+          summary.parameters,
+          summary.mode,
+          summary.loo,
+          summary.posterior_draws,
+          summary.quantities,
+          {}};
+}
+
+bool is_b_life(const QuantitySummary& each) {
+  return each.name.size() > 1 && each.name.front() == 'B' &&
+         each.name.find(" life") != each.name.npos;
+}
+
+std::string interval_text(const QuantityQuantiles& known) {
+  return fmt::format("{} ({} to {})", plain_number(known.q50), plain_number(known.q05),
+                     plain_number(known.q95));
+}
+
+std::string label(const QuantitySummary& each) {
+  return each.name + (each.of == "unit" ? "" : " of " + each.of) +
+         (each.at.empty() ? "" : " " + each.at) + fmt::format(" [{}]", each.unit);
+}
+
+const QuantitySummary* same(const SavedResult& result, const QuantitySummary& wanted) {
+  for (const QuantitySummary& each : result.quantities)
+    if (each.name == wanted.name && each.of == wanted.of && each.at == wanted.at) return &each;
+  return nullptr;
+}
+
+std::string conclusion(const FamilyRanking& ranking) {
+  const auto& studies = ranking.comparison.studies;
+  if (!ranking.comparison.comparable) return "";
+  if (ranking.close.size() == 1)
+    return fmt::format("The data separate {} from all others: one distribution will do.",
+                       ranking.close.front());
+  std::string text = fmt::format(
+      "The data do not separate {}: differences of elpd are below {:.0f}, or below twice their "
+      "standard error.",
+      fmt::join(ranking.close, ", "), small_difference);
+  std::vector<std::string> agree, differ;
+  for (const QuantitySummary& wanted : studies.front().result.quantities) {
+    if (!is_b_life(wanted)) continue;
+    double least = INFINITY, most = 0, lowest = 0, highest = INFINITY;
+    for (const Comparison::Entry& each : studies) {
+      const QuantitySummary* const found =
+          contains(ranking.close, each.name) ? same(each.result, wanted) : nullptr;
+      if (!found) continue;
+      least = std::min(least, found->best().q50);
+      most = std::max(most, found->best().q50);
+      lowest = std::max(lowest, found->best().q05);
+      highest = std::min(highest, found->best().q95);
+    }
+    (least >= lowest && most <= highest ? agree : differ)
+        .push_back(
+            fmt::format("{} ({} to {})", label(wanted), plain_number(least), plain_number(most)));
+  }
+  if (!agree.empty())
+    text +=
+        fmt::format(" One of them will do for {}: each median lies in the 90 % interval of all.",
+                    fmt::join(agree, ", "));
+  if (!differ.empty())
+    text += fmt::format(" The choice matters for {}: report all of them.", fmt::join(differ, ", "));
+  if (!agree.empty() || !differ.empty()) return text;
+  return text + " State predict.b_lives to see whether the choice matters.";
+}
+
+}  // namespace
+
+FamilyRanking rank_families(const Source& study, const std::string& families, Models models) {
+  const std::vector<std::string> names = listed_families(families);
+  if (names.size() < 2) throw InputError("--families: needs two families or more, or all");
+  std::vector<std::pair<std::string, SavedResult>> results;
+  std::vector<Source> sources;
+  for (const std::string& each : names) sources.push_back(study_with_family(study, each));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    results.emplace_back(names[i], fitted(sources[i], names[i], models));
+  FamilyRanking ranking{compare(std::move(results)), {}};
+  for (const Comparison::Entry& each : ranking.comparison.studies) {
+    if (each.behind &&
+        (each.behind->value < small_difference || each.behind->value < 2 * each.behind->se))
+      ranking.close.push_back(each.name);
+  }
+  return ranking;
+}
+
+std::string ranking_text(const FamilyRanking& ranking) {
+  std::vector<std::vector<std::string>> lines = {{""}};
+  const auto& studies = ranking.comparison.studies;
+  for (const QuantitySummary& each : studies.front().result.quantities)
+    if (is_b_life(each)) lines.front().push_back(label(each));
+  for (const Comparison::Entry& each : studies) {
+    lines.push_back({"  " + each.name});
+    for (const QuantitySummary& wanted : studies.front().result.quantities) {
+      if (!is_b_life(wanted)) continue;
+      const QuantitySummary* const found = same(each.result, wanted);
+      lines.back().push_back(found ? interval_text(found->best()) : "-");
+    }
+  }
+  std::string text;
+  if (lines.front().size() > 1) text = "\nLives, median (90 %)\n" + text_table(lines);
+  if (const std::string end = conclusion(ranking); !end.empty())
+    text += "\n" + wrapped(printable(end), 0, 2);
+  return text;
+}
+
+nlohmann::ordered_json ranking_json(const FamilyRanking& ranking) {
+  nlohmann::ordered_json json = to_json(ranking.comparison);
+  for (std::size_t i = 0; i < ranking.comparison.studies.size(); ++i) {
+    nlohmann::ordered_json lives = nlohmann::ordered_json::array();
+    for (const QuantitySummary& each : ranking.comparison.studies[i].result.quantities) {
+      if (!is_b_life(each)) continue;
+      lives.push_back({{"name", each.name},
+                       {"of", each.of},
+                       {"at", each.at},
+                       {"unit", each.unit},
+                       {"q05", each.best().q05},
+                       {"q50", each.best().q50},
+                       {"q95", each.best().q95}});
+    }
+    json["studies"][i]["b_lives"] = std::move(lives);
+  }
+  json["close"] = ranking.close;
+  return json;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,224 @@
+// Returns triangles by failure mode: likelihood and forecast against integrals by R (tests/golden/warranty_modes.R), other
+// layouts of the same returns, unknown modes, messages.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "support/messages.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/models/formula_model/formula_likelihood.h"
+#include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/returns_report.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double seconds_of_month = 3.15569259747e7 / 12;  // of UDUNITS
+
+std::string modes_content(const std::string& file) {
+  std::ifstream in(PROJECT_SOURCE_DIR "/" + file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A study of modes "seal" and "bearing".
+std::string modes_study(const std::string& returns, const std::string& predict = "") {
+  return fmt::format(
+      "model = \"formula\"\n[data]\nfile = \"d.csv\"\n[data.returns]\n{}\n[failure_modes]\n"
+      "column = \"mode\"\n[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta[mode]\"\n"
+      "shape = \"beta[mode]\"\n[prior]\n"
+      "eta = {{ distribution = \"lognormal\", median = \"100 month\", log_sd = 2 }}\n"
+      "beta = {{ distribution = \"lognormal\", median = 1.2, log_sd = 0.5 }}\n[predict]\n{}\n",
+      returns, predict);
+}
+
+const std::string by_columns = "sold = \"sold\"\nquantity = \"shipped\"\nmode = \"mode\"\n";
+
+class ReturnsModesTest : public ScratchTest {
+ protected:
+  struct Read {
+    TomlReader root;
+    Source source;
+    std::shared_ptr<const FormulaModel> model;
+  };
+  Read read(const std::string& table, const std::string& text) {
+    write("d.csv", table);
+    const Source source = source_of(write("study.toml", text));
+    TomlReader root = TomlReader::parse(source.study);
+    auto model = read_formula_model(root, source);
+    return {std::move(root), source, std::move(model)};
+  }
+  std::string refusal(const std::string& table, const std::string& text) {
+    return message_of<InputError>([&] {
+      const Read all = read(table, text);
+      read_asked_returns(all.root, all.source, all.model);
+    });
+  }
+
+  // Scales in months and shapes, by mode.
+  static std::vector<double> point(const FormulaModel& model, double eta_seal, double beta_seal,
+                                   double eta_bearing, double beta_bearing) {
+    std::vector<double> x;
+    for (const auto& each : model.parameters) {
+      const bool seal = each.name.find("seal") != std::string::npos;
+      x.push_back(each.name.starts_with("eta") ? seconds_of_month * (seal ? eta_seal : eta_bearing)
+                                               : (seal ? beta_seal : beta_bearing));
+    }
+    return x;
+  }
+  static double log_likelihood(const Read& all, const std::vector<double>& x,
+                               std::span<double> gradient = {}) {
+    const auto density = formula_likelihood(
+        std::make_shared<const FormulaRows>(all.model, all.model->data.table.rows));
+    return gradient.empty() ? density->value(x) : density->value_and_gradient(x, gradient);
+  }
+};
+
+ReturnsResult modes_forecast(const AskedReturns& asked, const std::vector<double>& x) {
+  WeightedDraws draws;
+  draws.values = Points(1, static_cast<Eigen::Index>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) draws.values(0, static_cast<Eigen::Index>(i)) = x[i];
+  draws.weights = Eigen::VectorXd::Ones(1);
+  return returns_result(asked, draws, {.sales = true, .modes = true});
+}
+
+// The maximum of R's multinomial likelihood, its value there, and the expected returns of each mode.
+TEST_F(ReturnsModesTest, AgreeWithIntegralsByR) {
+  const Read all = read(modes_content("examples/warranty/modes.csv"),
+                        modes_study(by_columns, "next = \"6 month\"\n"));
+  const std::vector<double> x =
+      point(*all.model, 340.774965752, 0.851322402, 64.917396523, 2.050492144);
+  std::vector<double> gradient(x.size());
+  EXPECT_NEAR(log_likelihood(all, x, gradient), -3030.949321149, 1e-6);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(gradient[i] * x[i], 0, 0.02) << i;
+
+  const AskedReturns asked = read_asked_returns(all.root, all.source, all.model);
+  ASSERT_EQ(asked.modes, (std::vector<std::string>{"seal", "bearing"}));
+  const ReturnsResult result = modes_forecast(asked, x);
+  const std::vector<ReturnsByMode>& next = result.forecast.front().by_mode;
+  EXPECT_NEAR(next[0].number.expected, 29.4189723, 1e-5);
+  EXPECT_NEAR(next[1].number.expected, 27.6725665, 1e-5);
+  const std::vector<ReturnsByMode>& half_year = result.forecast.back().by_mode;
+  EXPECT_NEAR(half_year[0].until.expected, 163.947295, 1e-4);
+  EXPECT_NEAR(half_year[1].until.expected, 206.331797, 1e-4);
+  // Modes add up, and each number is binomial given the parameters.
+  for (const ReturnsPeriod& each : result.forecast)
+    EXPECT_NEAR(each.by_mode[0].number.expected + each.by_mode[1].number.expected,
+                each.number.expected, 1e-9);
+  EXPECT_LT(next[0].number.sd, std::sqrt(next[0].number.expected));
+  EXPECT_GT(next[0].number.sd, 0.99 * std::sqrt(next[0].number.expected));
+  EXPECT_NEAR(next[0].number.count_low, 21, 1);  // qpois(0.05, 29.4)
+  EXPECT_NEAR(next[0].number.count_high, 39, 1);
+  // What came back, by mode.
+  int seal = 0, all_returns = 0;
+  for (const ReturnsPeriod& each : result.fitted) {
+    seal += each.by_mode[0].observed;
+    all_returns += *each.observed;
+    EXPECT_EQ(each.by_mode[0].observed + each.by_mode[1].observed, *each.observed);
+    EXPECT_NEAR(each.by_mode[0].number.expected + each.by_mode[1].number.expected,
+                each.number.expected, 1e-9);
+  }
+  EXPECT_GT(seal, 100);
+  EXPECT_LT(seal, all_returns);
+}
+
+// A multinomial by hand: two months of exponential lives.
+TEST_F(ReturnsModesTest, ExponentialLivesInClosedForm) {
+  const Read all = read("sold,mode,units,1,2\n1,seal,100,3,4\n1,bearing,100,1,2\n2,seal,50,,1\n",
+                        modes_study("quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n",
+                                    "next = \"2 month\"\n"));
+  const std::vector<double> x = point(*all.model, 40, 1, 25, 1);
+  const double a = 1.0 / 40, b = 1.0 / 25, h = a + b;
+  const auto fails = [&](double rate, double from, double to) {
+    return rate / h * (std::exp(-h * from) - std::exp(-h * to));
+  };
+  const double expected = 4 * std::log(fails(a, 0, 0.5)) + 4 * std::log(fails(a, 0.5, 1.5)) +
+                          1 * std::log(fails(b, 0, 0.5)) + 2 * std::log(fails(b, 0.5, 1.5)) -
+                          90 * 1.5 * h - 49 * 0.5 * h;
+  EXPECT_NEAR(log_likelihood(all, x), expected, 1e-8);
+  const ReturnsResult result =
+      modes_forecast(read_asked_returns(all.root, all.source, all.model), x);
+  const double left = 90 + 49;  // lives are memoryless
+  EXPECT_NEAR(result.forecast[0].by_mode[1].number.expected, left * fails(b, 0, 1), 1e-5);
+  EXPECT_NEAR(result.forecast[1].by_mode[0].until.expected, left * fails(a, 0, 2), 1e-5);
+}
+
+// A quantity may stand in one row of its month; rows may be in any order; single units count to the same triangle.
+TEST_F(ReturnsModesTest, OtherLayoutsAreTheSameData) {
+  const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
+  const Read first = read("sold,mode,units,1,2\n1,seal,4,1,1\n1,bearing,4,0,1\n2,seal,3,,1\n",
+                          modes_study(returns));
+  const std::vector<double> x = point(*first.model, 40, 1.3, 25, 0.8);
+  const double expected = log_likelihood(first, x);
+  const Read second = read("mode,sold,units,1,2\nseal,2,3,,1\nbearing,1,4,0,1\nseal,1,,1,1\n",
+                           modes_study(returns));
+  EXPECT_NEAR(log_likelihood(second, point(*second.model, 40, 1.3, 25, 0.8)), expected, 1e-12);
+  const Read units = read(
+      "sold,back,cause\n1,1,seal\n1,2,seal\n1,2,bearing\n1,,\n2,2,seal\n2,,running\n2,,\n",
+      modes_study("sold = \"sold\"\nreturned = \"back\"\nmode = \"cause\"\nuntil = 2\nperiod = "
+                  "\"month\"\n"));
+  EXPECT_NEAR(log_likelihood(units, point(*units.model, 40, 1.3, 25, 0.8)), expected, 1e-12);
+}
+
+// A return of unknown mode has the probability of a return, and stands in no row of a mode.
+TEST_F(ReturnsModesTest, UnknownModes) {
+  const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
+  const Read all =
+      read("sold,mode,units,1,2\n1,seal,9,1,0\n1,bearing,9,0,1\n1,,9,0,2\n1,seal|bearing,9,1,0\n",
+           modes_study(returns + "hold_out = \"1 month\"\n"));
+  const std::vector<double> x = point(*all.model, 40, 1, 25, 1);
+  const double a = 1.0 / 40, b = 1.0 / 25, h = a + b;
+  const double expected =
+      std::log(a / h * -std::expm1(-0.5 * h)) + std::log(-std::expm1(-0.5 * h)) - 7 * 0.5 * h;
+  // The mode bearing is known from the cell 'seal|bearing' only.
+  EXPECT_NEAR(log_likelihood(all, x), expected, 1e-8);
+  const ReturnsResult result =
+      modes_forecast(read_asked_returns(all.root, all.source, all.model), x);
+  EXPECT_EQ(result.fitted[0].masked, 1);
+  EXPECT_EQ(result.fitted[0].by_mode[0].observed, 1);
+  EXPECT_EQ(result.forecast[0].masked, 2);
+  EXPECT_EQ(result.forecast[0].by_mode[1].observed, 1);
+}
+
+TEST_F(ReturnsModesTest, Refusals) {
+  const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
+  const auto of = [&](const std::string& rows) {
+    return refusal("sold,mode,units,1,2\n" + rows, modes_study(returns));
+  };
+  EXPECT_THAT(of("1,seal,4,1,1\n1,seal,4,0,1\n1,bearing,4,1,0\n"),
+              HasSubstr("row 2, column 'mode': 'seal': the same period of sale and failure mode as "
+                        "in row 1; add them up"));
+  EXPECT_THAT(of("1,seal,4,1,1\n1,bearing,5,0,1\n"),
+              HasSubstr("row 2, column 'units': 5 units sold, but 4 in row 1 of the same period"));
+  EXPECT_THAT(of("1,seal,4,2,1\n1,bearing,4,2,0\n"), HasSubstr("5 of the 4 units sold"));
+  EXPECT_THAT(of("1,seal,4,1,1\n1,censored,4,1,0\n"),
+              HasSubstr("row 2, column 'mode': 'censored' is a run-out, but the row has returns"));
+  // A word with two readings is named with its row of the triangle.
+  EXPECT_THAT(of("1,seal,9,1,1\n1,bearing,9,1,1\n1,failed,9,1,0\n"),
+              HasSubstr("row 3, column 'mode': 'failed' can mean a failure of unknown mode"));
+  EXPECT_THAT(refusal("sold,units,1,2\n1,4,1,1\n1,4,0,1\n",
+                      "model = \"formula\"\n[data]\nfile = \"d.csv\"\n[data.returns]\nperiod = "
+                      "\"month\"\n[likelihood.life]\nfamily = \"weibull\"\nscale = 1\nshape = 1\n"),
+              HasSubstr("add them up, or name the column of failure modes: [data.returns] mode"));
+  std::string text = modes_study("quantity = \"units\"\nperiod = \"month\"\n");
+  EXPECT_THAT(refusal("sold,units,1,2\n1,4,1,1\n", text),
+              HasSubstr("failure_modes.column: needs [data.returns] mode"));
+  text = modes_study(returns +
+                     "delay_to_use = { distribution = \"exponential\", mean = \"1 month\" }\n");
+  EXPECT_THAT(refusal("sold,mode,units,1,2\n1,seal,4,1,1\n1,bearing,4,0,1\n", text),
+              HasSubstr("is not possible with delays that vary"));
+  const std::string units =
+      "sold = \"sold\"\nreturned = \"back\"\nmode = \"cause\"\nuntil = 2\nperiod = \"month\"\n";
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,seal\n1,,bearing\n", modes_study(units)),
+              HasSubstr("row 2, column 'cause': 'bearing' is a failure mode, but column 'back' has "
+                        "no return"));
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,seal\n1,2,running\n", modes_study(units)),
+              HasSubstr("'running' is a run-out, but column 'back' has a return, '2'"));
+}
+
+}  // namespace
+}  // namespace wearwell::formula_model
