@@ -139,12 +139,13 @@ void print(const char* name, bool may_change, FleetCounts& counts) {
                                       p * static_cast<double>(counts.delay.size() - 1))];
   };
   const double changed = std::max(counts.changed, 1);
-  std::printf("| %s | %s | %d | %.1f | %.1f | %d, %d | %.0f | %.1f, %.2f | %.1f, %.2f | %.1f (%d) |\n",
-              name, may_change ? "may change" : "fixed", counts.changed,
-              100.0 * counts.doubted_before / counts.units, 100 * counts.found / changed, delay(0.5),
-              delay(0.9), 100 * counts.named / changed, counts.before.percent(),
-              counts.before.median_width(), counts.after.percent(), counts.after.median_width(),
-              counts.undoubted.percent(), counts.undoubted.forecasts);
+  std::printf(
+      "| %s | %s | %d | %.1f | %.1f | %d, %d | %.0f | %.1f, %.2f | %.1f, %.2f | %.1f (%d) |\n",
+      name, may_change ? "may change" : "fixed", counts.changed,
+      100.0 * counts.doubted_before / counts.units, 100 * counts.found / changed, delay(0.5),
+      delay(0.9), 100 * counts.named / changed, counts.before.percent(),
+      counts.before.median_width(), counts.after.percent(), counts.after.median_width(),
+      counts.undoubted.percent(), counts.undoubted.forecasts);
   std::fflush(stdout);
 }
 
@@ -153,7 +154,8 @@ TEST(ChangeWatch, OfFleetsThatChange) {
   const int units = fleet_size();
   std::printf(
       "| fleet | rate in the study | units that changed | doubted before, %% | found, %% | delay, "
-      "readings (median, 90 %%) | right reason, %% | coverage before, %%, and median width by median "
+      "readings (median, 90 %%) | right reason, %% | coverage before, %%, and median width by "
+      "median "
       "life | after | after, not in doubt, %% (forecasts) |\n");
   const auto guides = populations(units);
   std::uint64_t first = 0;

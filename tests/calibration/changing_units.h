@@ -78,8 +78,9 @@ limit = { worn = "100 um" }
     for (const Parameter& each : design.model->parameters) state.parameters.push_back(each.name);
     state.posterior = exact.nodes;
     tracker = track_units(state);
-    const FormulaDesign changing(study + "rate_change = { every = \"5000 h\", factor = \"1 x/ 2\" }\n",
-                                 {numbers("wear", wear), numbers("use", use), texts("machine", names)});
+    const FormulaDesign changing(
+        study + "rate_change = { every = \"5000 h\", factor = \"1 x/ 2\" }\n",
+        {numbers("wear", wear), numbers("use", use), texts("machine", names)});
     state.source = changing.source;
     with_change = track_units(state);
     columns = prognosis::watched_columns(*tracker);
@@ -96,9 +97,7 @@ struct WatchedGuide {
   std::vector<prognosis::Reading> taken = {};
 
   WatchedGuide(const Guides& of, const std::string& unit_name, bool may_change = false)
-      : guides(of),
-        name(unit_name),
-        tracker(may_change ? *of.with_change : *of.tracker) {
+      : guides(of), name(unit_name), tracker(may_change ? *of.with_change : *of.tracker) {
     unit = tracker.begin(unit_name);
   }
 

@@ -51,9 +51,9 @@ struct UnitView {
   double passed = 0;           ///< probability that it is already reached
   /// Whether its rate has changed; empty if the study does not allow for it.
   std::optional<RateChangeView> rate_change = {};
-  std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
-  bool beyond = false;         ///< the last reading measures a level beyond the threshold
-  std::int64_t alarm_ms = 0;   ///< Unix time since which the alarm holds; 0: from the start on
+  std::string doubt = {};     ///< why the forecast is in doubt; empty if it is not
+  bool beyond = false;        ///< the last reading measures a level beyond the threshold
+  std::int64_t alarm_ms = 0;  ///< Unix time since which the alarm holds; 0: from the start on
   std::string acknowledged_by = {};  ///< who has acknowledged this alarm; empty: no one
   std::int64_t part = 1;             ///< which one it is: later ones are installed by `replaced`
   Service service = Service::in_service;  ///< else the alarm is unknown

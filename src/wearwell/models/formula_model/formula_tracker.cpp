@@ -14,8 +14,7 @@ namespace wearwell::formula_model {
 
 class FormulaTracker final : public prognosis::Tracker {
  public:
-  FormulaTracker(std::shared_ptr<const Tracked> tracked,
-                 std::shared_ptr<const RateChanges> changes)
+  FormulaTracker(std::shared_ptr<const Tracked> tracked, std::shared_ptr<const RateChanges> changes)
       : tracked_(std::move(tracked)), changes_(std::move(changes)), fresh_(tracked_, "", {}) {
     const FormulaModel& model = *tracked_->model;
     for (const prognosis::ReadingColumn& each : tracked_->reader.columns()) {

@@ -91,8 +91,7 @@ class NodeLives {
                                              std::span<const double> places) const;
   /// The same before its quantiles, by place.
   std::vector<LevelSample> levels_ahead(const Nodes& nodes, const std::vector<double>& weight,
-                                        const UnitReading& last,
-                                        const std::vector<NodePath>& paths,
+                                        const UnitReading& last, const std::vector<NodePath>& paths,
                                         std::span<const double> places,
                                         const NodeAxis* axis = nullptr) const;
 

@@ -258,8 +258,8 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     std::size_t next = 0;  // of the sample
     for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
       Block block{begin, std::min(NodeProgram::most, nodes.count() - begin), {}, noisy};
-      program.evaluate(nodes, begin, block.count, reading.row, places ? places + begin : nullptr, on,
-                       scratch->programs[m]);
+      program.evaluate(nodes, begin, block.count, reading.row, places ? places + begin : nullptr,
+                       on, scratch->programs[m]);
       for (ParameterValues& each : block.family_parameters) each = {&zero, true};
       for (std::size_t o = 0; o < program.outputs().size(); ++o) {
         block.family_parameters[measured.family_parameter[o]] = {

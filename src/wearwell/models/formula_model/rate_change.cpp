@@ -46,8 +46,9 @@ std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
   const std::string key = "rate_change";
   if (!predict.has(key)) return {};
   if (!predict.has("limit") || !model.along)
-    predict.fail(key, "needs predict.along and predict.limit: it is for units on line, which wear "
-                      "towards a failure threshold");
+    predict.fail(key,
+                 "needs predict.along and predict.limit: it is for units on line, which wear "
+                 "towards a failure threshold");
   const TomlReader table = predict.required_table(key);
   std::string si;
   for (const formula::ColumnSymbol& each : model.row_symbols.columns)
@@ -66,8 +67,9 @@ std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
     table.fail("factor", message.substr(std::string("factor: ").size()));
   }
   if (prior.log_sd == 0)
-    table.fail("factor", "needs its spread: \"1 x/ 2\" means that two thirds of changes lie between "
-                         "half and twice the earlier rate");
+    table.fail("factor",
+               "needs its spread: \"1 x/ 2\" means that two thirds of changes lie between "
+               "half and twice the earlier rate");
   return prior;
 }
 

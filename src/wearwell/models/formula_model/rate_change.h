@@ -37,12 +37,12 @@ struct RateChanges {
 
 /// Units whose rate has changed, as weighted particles; each has all that its path depends on.
 struct ChangedUnits {
-  Nodes nodes;                    ///< one node a line
-  NodeAxis axis;                  ///< where and by which factor
-  std::vector<double> z[2];       ///< scores of the effects
-  std::vector<double> score;      ///< of the factor
-  std::vector<double> log_weight; ///< not normalized
-  std::vector<NodePath> paths;    ///< after the last reading
+  Nodes nodes;                     ///< one node a line
+  NodeAxis axis;                   ///< where and by which factor
+  std::vector<double> z[2];        ///< scores of the effects
+  std::vector<double> score;       ///< of the factor
+  std::vector<double> log_weight;  ///< not normalized
+  std::vector<NodePath> paths;     ///< after the last reading
 
   std::size_t count() const { return log_weight.size(); }
   /// These of them, with weights of 0.

@@ -44,8 +44,8 @@ std::unique_ptr<RateChangeUnit> RateChangeUnit::restore(
   StateReader from(bytes);
   from.demand(from.text() == mark);
   const std::string base = from.text();
-  auto unit = std::make_unique<RateChangeUnit>(
-      shared, UnchangedUnit::restore(shared->tracked, base, seen));
+  auto unit =
+      std::make_unique<RateChangeUnit>(shared, UnchangedUnit::restore(shared->tracked, base, seen));
   unit->updates_ = from.number();
   const std::vector<double> numbers = from.numbers();
   from.demand(numbers.size() == 2 && std::isfinite(numbers[0]) && !std::isnan(numbers[1]));

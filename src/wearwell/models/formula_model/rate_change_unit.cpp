@@ -10,11 +10,11 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr std::size_t proposed = 1024;   // particles that have changed since the last reading
-constexpr std::size_t least_born = 32;   // of them kept, at least
+constexpr std::size_t proposed = 1024;  // particles that have changed since the last reading
+constexpr std::size_t least_born = 32;  // of them kept, at least
 constexpr std::size_t most_particles = 2 * RateChangeUnit::usual;
-constexpr double least_diverse = 0.5;    // of `usual`: a smaller effective number is resampled
-constexpr double of_interest = 1e-4;     // a smaller probability of a change needs no moves
+constexpr double least_diverse = 0.5;  // of `usual`: a smaller effective number is resampled
+constexpr double of_interest = 1e-4;   // a smaller probability of a change needs no moves
 constexpr int moves = 6;
 constexpr std::uint64_t seed = 20070518;  // any; streams are numbered by updates
 constexpr double hardly = 1e-4;           // TrackedUnit: a smaller p-value contradicts
@@ -93,8 +93,7 @@ ChangedUnits RateChangeUnit::newborn(double until, Rng& rng) const {
   if (!(length > 0)) return {};
   const double changes = -std::expm1(-shared_->prior.hazard * length);
   const double turn_since = rng.uniform(), turn_score = rng.uniform();
-  ChangedUnits born =
-      drawn_from_base(resampled(base_->log_weight_, proposed, rng.uniform()), rng);
+  ChangedUnits born = drawn_from_base(resampled(base_->log_weight_, proposed, rng.uniform()), rng);
   // Nodes follow each other along the line: places and factors must not follow them, too.
   for (std::size_t i = 0; i < born.count(); ++i) {
     const double u = std::fmod(fraction(i, 0.7548776662466927) + turn_since, 1.0);
@@ -185,15 +184,16 @@ void RateChangeUnit::move(const std::vector<UnitReading>& all, Rng& rng) {
     ChangedUnits to = changed_;
     const double scale = step % 3 == 2 ? 1 : usual_scale;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto other = [&] { return static_cast<std::size_t>(rng.uniform() * static_cast<double>(count)); };
+      const auto other = [&] {
+        return static_cast<std::size_t>(rng.uniform() * static_cast<double>(count));
+      };
       const std::size_t a = other(), b = other();
       const auto moved = [&](const std::vector<double>& x, double tiny) {
         return x[i] + scale * (x[a] - x[b]) + tiny * rng.normal();
       };
       double z[2] = {};
       for (std::size_t e = 0; e < d; ++e) to.z[e][i] = z[e] = moved(changed_.z[e], 1e-4);
-      for (std::size_t e = 0; e < d; ++e)
-        to.nodes.effect[e][i] = population[i].value(model, e, z);
+      for (std::size_t e = 0; e < d; ++e) to.nodes.effect[e][i] = population[i].value(model, e, z);
       to.score[i] = moved(changed_.score, 1e-4);
       to.axis.since[i] = moved(changed_.axis.since, 1e-6 * (last_place() - start_));
       to.axis.factor[i] = shared_->prior.factor(to.score[i]);
@@ -344,82 +344,6 @@ std::vector<prognosis::PredictiveTails> RateChangeUnit::predictive(
   UnitReading y;
   if (tails.empty() || !shared_->tracked->problem(reading, y).empty()) return tails;
   return mixed_tails(y, std::move(tails));
-}
-
-// Changes after the last row, one of each node.
-NodeAxis RateChangeUnit::future(std::size_t nodes) const {
-  NodeAxis axis;
-  const double from = last_place();
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const double u = fraction(i, 0.7548776662466927), v = fraction(i, 0.5698402909980532);
-    axis.since.push_back(from - std::log1p(-u) / shared_->prior.hazard);
-    axis.factor.push_back(shared_->prior.factor(normal_quantile(v)));
-  }
-  return axis;
-}
-
-prognosis::Forecast RateChangeUnit::forecast() const {
-  const Tracked& tracked = *shared_->tracked;
-  const UnitReading last = last_row();
-  std::vector<double> weight;
-  normalize(base_->log_weight_, weight);
-  LivesSample unchanged = tracked.lives.lives(base_->nodes_.nodes, weight, last, base_->paths_);
-  const NodeAxis axis = future(unchanged.lives.size());
-  for (std::size_t i = 0; i < unchanged.lives.size(); ++i)
-    unchanged.lives[i] = axis.back(i, last.place + unchanged.lives[i]) - last.place;
-  const double changed = probability();
-  LivesSample both;
-  both.add(unchanged, 1 - changed);
-  prognosis::RateChange change{changed,      std::nan(""), std::nan(""), std::nan(""),
-                               std::nan(""), std::nan(""), std::nan("")};
-  double effective = effective_number(base_->log_weight_);
-  if (changed_.count() > 0) {
-    normalize(changed_.log_weight, weight);
-    both.add(tracked.lives.lives(changed_.nodes, weight, last, changed_.paths, &changed_.axis),
-             changed);
-    const prognosis::WeightedLives since(changed_.axis.since, weight);
-    const prognosis::WeightedLives factor(changed_.axis.factor, weight);
-    change = {changed,
-              since.quantile(0.05),
-              since.quantile(0.5),
-              since.quantile(0.95),
-              factor.quantile(0.05),
-              factor.quantile(0.5),
-              factor.quantile(0.95)};
-    effective = 1 / ((1 - changed) * (1 - changed) / effective +
-                     changed * changed / effective_number(changed_.log_weight));
-  }
-  prognosis::Forecast forecast = both.forecast();
-  forecast.now = last.place;
-  forecast.effective = effective;
-  forecast.rate_change = change;
-  return forecast;
-}
-
-std::vector<prognosis::ForecastBand> RateChangeUnit::ahead(std::span<const double> places) const {
-  const NodeLives& lives = shared_->tracked->lives;
-  const UnitReading last = last_row();
-  if (std::any_of(places.begin(), places.end(), [&](double x) { return !(x >= last.place); }))
-    throw std::invalid_argument("a position that is not ahead");
-  std::vector<double> weight;
-  normalize(base_->log_weight_, weight);
-  const NodeAxis axis = future(base_->nodes_.nodes.count());
-  const double changed = probability();
-  const std::vector<LevelSample> unchanged =
-      lives.levels_ahead(base_->nodes_.nodes, weight, last, base_->paths_, places, &axis);
-  std::vector<LevelSample> moved;
-  if (changed_.count() > 0) {
-    normalize(changed_.log_weight, weight);
-    moved = lives.levels_ahead(changed_.nodes, weight, last, changed_.paths, places, &changed_.axis);
-  }
-  std::vector<prognosis::ForecastBand> found;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    LevelSample both;
-    both.add(unchanged[k], 1 - changed);
-    if (!moved.empty()) both.add(moved[k], changed);
-    found.push_back(both.at(places[k]));
-  }
-  return found;
 }
 
 }  // namespace wearwell::formula_model

@@ -22,7 +22,8 @@ using UnchangedUnit = TrackedUnit;
 /// from the readings, so the same sequence gives the same bits.
 class RateChangeUnit final : public prognosis::TrackedUnit {
  public:
-  RateChangeUnit(std::shared_ptr<const RateChanges> shared, std::unique_ptr<UnchangedUnit> unchanged);
+  RateChangeUnit(std::shared_ptr<const RateChanges> shared,
+                 std::unique_ptr<UnchangedUnit> unchanged);
   /// Throws InputError.
   static std::unique_ptr<RateChangeUnit> restore(
       std::shared_ptr<const RateChanges> shared, const std::string& bytes,
@@ -62,8 +63,8 @@ class RateChangeUnit final : public prognosis::TrackedUnit {
 
   std::shared_ptr<const RateChanges> shared_;
   std::unique_ptr<UnchangedUnit> base_;  // without a change
-  double start_ = 0;                   // no change before: the last row of the study
-  double log_unchanged_ = 0;           // its weight, as those of the particles
+  double start_ = 0;                     // no change before: the last row of the study
+  double log_unchanged_ = 0;             // its weight, as those of the particles
   ChangedUnits changed_;
   std::size_t updates_ = 0;
 };
