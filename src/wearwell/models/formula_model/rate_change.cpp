@@ -12,14 +12,6 @@
 namespace wearwell::formula_model {
 namespace {
 
-std::vector<double> gathered(const std::vector<double>& from, std::span<const std::size_t> which) {
-  std::vector<double> to;
-  if (from.empty()) return to;
-  to.reserve(which.size());
-  for (const std::size_t i : which) to.push_back(from[i]);
-  return to;
-}
-
 void append_to(std::vector<double>& to, const std::vector<double>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -31,6 +23,14 @@ std::shared_ptr<const Points> joined_rows(const Points& a, const Points& b) {
 }
 
 }  // namespace
+
+std::vector<double> picked(const std::vector<double>& from, std::span<const std::size_t> which) {
+  std::vector<double> to;
+  if (from.empty()) return to;
+  to.reserve(which.size());
+  for (const std::size_t i : which) to.push_back(from[i]);
+  return to;
+}
 
 double RateChangePrior::factor(double z) const {
   return median * std::exp(log_sd * z);
@@ -92,16 +92,16 @@ ChangedUnits ChangedUnits::taken(std::span<const std::size_t> which) const {
         nodes.parameters->row(static_cast<Eigen::Index>(which[static_cast<std::size_t>(i)]));
   to.nodes.parameters = std::move(parameters);
   for (int e = 0; e < 2; ++e) {
-    to.nodes.effect[e] = gathered(nodes.effect[e], which);
-    to.z[e] = gathered(z[e], which);
+    to.nodes.effect[e] = picked(nodes.effect[e], which);
+    to.z[e] = picked(z[e], which);
   }
-  to.axis = {gathered(axis.since, which), gathered(axis.factor, which)};
-  to.score = gathered(score, which);
+  to.axis = {picked(axis.since, which), picked(axis.factor, which)};
+  to.score = picked(score, which);
   to.log_weight.assign(which.size(), 0);
   to.paths = paths;
   for (NodePath& path : to.paths)
     for (auto* each : {&path.mean, &path.spread, &path.at, &path.variance})
-      *each = gathered(*each, which);
+      *each = picked(*each, which);
   return to;
 }
 

@@ -8,13 +8,13 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr std::string_view mark = "rate change 1";
+constexpr std::string_view change_mark = "rate change 1";
 
 }  // namespace
 
 std::string RateChangeUnit::save() const {
   StateWriter to;
-  to.text(mark);
+  to.text(change_mark);
   to.text(base_->save());
   to.number(updates_);
   to.numbers(std::array{start_, log_unchanged_});
@@ -42,7 +42,7 @@ std::unique_ptr<RateChangeUnit> RateChangeUnit::restore(
     std::shared_ptr<const RateChanges> shared, const std::string& bytes,
     const std::function<std::vector<UnitReading>(const std::string& unit)>& seen) {
   StateReader from(bytes);
-  from.demand(from.text() == mark);
+  from.demand(from.text() == change_mark);
   const std::string base = from.text();
   auto unit =
       std::make_unique<RateChangeUnit>(shared, UnchangedUnit::restore(shared->tracked, base, seen));

@@ -19,13 +19,6 @@ constexpr int moves = 6;
 constexpr std::uint64_t seed = 20070518;  // any; streams are numbered by updates
 constexpr double hardly = 1e-4;           // TrackedUnit: a smaller p-value contradicts
 
-void gather_path(const std::vector<double>& from, const std::vector<std::size_t>& which,
-                 std::vector<double>& to) {
-  to.clear();
-  if (from.empty()) return;
-  for (const std::size_t i : which) to.push_back(from[i]);
-}
-
 }  // namespace
 
 RateChangeUnit::RateChangeUnit(std::shared_ptr<const RateChanges> shared,
@@ -79,10 +72,10 @@ ChangedUnits RateChangeUnit::drawn_from_base(const std::vector<std::size_t>& whi
   born.paths = base_->paths_;
   for (std::size_t m = 0; m < born.paths.size(); ++m) {
     const NodePath& from = base_->paths_[m];
-    gather_path(from.mean, which, born.paths[m].mean);
-    gather_path(from.spread, which, born.paths[m].spread);
-    gather_path(from.at, which, born.paths[m].at);
-    gather_path(from.variance, which, born.paths[m].variance);
+    born.paths[m].mean = picked(from.mean, which);
+    born.paths[m].spread = picked(from.spread, which);
+    born.paths[m].at = picked(from.at, which);
+    born.paths[m].variance = picked(from.variance, which);
   }
   return born;
 }
