@@ -70,11 +70,23 @@ def test_tracker_is_the_monitor(fit, fleet, tmp_path):
         for start in range(0, len(frame), 7):  # in parts
             assert tracker.update(frame[["machine", "use_h", "wear_um"]].iloc[start:start + 7]) is tracker
         found, wanted = tracker.summary, units[name]
-        for key in ("at", "level", "remaining", "b10", "numerical_error", "passed", "known", "doubt", "beyond"):
+        for key in ("at", "level", "remaining", "b10", "numerical_error", "passed", "known", "rate_change", "doubt", "beyond"):
             assert found[key] == wanted[key], key
         assert found["quality"]["readings"] == wanted["quality"]["readings"]
         assert tracker.risk("500 h") == wanted["risk"] == tracker.risk(500)
         assert tracker.rul == (*wanted["remaining"].values(), "h")
+
+
+def test_a_rate_that_changes_is_found():
+    fit = ww.fit(os.path.join(source, "examples", "fleet", "rate_change.toml"), seed=1, method="exact", draws=100, report=False)
+    tracker = fit.track("new", new=True)
+    assert tracker.rate_change["probability"] == 0 and tracker.rate_change["since"]["q50"] is None
+    use = [300 * i for i in range(1, 11)]
+    tracker.update({"use_h": use, "wear_um": [0.02 * u + (0.04 * (u - 1800) if u > 1800 else 0) for u in use[:9]] + [103.0]})
+    change = tracker.rate_change
+    assert change["probability"] > 0.99
+    assert change["since"]["q05"] < 1800 < change["since"]["q95"]
+    assert change["factor"]["q05"] < 3 < change["factor"]["q95"]
 
 
 def test_of_a_unit_of_the_study_its_readings_are_known(fit):

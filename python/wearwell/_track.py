@@ -144,7 +144,7 @@ class UnitTracker:
         -------
         dict
             With the names of the monitor's API: ``axis``, ``axis_unit``, ``limited``, ``level_unit``, ``limit``, ``known``,
-            ``at``, ``level``, ``remaining``, ``b10``, ``numerical_error``, ``passed``, ``doubt``, ``beyond``, ``quality``. None
+            ``at``, ``level``, ``remaining``, ``b10``, ``numerical_error``, ``passed``, ``rate_change``, ``doubt``, ``beyond``, ``quality``. None
             stands for a number that is not finite.
 
         Examples
@@ -214,6 +214,25 @@ class UnitTracker:
         True
         """
         return self.summary["doubt"]
+
+    @property
+    def rate_change(self):
+        """Whether the rate has changed, of a study with ``predict.rate_change``.
+
+        Returns
+        -------
+        dict or None
+            ``probability``; ``since`` (along the axis, in ``summary["axis_unit"]``) and ``factor`` (the new rate as a multiple of the
+            earlier one), each a dict of ``q05``, ``q50``, ``q95``, if it has changed. None in a study without ``predict.rate_change``.
+
+        Examples
+        --------
+        >>> import wearwell as ww
+        >>> fit = ww.fit("examples/fleet/study.toml", seed=1, method="exact", draws=100, report=False)
+        >>> fit.track("L1").rate_change is None
+        True
+        """
+        return self.summary["rate_change"]
 
     @property
     def passed(self):

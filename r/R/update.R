@@ -114,7 +114,7 @@ quantiles_of <- function(found, key, infinite) {
 }
 
 `$.ww_tracker` <- function(x, name) {
-  known <- c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
+  known <- c("unit", "is_new", "rul", "level", "passed", "rate_change", "doubt", "summary", "outcomes", "path")
   if (!name %in% known) stop_input("a tracker has no '", name, "' (it has: ", words(known), ")")
   if (name == "outcomes") return(outcomes_frame(state_of_tracker(x)$outcomes))
   found <- forecast_of(x)
@@ -124,6 +124,7 @@ quantiles_of <- function(found, key, infinite) {
     rul = structure(quantiles_of(found, "remaining", Inf), unit = found$axis_unit),
     level = structure(quantiles_of(found, "level", NA_real_), unit = found$level_unit),
     passed = if (is.na(found$passed)) NaN else found$passed,
+    rate_change = if (is.list(found$rate_change)) found$rate_change else NULL,
     doubt = if (is.na(found$doubt)) NULL else found$doubt,
     summary = found,
     path = {
@@ -134,7 +135,7 @@ quantiles_of <- function(found, key, infinite) {
     })
 }
 
-names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "passed", "doubt", "summary", "outcomes", "path")
+names.ww_tracker <- function(x) c("unit", "is_new", "rul", "level", "passed", "rate_change", "doubt", "summary", "outcomes", "path")
 
 outcomes_frame <- function(outcomes) {
   data.frame(counted = column(outcomes, "counted", NA), repeated = column(outcomes, "repeated", NA),
@@ -160,6 +161,7 @@ print.ww_tracker <- function(x, ...) {
   } else {
     cat("Nothing determines how it continues\n")
   }
+  if (is.list(found$rate_change)) cat("Rate changed with probability ", round(100 * found$rate_change$probability), " %\n", sep = "")
   if (!is.na(found$doubt)) cat("In doubt: ", found$doubt, "\n", sep = "")
   invisible(x)
 }

@@ -17,6 +17,8 @@ namespace wearwell::formula_model {
 /// Guides that wear in proportion to their use, as in examples/fleet: readings good to 2 um, a failure threshold of 100 um.
 struct Guides {
   std::unique_ptr<const prognosis::Tracker> tracker;
+  /// The same population, whose rates may change: once in 5,000 h, by a factor of 1 x/ 2.
+  std::unique_ptr<const prognosis::Tracker> with_change;
   prognosis::WatchedColumns columns;
 
   static constexpr double um = 1e-6, h = 3600, limit = 100, noise = 2, rate = 0.02, scatter = 0.35;
@@ -45,7 +47,7 @@ struct Guides {
  private:
   void learn(const std::vector<double>& wear, const std::vector<double>& use,
              const std::vector<std::string>& names) {
-    static const std::string study = R"(
+    const std::string study = R"(
 [data.columns]
 wear = { column = "wear", unit = "um" }
 use = { column = "use", unit = "h" }
@@ -76,6 +78,11 @@ limit = { worn = "100 um" }
     for (const Parameter& each : design.model->parameters) state.parameters.push_back(each.name);
     state.posterior = exact.nodes;
     tracker = track_units(state);
+    const FormulaDesign changing(
+        study + "rate_change = { every = \"5000 h\", factor = \"1 x/ 2\" }\n",
+        {numbers("wear", wear), numbers("use", use), texts("machine", names)});
+    state.source = changing.source;
+    with_change = track_units(state);
     columns = prognosis::watched_columns(*tracker);
   }
 };
@@ -84,18 +91,21 @@ limit = { worn = "100 um" }
 struct WatchedGuide {
   const Guides& guides;
   std::string name;
-  std::unique_ptr<prognosis::TrackedUnit> unit;
+  const prognosis::Tracker& tracker;
+  std::unique_ptr<prognosis::TrackedUnit> unit = {};
   prognosis::ChangeWatch watch = {};
   std::vector<prognosis::Reading> taken = {};
 
-  WatchedGuide(const Guides& of, const std::string& unit_name)
-      : guides(of), name(unit_name), unit(of.tracker->begin(unit_name)) {}
+  WatchedGuide(const Guides& of, const std::string& unit_name, bool may_change = false)
+      : guides(of), name(unit_name), tracker(may_change ? *of.with_change : *of.tracker) {
+    unit = tracker.begin(unit_name);
+  }
 
   /// h, um.
   prognosis::UpdateResult read(double use, double wear) {
     const prognosis::Reading reading{{wear * Guides::um, use * Guides::h}, {}};
     const prognosis::UpdateResult result =
-        watch.update({*guides.tracker, guides.columns, name, *unit}, reading, false,
+        watch.update({tracker, guides.columns, name, *unit}, reading, false,
                      [&](const std::function<void(const prognosis::Reading&)>& visit) {
                        for (const prognosis::Reading& each : taken) visit(each);
                      });

@@ -126,7 +126,11 @@
     const all = [];
     const say = (kind, word, text) => all.push(element('p', {class: `callout ${kind}`}, element('strong', {}, `${word} `), text));
     if (view.beyond) say('fail', 'Beyond the limit.', `The last reading is beyond the limit of ${given(fleet.limit, fleet.level_unit)}, whatever the forecast.`);
-    if (view.doubt) say('doubt', 'Forecast in doubt.', `${wearwell.capital(view.doubt)}. Level, remaining useful life and risk below rest on a ${fleet.noun} that does not change.`);
+    const change = view.rate_change;
+    if (change && change.probability > 0.5) {
+      say('doubt', 'The rate has changed.', `Probability ${probability(change.probability)}: since ${range(change.since.q05, change.since.q95, fleet.axis_unit)} it is ${wearwell.number(change.factor.q05)} to ${wearwell.number(change.factor.q95)} times the earlier rate (90 %). The forecast below takes it into account.`);
+    }
+    if (view.doubt) say('doubt', 'Forecast in doubt.', `${wearwell.capital(view.doubt)}. Level, remaining useful life and risk below rest on a ${fleet.noun} that ${change ? 'changes its rate at most once' : 'does not change'}.`);
     return all;
   }
 

@@ -34,6 +34,9 @@ void Fleet::forecast(Unit& unit) {
   view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
   view.risk = risk;
   if (known) view.passed = std::clamp(forecast.passed, 0.0, 1.0);
+  if (const auto& change = forecast.rate_change; known && change)
+    view.rate_change = RateChangeView{change->probability, reported_.since(*change),
+                                      prognosis::TrackerUnits::factor(*change)};
   view.doubt = watch.reason();
   view.beyond = watch.is_beyond();
   view.part = part.number;

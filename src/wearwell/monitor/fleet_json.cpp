@@ -26,6 +26,13 @@ Json json_of_known(const UnitView& unit, const Interval& interval) {
   return unit.known ? json_of_interval(interval) : Json(nullptr);
 }
 
+Json json_of_change(const std::optional<RateChangeView>& change) {
+  if (!change) return nullptr;
+  return {{"probability", number(change->probability)},
+          {"since", json_of_interval(change->since)},
+          {"factor", json_of_interval(change->factor)}};
+}
+
 Json json_of_moment(const UnitMoment& moment) {
   return {{"key", moment.key},
           {"time_ms", moment.time_ms},
@@ -130,6 +137,7 @@ Json json_of(const UnitView& unit) {
           {"numerical_error", json_of_known(unit, unit.numerical_error)},
           {"risk", json_of_known(unit, unit.risk)},
           {"passed", json_of_known(unit, unit.passed)},
+          {"rate_change", json_of_change(unit.rate_change)},
           {"doubt", unit.doubt.empty() ? Json(nullptr) : Json(unit.doubt)},
           {"beyond", unit.beyond},
           {"part", unit.part},

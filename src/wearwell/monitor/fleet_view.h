@@ -26,6 +26,13 @@ struct Quality {
   std::string last_problem = {};
 };
 
+/// prognosis::RateChange in the units of the study.
+struct RateChangeView {
+  double probability = 0;
+  Interval since;   ///< along the axis, if it has changed
+  Interval factor;  ///< the new rate as a multiple of the earlier one
+};
+
 /// One unit as readers see it.
 struct UnitView {
   std::string unit;
@@ -42,9 +49,11 @@ struct UnitView {
   double numerical_error = 0;  ///< of both, relative, the largest (Tracker::probability_error)
   double risk = 0;             ///< probability that the threshold is reached within the horizon
   double passed = 0;           ///< probability that it is already reached
-  std::string doubt = {};      ///< why the forecast is in doubt; empty if it is not
-  bool beyond = false;         ///< the last reading measures a level beyond the threshold
-  std::int64_t alarm_ms = 0;   ///< Unix time since which the alarm holds; 0: from the start on
+  /// Whether its rate has changed; empty if the study does not allow for it.
+  std::optional<RateChangeView> rate_change = {};
+  std::string doubt = {};     ///< why the forecast is in doubt; empty if it is not
+  bool beyond = false;        ///< the last reading measures a level beyond the threshold
+  std::int64_t alarm_ms = 0;  ///< Unix time since which the alarm holds; 0: from the start on
   std::string acknowledged_by = {};  ///< who has acknowledged this alarm; empty: no one
   std::int64_t part = 1;             ///< which one it is: later ones are installed by `replaced`
   Service service = Service::in_service;  ///< else the alarm is unknown

@@ -48,6 +48,15 @@ struct UpdateResult {
   bool impossible = false;  ///< not counted: it has probability 0 for every unit of the population
 };
 
+/// Whether the rate of a unit has changed, in a study that allows for it (docs/how-to/rate-change.md).
+struct RateChange {
+  double probability = 0;  ///< that it has
+  /// If it has: the place on the axis since which the new rate holds, SI, and the new rate as a
+  /// multiple of the earlier one; quantiles of 5, 50 and 95 %. NaN before the first reading.
+  double since05 = 0, since50 = 0, since95 = 0;
+  double factor05 = 0, factor50 = 0, factor95 = 0;
+};
+
 /// The forecast of a unit now: SI along the axis.
 struct Forecast {
   double now = 0;  ///< position of its farthest reading
@@ -59,6 +68,8 @@ struct Forecast {
       0;
   WeightedLives remaining;  ///< from `now` on, given that it has not
   double effective = 0;     ///< effective sample size of the nodes: 1 / sum of squares
+  /// Of a study that allows for a change; then `remaining` includes future changes.
+  std::optional<RateChange> rate_change = {};
 };
 
 /// The forecast of a unit given each possible population (`Tracker::populations`), in their order.

@@ -30,6 +30,13 @@ class TrackerUnits {
   Interval remaining(const Forecast& forecast) const;
   /// Remaining useful life that 90 % exceed.
   double b10(const Forecast& forecast) const;
+  /// Since when the rate has changed, and its factor, if it has.
+  Interval since(const RateChange& change) const {
+    return {at(change.since05), at(change.since50), at(change.since95)};
+  }
+  static Interval factor(const RateChange& change) {
+    return {change.factor05, change.factor50, change.factor95};
+  }
   /// Of a reading: the measured value of the quantity with the threshold, if it is measured.
   std::optional<double> measured(const std::vector<double>& numbers) const;
 

@@ -29,6 +29,13 @@ Json interval_json(const Interval& interval) {
           {"q95", finite_or_null(interval.q95)}};
 }
 
+Json change_json(const std::optional<RateChange>& change, const TrackerUnits& units) {
+  if (!change) return nullptr;
+  return {{"probability", finite_or_null(change->probability)},
+          {"since", interval_json(units.since(*change))},
+          {"factor", interval_json(TrackerUnits::factor(*change))}};
+}
+
 void require_unit(const Tracker& tracker, const std::string& unit, bool fresh) {
   const auto seen = tracker.seen();
   const bool known = std::find(seen.begin(), seen.end(), unit) != seen.end();
@@ -137,6 +144,7 @@ Json UnitTracker::json() const {
           {"numerical_error",
            if_known(finite_or_null(relative_error(now.remaining, tracker_->probability_error())))},
           {"passed", if_known(finite_or_null(std::clamp(now.passed, 0.0, 1.0)))},
+          {"rate_change", if_known(known ? change_json(now.rate_change, reported_) : Json())},
           {"doubt", doubt.empty() ? Json(nullptr) : Json(doubt)},
           {"beyond", watch_.is_beyond()},
           {"quality",

@@ -17,6 +17,7 @@
 #include "wearwell/models/formula_model/life_answers.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/mode_answers.h"
+#include "wearwell/models/formula_model/rate_change.h"
 #include "wearwell/models/formula_model/subpopulation_answers.h"
 #include "wearwell/models/formula_model/use_check.h"
 #include "wearwell/models/formula_model/use_rate_answers.h"
@@ -49,6 +50,7 @@ class Predictions {
     }
     if (asks_along || model_->along)
       refuse_varied(asked_.given, predict_, "given", "a path along " + *model_->along);
+    read_rate_change(predict_, *model_);
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
       for (const char* key :

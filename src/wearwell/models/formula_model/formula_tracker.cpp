@@ -7,14 +7,15 @@
 #include "wearwell/base/error.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/rate_change_unit.h"
 #include "wearwell/models/formula_model/tracked_unit.h"
 
 namespace wearwell::formula_model {
 
 class FormulaTracker final : public prognosis::Tracker {
  public:
-  explicit FormulaTracker(std::shared_ptr<const Tracked> tracked)
-      : tracked_(std::move(tracked)), fresh_(tracked_, "", {}) {
+  FormulaTracker(std::shared_ptr<const Tracked> tracked, std::shared_ptr<const RateChanges> changes)
+      : tracked_(std::move(tracked)), changes_(std::move(changes)), fresh_(tracked_, "", {}) {
     const FormulaModel& model = *tracked_->model;
     for (const prognosis::ReadingColumn& each : tracked_->reader.columns()) {
       if (each.name == model.along) axis_ = &each;
@@ -32,9 +33,11 @@ class FormulaTracker final : public prognosis::Tracker {
   bool rising() const override { return tracked_->lives.rising(); }
   const std::string& noun() const override { return tracked_->lives.noun(); }
   double probability_error() const override {
+    if (changes_) return 0.03;
     return tracked_->model->effects.size() > 1 ? 0.02 : 0.008;
   }
   std::vector<double> populations() const override {
+    if (changes_) return {};
     std::vector<double> weight;
     normalize(tracked_->population.few.log_weight, weight);
     return weight;
@@ -46,6 +49,21 @@ class FormulaTracker final : public prognosis::Tracker {
   }
 
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {
+    std::unique_ptr<TrackedUnit> begun = unchanged(unit);
+    if (!changes_) return begun;
+    return std::make_unique<RateChangeUnit>(changes_, std::move(begun));
+  }
+
+  std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
+    if (changes_)
+      return RateChangeUnit::restore(changes_, bytes,
+                                     [this](const std::string& unit) { return rows_of(unit); });
+    return TrackedUnit::restore(tracked_, bytes,
+                                [this](const std::string& unit) { return rows_of(unit); });
+  }
+
+ private:
+  std::unique_ptr<TrackedUnit> unchanged(const std::string& unit) const {
     std::vector<UnitReading> rows = rows_of(unit);
     if (!rows.empty()) return std::make_unique<TrackedUnit>(tracked_, unit, std::move(rows));
     auto fresh = std::make_unique<TrackedUnit>(fresh_);
@@ -53,12 +71,6 @@ class FormulaTracker final : public prognosis::Tracker {
     return fresh;
   }
 
-  std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
-    return TrackedUnit::restore(tracked_, bytes,
-                                [this](const std::string& unit) { return rows_of(unit); });
-  }
-
- private:
   // The readings of a unit in the study, along the axis.
   std::vector<UnitReading> rows_of(const std::string& unit) const {
     const auto at = std::find(seen_.begin(), seen_.end(), unit);
@@ -70,6 +82,7 @@ class FormulaTracker final : public prognosis::Tracker {
   }
 
   std::shared_ptr<const Tracked> tracked_;
+  std::shared_ptr<const RateChanges> changes_;  // null: rates do not change
   const TrackedUnit fresh_;
   const prognosis::ReadingColumn* axis_ = nullptr;
   std::vector<std::string> seen_;
@@ -92,8 +105,12 @@ std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedSt
   std::vector<std::string> names;
   for (const Parameter& each : model->parameters) names.push_back(each.name);
   prognosis::require_parameters(state, names);
-  return std::make_unique<const FormulaTracker>(std::make_shared<const Tracked>(
-      root, model, state.posterior, prognosis::population_fingerprint(state)));
+  auto tracked = std::make_shared<const Tracked>(root, model, state.posterior,
+                                                 prognosis::population_fingerprint(state));
+  std::shared_ptr<const RateChanges> changes;
+  if (const auto prior = predict ? read_rate_change(*predict, *model) : std::nullopt)
+    changes = std::make_shared<const RateChanges>(tracked, *prior, root);
+  return std::make_unique<const FormulaTracker>(std::move(tracked), std::move(changes));
 }
 
 }  // namespace wearwell::formula_model

@@ -89,10 +89,7 @@ NodeRow NodeLives::conditions(const NodeRow& last) const {
 namespace {
 
 // Lives over all nodes of a unit together.
-struct OfAll {
-  std::vector<double> levels, level_weight, lives, life_weight;
-  double left_over = 0, all = 0;
-
+struct OfAll : LivesSample {
   void level(double weight, double value) {
     levels.push_back(value);
     level_weight.push_back(weight);
@@ -137,7 +134,9 @@ void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* st
                      const NodePath& path, std::size_t points, Sums& sums) const {
   const double sign = path_.rising ? 1 : -1;
   double far[most_crossings], scale[most_crossings], place[most_crossings];
-  std::fill_n(far, ahead.count, std::max(ahead.last.place, path_.begin + path_.scale));
+  ahead.here(far);
+  for (std::size_t i = 0; i < ahead.count; ++i)
+    far[i] = std::max(far[i], path_.begin + path_.scale);
   ahead.evaluate(ahead.ahead, far);
   for (std::size_t i = 0; i < ahead.count; ++i) {
     const double spread = ahead.at(1, i);
@@ -173,7 +172,7 @@ void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* st
     for (std::size_t i = 0; i < ahead.count; ++i) {
       // Passed since its last reading, if the last row has none.
       if (!(share[i] > 1e-14) || place[i] < start[i]) continue;
-      sums.lasts(ahead.begin + i, share[i], place[i] - start[i]);
+      sums.lasts(ahead.begin + i, share[i], ahead.use_of(i, place[i] - start[i]));
     }
   }
 }
@@ -182,8 +181,8 @@ void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* st
 template <class Sums>
 void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight,
                            const UnitReading& last, const std::vector<NodePath>& paths,
-                           std::size_t points, Sums& sums) const {
-  Ahead ahead(*this, nodes, last, paths.back());
+                           std::size_t points, Sums& sums, const NodeAxis* axis) const {
+  Ahead ahead(*this, nodes, last, paths.back(), axis);
   const std::size_t line = model_->effects.size() == 1 ? nodes.per_line : 1;
   const std::size_t most = most_crossings / line * line;  // whole lines
   for (std::size_t begin = 0; begin < nodes.count(); begin += most) {
@@ -193,7 +192,7 @@ void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double level[most_crossings], start[most_crossings], place[most_crossings];
     ahead.now(0, level);
-    std::fill_n(start, ahead.count, last.place);
+    ahead.here(start);
     if (ahead.changes) ahead.cross(level, start);
     if (process_) {
       pass(ahead, own, start, paths[column_], points, sums);
@@ -203,6 +202,7 @@ void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight
     std::fill_n(limit, ahead.count, path_.limit);
     ahead.cross(limit, place);
     ahead.count_from(start, place);
+    for (std::size_t i = 0; i < ahead.count; ++i) place[i] = ahead.use_of(i, place[i]);
     const DrawnLines drawn(own, line);
     drawn.put({level, ahead.count},
               [&](std::size_t, double w, double value) { sums.level(w, value); });
@@ -213,24 +213,48 @@ void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight
   }
 }
 
-prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
-                                        const UnitReading& last,
-                                        const std::vector<NodePath>& paths) const {
+void LivesSample::add(const LivesSample& other, double weight) {
+  const auto append = [&](const std::vector<double>& from, std::vector<double>& to, double times) {
+    to.reserve(to.size() + from.size());
+    for (const double each : from) to.push_back(times * each);
+  };
+  append(other.levels, levels, 1);
+  append(other.level_weight, level_weight, weight);
+  append(other.lives, lives, 1);
+  append(other.life_weight, life_weight, weight);
+  left_over += weight * other.left_over;
+  all += weight * other.all;
+}
+
+prognosis::Forecast LivesSample::forecast() const {
   prognosis::Forecast forecast;
-  forecast.now = last.place;
-  OfAll sums;
-  for (auto* each : {&sums.levels, &sums.level_weight, &sums.lives, &sums.life_weight})
-    each->reserve(parts * nodes.count());
-  look_ahead(nodes, weight, last, paths, points_of_node, sums);
-  double square = 0;
-  for (const double each : weight) square += each * each;
   const std::vector<double> level =
-      prognosis::weighted_quantiles(sums.levels, sums.level_weight, std::array{0.05, 0.5, 0.95});
+      prognosis::weighted_quantiles(levels, level_weight, std::array{0.05, 0.5, 0.95});
   forecast.level05 = level[0];
   forecast.level50 = level[1];
   forecast.level95 = level[2];
-  forecast.passed = passed_of(sums.left_over, sums.all);
-  forecast.remaining = prognosis::WeightedLives(sums.lives, sums.life_weight);
+  forecast.passed = passed_of(left_over, all);
+  forecast.remaining = prognosis::WeightedLives(lives, life_weight);
+  return forecast;
+}
+
+LivesSample NodeLives::lives(const Nodes& nodes, const std::vector<double>& weight,
+                             const UnitReading& last, const std::vector<NodePath>& paths,
+                             const NodeAxis* axis) const {
+  OfAll sums;
+  for (auto* each : {&sums.levels, &sums.level_weight, &sums.lives, &sums.life_weight})
+    each->reserve(parts * nodes.count());
+  look_ahead(nodes, weight, last, paths, points_of_node, sums, axis);
+  return sums;
+}
+
+prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
+                                        const UnitReading& last,
+                                        const std::vector<NodePath>& paths) const {
+  prognosis::Forecast forecast = lives(nodes, weight, last, paths).forecast();
+  forecast.now = last.place;
+  double square = 0;
+  for (const double each : weight) square += each * each;
   forecast.effective = square > 0 ? 1 / square : 0;
   return forecast;
 }

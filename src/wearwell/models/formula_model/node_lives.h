@@ -12,6 +12,40 @@
 
 namespace wearwell::formula_model {
 
+/// Places of nodes on the axis of the formula, if the rate of each has its own change: behind
+/// `since` its use counts `factor` times (cumulative exposure, Nelson 1990).
+struct NodeAxis {
+  std::vector<double> since, factor;  ///< by node; `since` SI
+
+  double at(std::size_t i, double place) const {
+    return place <= since[i] ? place : since[i] + factor[i] * (place - since[i]);
+  }
+  /// The place whose `at` this is.
+  double back(std::size_t i, double at) const {
+    return at <= since[i] ? at : since[i] + (at - since[i]) / factor[i];
+  }
+};
+
+/// Levels now and remaining lives of nodes, as weighted points in any order.
+struct LivesSample {
+  std::vector<double> levels, level_weight, lives, life_weight;
+  double left_over = 0, all = 0;  ///< weight below the threshold, and of all
+
+  /// Adds another one with this weight.
+  void add(const LivesSample& other, double weight);
+  prognosis::Forecast forecast() const;  ///< without `now` and `effective`
+};
+
+/// The quantity with the threshold at one place, as weighted values.
+struct LevelSample {
+  std::vector<double> value, weight;
+  double all = 0, lost = 0;  ///< weight of all, and of what is not a number
+
+  void add(double w, double level);
+  void add(const LevelSample& other, double weight);
+  prognosis::ForecastBand at(double place) const;
+};
+
 /// The quantity with the failure threshold, and the future conditions of units: from predict.limit.
 class NodeLives {
  public:
@@ -41,6 +75,9 @@ class NodeLives {
   /// row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
+  /// The same before its quantiles. With an axis, nodes are single ones, not lines.
+  LivesSample lives(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
+                    const std::vector<NodePath>& paths, const NodeAxis* axis = nullptr) const;
   /// The same for each line separately; `weight` sums to 1 over each line, or is 0 on all of it.
   /// `log_likelihood` is not filled.
   prognosis::InPopulations by_line(const Nodes& nodes, const std::vector<double>& weight,
@@ -52,13 +89,19 @@ class NodeLives {
                                              const UnitReading& last,
                                              const std::vector<NodePath>& paths,
                                              std::span<const double> places) const;
+  /// The same before its quantiles, by place.
+  std::vector<LevelSample> levels_ahead(const Nodes& nodes, const std::vector<double>& weight,
+                                        const UnitReading& last, const std::vector<NodePath>& paths,
+                                        std::span<const double> places,
+                                        const NodeAxis* axis = nullptr) const;
 
  private:
   struct Ahead;
   NodeRow conditions(const NodeRow& last) const;
   template <class Sums>
   void look_ahead(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
-                  const std::vector<NodePath>& paths, std::size_t points, Sums& sums) const;
+                  const std::vector<NodePath>& paths, std::size_t points, Sums& sums,
+                  const NodeAxis* axis = nullptr) const;
   template <class Sums>
   void pass(Ahead& ahead, std::span<const double> own, const double* start, const NodePath& path,
             std::size_t points, Sums& sums) const;

@@ -15,31 +15,6 @@ namespace {
 constexpr double unknown =
     1e-3;  // of the weight: with a larger share that is not a number, quantiles are NaN
 
-// The quantity with the threshold at one position.
-struct Levels {
-  std::vector<double> value, weight;
-  double all = 0, lost = 0;
-
-  void add(double w, double level) {
-    all += w;
-    if (std::isnan(level)) {
-      lost += w;
-    } else {
-      value.push_back(level);
-      weight.push_back(w);
-    }
-  }
-
-  prognosis::ForecastBand at(double place) const {
-    if (lost > unknown * all || value.empty()) {
-      return {place, std::nan(""), std::nan(""), std::nan("")};
-    }
-    const std::vector<double> level =
-        prognosis::weighted_quantiles(value, weight, std::array{0.05, 0.5, 0.95});
-    return {place, level[0], level[1], level[2]};
-  }
-};
-
 // A path whose mean has grown by `grown` since its last reading, where its value was normal(at,
 // variance).
 struct RandomStep {
@@ -65,14 +40,41 @@ struct RandomStep {
 
 }  // namespace
 
-std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
-                                                      const std::vector<double>& weight,
-                                                      const UnitReading& last,
-                                                      const std::vector<NodePath>& paths,
-                                                      std::span<const double> places) const {
-  std::vector<Levels> levels(places.size());
-  Ahead ahead(*this, nodes, last, paths.back());
-  const std::size_t line = model_->effects.size() == 1 ? nodes.per_line : 1;
+void LevelSample::add(double w, double level) {
+  all += w;
+  if (std::isnan(level)) {
+    lost += w;
+  } else {
+    value.push_back(level);
+    weight.push_back(w);
+  }
+}
+
+void LevelSample::add(const LevelSample& other, double times) {
+  value.insert(value.end(), other.value.begin(), other.value.end());
+  for (const double each : other.weight) weight.push_back(times * each);
+  all += times * other.all;
+  lost += times * other.lost;
+}
+
+prognosis::ForecastBand LevelSample::at(double place) const {
+  if (lost > unknown * all || value.empty()) {
+    return {place, std::nan(""), std::nan(""), std::nan("")};
+  }
+  const std::vector<double> level =
+      prognosis::weighted_quantiles(value, weight, std::array{0.05, 0.5, 0.95});
+  return {place, level[0], level[1], level[2]};
+}
+
+std::vector<LevelSample> NodeLives::levels_ahead(const Nodes& nodes,
+                                                 const std::vector<double>& weight,
+                                                 const UnitReading& last,
+                                                 const std::vector<NodePath>& paths,
+                                                 std::span<const double> places,
+                                                 const NodeAxis* axis) const {
+  std::vector<LevelSample> levels(places.size());
+  Ahead ahead(*this, nodes, last, paths.back(), axis);
+  const std::size_t line = model_->effects.size() == 1 && !axis ? nodes.per_line : 1;
   const std::size_t pass = most_crossings / line * line;  // whole lines
   const NodePath& path = paths[column_];
   const bool noisy = process_ && path.measured && !path.variance.empty();
@@ -82,7 +84,7 @@ std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
     const std::span<const double> own = std::span(weight).subspan(begin, ahead.count);
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double start[most_crossings], place[most_crossings], level[most_crossings];
-    std::fill_n(start, ahead.count, last.place);
+    ahead.here(start);
     // under new conditions, from the position where the future path has the same value
     if (ahead.changes) {
       ahead.now(0, level);
@@ -91,7 +93,9 @@ std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
     std::optional<DrawnLines> drawn;
     if (!process_) drawn.emplace(own, line);
     for (std::size_t k = 0; k < places.size(); ++k) {
-      for (std::size_t i = 0; i < ahead.count; ++i) place[i] = start[i] + (places[k] - last.place);
+      for (std::size_t i = 0; i < ahead.count; ++i) {
+        place[i] = start[i] + (ahead.place_of(i, places[k]) - ahead.place_of(i, last.place));
+      }
       ahead.evaluate(ahead.ahead, place);
       for (std::size_t i = 0; i < ahead.count; ++i) level[i] = ahead.at(0, i);
       if (!process_) {
@@ -120,6 +124,15 @@ std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
       }
     }
   }
+  return levels;
+}
+
+std::vector<prognosis::ForecastBand> NodeLives::ahead(const Nodes& nodes,
+                                                      const std::vector<double>& weight,
+                                                      const UnitReading& last,
+                                                      const std::vector<NodePath>& paths,
+                                                      std::span<const double> places) const {
+  const std::vector<LevelSample> levels = levels_ahead(nodes, weight, last, paths, places);
   std::vector<prognosis::ForecastBand> found;
   for (std::size_t k = 0; k < places.size(); ++k) found.push_back(levels[k].at(places[k]));
   return found;

@@ -59,14 +59,15 @@ struct NodeRows::Block {
 };
 
 NodeRows::NodeRows(std::shared_ptr<const FormulaModel> model,
-                   const std::vector<formula::Wanted>& limited)
+                   const std::vector<formula::Wanted>& limited, bool open)
     : model_(std::move(model)) {
   for (const Measured& each : model_->measured) {
-    programs_.emplace_back(*model_, each.wanted);
+    programs_.emplace_back(*model_, each.wanted, open);
     follows_ |= each.process != nullptr;
   }
-  programs_.emplace_back(*model_, limited);
-  for (const NodeProgram& each : programs_) follows_ |= each.running() > 0;
+  programs_.emplace_back(*model_, limited, open);
+  for (const NodeProgram& each : programs_) runs_ |= each.running() > 0;
+  follows_ |= runs_;
 }
 
 bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const {
@@ -225,7 +226,7 @@ void walk(const NodeProgram& program, NodeProgram::Scratch& scratch, const Nodes
 void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
                     const std::vector<NodePath>& before, std::vector<NodePath>* after,
                     std::span<double> log_likelihood, const Sample* sample,
-                    ReadingPrediction* prediction) const {
+                    ReadingPrediction* prediction, const double* places) const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
     scratch = std::make_unique<Scratch>();
@@ -257,7 +258,8 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     std::size_t next = 0;  // of the sample
     for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
       Block block{begin, std::min(NodeProgram::most, nodes.count() - begin), {}, noisy};
-      program.evaluate(nodes, begin, block.count, reading.row, nullptr, on, scratch->programs[m]);
+      program.evaluate(nodes, begin, block.count, reading.row, places ? places + begin : nullptr,
+                       on, scratch->programs[m]);
       for (ParameterValues& each : block.family_parameters) each = {&zero, true};
       for (std::size_t o = 0; o < program.outputs().size(); ++o) {
         block.family_parameters[measured.family_parameter[o]] = {

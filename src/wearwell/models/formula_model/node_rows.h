@@ -50,12 +50,16 @@ class NodeRows {
  public:
   /// `limited`: an expression in addition to measured columns; it may depend on earlier rows, too.
   /// Its path is the last of `paths`.
-  NodeRows(std::shared_ptr<const FormulaModel> model, const std::vector<formula::Wanted>& limited);
+  /// `open`: the place of a reading on the axis is given per node; not for paths that run.
+  NodeRows(std::shared_ptr<const FormulaModel> model, const std::vector<formula::Wanted>& limited,
+           bool open = false);
 
   const FormulaModel& model() const { return *model_; }
   /// Whether a reading's likelihood depends on earlier ones: then rows must be in order along the
   /// axis.
   bool follows() const { return follows_; }
+  /// Whether a path is a sum over rows or a state, so that rows have one axis for all nodes.
+  bool runs() const { return runs_; }
   std::vector<NodePath> paths() const { return std::vector<NodePath>(programs_.size()); }
   /// Whether these are paths of this many nodes of this formula: validates bytes from outside.
   bool fit(const std::vector<NodePath>& paths, std::size_t nodes) const;
@@ -67,10 +71,10 @@ class NodeRows {
   };
 
   /// Fills `log_likelihood`, node by node, for a reading whose paths are at `before`, and updates
-  /// `after` (may be null). With a sample, fills `prediction`.
+  /// `after` (may be null). With a sample, fills `prediction`. `places`: of each node, if open.
   void look(const Nodes& nodes, const UnitReading& reading, const std::vector<NodePath>& before,
             std::vector<NodePath>* after, std::span<double> log_likelihood, const Sample* sample,
-            ReadingPrediction* prediction) const;
+            ReadingPrediction* prediction, const double* places = nullptr) const;
 
  private:
   struct Scratch {
@@ -84,7 +88,7 @@ class NodeRows {
 
   std::shared_ptr<const FormulaModel> model_;
   std::vector<NodeProgram> programs_;  // by measured column, then the quantity with the threshold
-  bool follows_ = false;
+  bool follows_ = false, runs_ = false;
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };
 

@@ -19,8 +19,10 @@ struct NodeLives::Ahead {
   NodeProgram::Scratch scratch;
   std::size_t begin = 0, count = 0;
   double passed_by[most_crossings] = {};
+  const NodeAxis* axis;
 
-  Ahead(const NodeLives& of, const Nodes& at, const UnitReading& row, const NodePath& limited)
+  Ahead(const NodeLives& of, const Nodes& at, const UnitReading& row, const NodePath& limited,
+        const NodeAxis* own_axis)
       : lives(of),
         nodes(at),
         last(row),
@@ -28,7 +30,8 @@ struct NodeLives::Ahead {
         own(row.row),
         ahead(of.conditions(row.row)),
         runs(of.program_->running() > 0),
-        scratch(*of.program_) {
+        scratch(*of.program_),
+        axis(own_axis) {
     for (std::size_t c = 0; c < own.numbers.size(); ++c) {
       const bool differs = own.numbers[c] != ahead.numbers[c];
       changes |= of.program_->uses_column(c) && differs;
@@ -37,6 +40,17 @@ struct NodeLives::Ahead {
       changes |= of.program_->uses_label(l) && own.labels[l] != ahead.labels[l];
     }
     changes &= !runs;
+  }
+
+  // A place on the axis of the formula, of node i of this pass.
+  double place_of(std::size_t i, double x) const { return axis ? axis->at(begin + i, x) : x; }
+  // A remaining life along that axis as use.
+  double use_of(std::size_t i, double life) const {
+    if (!axis || !(life > 0)) return life;
+    return axis->back(begin + i, place_of(i, last.place) + life) - last.place;
+  }
+  void here(double* place) const {
+    for (std::size_t i = 0; i < count; ++i) place[i] = place_of(i, last.place);
   }
 
   // The start of the forecast.
@@ -57,7 +71,7 @@ struct NodeLives::Ahead {
   // Output o of all nodes at the unit's present position, under its own conditions.
   void now(std::size_t o, double* value) {
     double place[most_crossings];
-    std::fill_n(place, count, last.place);
+    here(place);
     evaluate(runs ? ahead : own, place);
     const std::span<const double> values = lives.program_->values(o, scratch);
     for (std::size_t i = 0; i < count; ++i) value[i] = values[values.size() == 1 ? 0 : i];

@@ -57,6 +57,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
 
  private:
   friend class FormulaTracker;
+  friend class RateChangeUnit;
   struct Bare {};
   TrackedUnit(std::shared_ptr<const Tracked> tracked, Bare) : tracked_(std::move(tracked)) {}
 

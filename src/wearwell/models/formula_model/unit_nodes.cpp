@@ -197,6 +197,27 @@ NodePopulation::NodePopulation(std::shared_ptr<const FormulaModel> formula_model
   many = PopulationPoints(ThinnedPosterior(posterior, alone ? many_alone : many_lines));
 }
 
+namespace {
+
+// Roberts' lattice in two dimensions, shifted from line to line, as standard normal numbers.
+void lattice_point(std::size_t node, double& u, double& v) {
+  u = normal_quantile(fraction(node, 0.7548776662466927));
+  v = normal_quantile(fraction(node, 0.5698402909980532));
+}
+
+}  // namespace
+
+void UnitNodes::scores(std::size_t effects, std::size_t node, double* z) const {
+  const std::size_t line = node / nodes.per_line;
+  const double* own = shape.data() + line * shape_size(effects);
+  if (effects == 1) z[0] = own[0] + static_cast<double>(node % nodes.per_line) * own[1];
+  if (effects != 2) return;
+  double u = 0, v = 0;
+  lattice_point(node, u, v);
+  z[0] = own[0] + own[2] * u;
+  z[1] = own[1] + own[3] * u + own[4] * v;
+}
+
 void UnitNodes::fill(const FormulaModel& model, std::size_t per_line) {
   const std::size_t lines = nodes.lines(), d = model.effects.size(), size = shape_size(d);
   nodes.per_line = d == 0 ? 1 : per_line;
@@ -214,15 +235,12 @@ void UnitNodes::fill(const FormulaModel& model, std::size_t per_line) {
     for (std::size_t k = 0; k < per_line; ++k) {
       const std::size_t i = j * per_line + k;
       double z[2] = {}, log_share = 0;
+      scores(d, i, z);
       if (d == 1) {
-        z[0] = own_shape[0] + static_cast<double>(k) * own_shape[1];
         log_share = std::log(own_shape[1]) - 0.5 * (log_two_pi + z[0] * z[0]);
       } else {
-        // Roberts' lattice in two dimensions, shifted from line to line.
-        const double u = normal_quantile(fraction(i, 0.7548776662466927));
-        const double v = normal_quantile(fraction(i, 0.5698402909980532));
-        z[0] = own_shape[0] + own_shape[2] * u;
-        z[1] = own_shape[1] + own_shape[3] * u + own_shape[4] * v;
+        double u = 0, v = 0;
+        lattice_point(i, u, v);
         log_share = std::log(own_shape[2] * own_shape[4] / static_cast<double>(per_line)) +
                     0.5 * (u * u + v * v - z[0] * z[0] - z[1] * z[1]);
       }

@@ -51,6 +51,8 @@ struct UnitNodes {
   void fill(const FormulaModel& model) { fill(model, usual_per_line); }
   /// The same lattice of two effects with this number of nodes per line.
   void fill(const FormulaModel& model, std::size_t per_line);
+  /// The standard normal scores z of the effects at a node.
+  void scores(std::size_t effects, std::size_t node, double* z) const;
   static constexpr std::size_t usual_per_line = 10;
   static std::size_t shape_size(std::size_t effects) { return effects == 2 ? 5 : 2 * effects; }
 };

@@ -1,0 +1,164 @@
+#include "wearwell/models/formula_model/rate_change.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/median_factor.h"
+#include "wearwell/math/constants.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+void append_to(std::vector<double>& to, const std::vector<double>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+std::shared_ptr<const Points> joined_rows(const Points& a, const Points& b) {
+  auto both = std::make_shared<Points>(a.rows() + b.rows(), a.cols());
+  *both << a, b;
+  return both;
+}
+
+}  // namespace
+
+std::vector<double> picked(const std::vector<double>& from, std::span<const std::size_t> which) {
+  std::vector<double> to;
+  if (from.empty()) return to;
+  to.reserve(which.size());
+  for (const std::size_t i : which) to.push_back(from[i]);
+  return to;
+}
+
+double RateChangePrior::factor(double z) const {
+  return median * std::exp(log_sd * z);
+}
+
+double RateChangePrior::log_density(double place, double start, double z) const {
+  if (!(place >= start)) return -infinity;
+  return std::log(hazard) - hazard * (place - start) - half_log_two_pi - 0.5 * z * z;
+}
+
+std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
+                                                const FormulaModel& model) {
+  const std::string key = "rate_change";
+  if (!predict.has(key)) return {};
+  if (!predict.has("limit") || !model.along)
+    predict.fail(key,
+                 "needs predict.along and predict.limit: it is for units on line, which wear "
+                 "towards a failure threshold");
+  const TomlReader table = predict.required_table(key);
+  std::string si;
+  for (const formula::ColumnSymbol& each : model.row_symbols.columns)
+    if (each.name == *model.along) si = formula::si_text(each.powers);
+  RateChangePrior prior;
+  const double every = table.required_quantity("every", si).si();
+  if (!(every > 0)) table.fail("every", "must be positive: the mean use until a rate changes");
+  prior.hazard = 1 / every;
+  try {
+    const MedianFactor factor = read_median_factor("factor", table.required_text("factor"));
+    prior.median = factor.median;
+    prior.log_sd = std::log(factor.factor);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (!message.starts_with("factor: ")) throw;
+    table.fail("factor", message.substr(std::string("factor: ").size()));
+  }
+  if (prior.log_sd == 0)
+    table.fail("factor",
+               "needs its spread: \"1 x/ 2\" means that two thirds of changes lie between "
+               "half and twice the earlier rate");
+  return prior;
+}
+
+RateChanges::RateChanges(std::shared_ptr<const Tracked> of, const RateChangePrior& change,
+                         const TomlReader& root)
+    : tracked(std::move(of)), prior(change), rows(tracked->model, tracked->lives.wanted(), true) {
+  if (rows.runs())
+    root.required_table("predict").fail(
+        "rate_change",
+        "is not possible with cum() or a state: it changes how use counts, which their sums over "
+        "rows contain; write the path in closed form, or leave rate_change out");
+}
+
+ChangedUnits ChangedUnits::taken(std::span<const std::size_t> which) const {
+  ChangedUnits to;
+  const auto count = static_cast<Eigen::Index>(which.size());
+  auto parameters = std::make_shared<Points>(count, nodes.parameters->cols());
+  for (Eigen::Index i = 0; i < count; ++i)
+    parameters->row(i) =
+        nodes.parameters->row(static_cast<Eigen::Index>(which[static_cast<std::size_t>(i)]));
+  to.nodes.parameters = std::move(parameters);
+  for (int e = 0; e < 2; ++e) {
+    to.nodes.effect[e] = picked(nodes.effect[e], which);
+    to.z[e] = picked(z[e], which);
+  }
+  to.axis = {picked(axis.since, which), picked(axis.factor, which)};
+  to.score = picked(score, which);
+  to.log_weight.assign(which.size(), 0);
+  to.paths = paths;
+  for (NodePath& path : to.paths)
+    for (auto* each : {&path.mean, &path.spread, &path.at, &path.variance})
+      *each = picked(*each, which);
+  return to;
+}
+
+void ChangedUnits::append(const ChangedUnits& other) {
+  if (count() == 0) {
+    *this = other;
+    return;
+  }
+  nodes.parameters = joined_rows(*nodes.parameters, *other.nodes.parameters);
+  for (int e = 0; e < 2; ++e) {
+    append_to(nodes.effect[e], other.nodes.effect[e]);
+    append_to(z[e], other.z[e]);
+  }
+  append_to(axis.since, other.axis.since);
+  append_to(axis.factor, other.axis.factor);
+  append_to(score, other.score);
+  append_to(log_weight, other.log_weight);
+  for (std::size_t m = 0; m < paths.size(); ++m) {
+    append_to(paths[m].mean, other.paths[m].mean);
+    append_to(paths[m].spread, other.paths[m].spread);
+    append_to(paths[m].at, other.paths[m].at);
+    append_to(paths[m].variance, other.paths[m].variance);
+  }
+}
+
+std::vector<double> ChangedUnits::places(double place) const {
+  std::vector<double> at(count());
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] = axis.at(i, place);
+  return at;
+}
+
+double log_sum(std::span<const double> log_weight) {
+  double top = -infinity;
+  for (const double each : log_weight) top = std::max(top, each);
+  if (!(top > -infinity)) return -infinity;
+  double sum = 0;
+  for (const double each : log_weight) sum += std::exp(each - top);
+  return top + std::log(sum);
+}
+
+std::vector<std::size_t> resampled(std::span<const double> log_weight, std::size_t count,
+                                   double offset) {
+  std::vector<std::size_t> drawn;
+  const double all = log_sum(log_weight);
+  if (!(all > -infinity)) return drawn;
+  drawn.reserve(count);
+  double before = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < log_weight.size(); ++i) {
+    const double share = std::exp(log_weight[i] - all);
+    if (share > 0) last = i;
+    before += share * static_cast<double>(count);
+    while (drawn.size() < count && before > static_cast<double>(drawn.size()) + offset)
+      drawn.push_back(i);
+  }
+  while (drawn.size() < count) drawn.push_back(last);  // rounding of the sum
+  return drawn;
+}
+
+}  // namespace wearwell::formula_model
