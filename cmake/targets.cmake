@@ -121,4 +121,5 @@ function(wearwell_test name)
     TEST_PREFIX "${name}: "
     DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${PROJECT_SOURCE_DIR}/tests/longest.cmake)
 endfunction()

@@ -3,7 +3,6 @@
 import doctest
 import json
 import os
-import re
 import shutil
 import subprocess
 import warnings
@@ -12,13 +11,12 @@ import numpy as np
 import pytest
 
 import wearwell as ww
-from conftest import binary, source
+from conftest import binary, clutch_study, source
 from monitored import monitored
 from public_names import docstrings
 
 parser = doctest.DocTestParser()
 examples = {name: parser.get_doctest(text, {}, name, name, 0) for name, text in docstrings().items()}
-few = {"lowest": 0.4, "highest": 1.2, "step": 0.4, "replicates": 0}
 options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -32,13 +30,9 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def clutch_results(folder):
     """The results of the clutch's study, with few exponents tried and no repetitions: that is fast."""
-    place = os.path.join(source, "examples", "clutch")
-    with open(os.path.join(place, "study.toml")) as file:
-        text = file.read()
-    fast = re.sub(r"(?m)^(lowest|highest|step|replicates) = [0-9.]+", lambda line: f"{line[1]} = {few[line[1]]}", text)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        ww.Study.from_toml(fast, folder=place).fit(report=False).write(folder / "clutch-results")
+        ww.fit(clutch_study(folder / "clutch"), report=False).write(folder / "clutch-results")
     return folder / "clutch-results"
 
 

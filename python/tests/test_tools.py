@@ -11,6 +11,7 @@ import pandas as pd
 import pytest
 
 import wearwell as ww
+from conftest import clutch_study
 
 
 def test_selection_is_the_programs(examples, wearwell, tmp_path):
@@ -107,12 +108,10 @@ def test_bearings_are_the_programs(wearwell):
 @pytest.fixture(scope="module")
 def clutch(tmp_path_factory):
     """The model of the clutch example, and cycles for it."""
-    from conftest import source
-
     folder = tmp_path_factory.mktemp("clutch")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        ww.fit(os.path.join(source, "examples", "clutch", "study.toml"), report=False).write(folder / "results")
+        ww.fit(clutch_study(folder / "study", repetitions=5), report=False).write(folder / "results")
     rng = np.random.default_rng(1)
     with open(folder / "results" / "model.json") as file:
         model = json.load(file)

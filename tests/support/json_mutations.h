@@ -28,21 +28,25 @@ inline void mutations(
   walk(whole, "", places);
   const Json replacements[] = {nullptr, -1,           1e308,         18446744073709551615u,
                                true,    "<b>\x1b[2J", Json::array(), Json::object()};
+  Json json = whole;  // changed in place and restored: a copy for each change is slow
   for (const std::string& place : places) {
     const Json::json_pointer pointer(place);
+    Json& value = json[pointer];
+    const Json original = value;
     for (const Json& other : replacements) {
-      Json json = whole;
-      json[pointer] = other;
+      value = other;
       use(place + " = " + other.dump(), json);
     }
-    Json json = whole;
+    value = original;
     Json& parent = json[pointer.parent_pointer()];
+    const Json whole_parent = parent;
     if (parent.is_array()) {
       parent.erase(std::stoul(pointer.back()));
     } else {
       parent.erase(pointer.back());
     }
     use(place + " erased", json);
+    parent = whole_parent;
   }
 }
 

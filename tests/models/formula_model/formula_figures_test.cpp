@@ -79,7 +79,9 @@ std::vector<std::vector<double>> rows_of(const html::Figure& figure, std::size_t
   return rows;
 }
 
-TEST_F(FormulaFigures, MoreThanSixConditionsAreTwoProbabilityPlots) {
+// One fit for both: two probability plots of more than six conditions, and life against stress, which reaches to the conditions
+// that are asked for. What was simulated: 2e5 h at 100 MPa, 32 times as long at half of it.
+TEST_F(FormulaFigures, OfLivesAtEightStresses) {
   write_lives(8);
   const auto shown = figures(life_of_stress).at("verdict");
   EXPECT_THAT(ids(shown),
@@ -94,12 +96,7 @@ TEST_F(FormulaFigures, MoreThanSixConditionsAreTwoProbabilityPlots) {
   for (const char* channel : {"x", "y"})
     EXPECT_EQ(shown[1].specification["layer"][0]["encoding"][channel]["scale"],
               shown[2].specification["layer"][0]["encoding"][channel]["scale"]);
-}
 
-// What was simulated: 2e5 h at 100 MPa, 32 times as long at half of it.
-TEST_F(FormulaFigures, LifeAgainstStressReachesToTheConditionsAskedFor) {
-  write_lives(8);
-  const auto shown = figures(life_of_stress).at("verdict");
   const auto median = rows_of(shown.front(), 1);
   EXPECT_NEAR(median.front()[0], 50, 1e-3);
   EXPECT_NEAR(std::log(median.front()[1] / (32 * 2e5)), 0, 0.6);

@@ -54,9 +54,9 @@ class FormulaLevels : public ScratchTest {
     text << file.rdbuf();
     return text.str().substr(0, text.str().find("[predict]")) + "[predict]\n" + predict;
   }
-  PosteriorSummary run(const std::string& text) const {
+  PosteriorSummary run(const std::string& text, int draws = 4000) const {
     return run_study(wearwell::read_posterior_study(write("study.toml", text)),
-                     {Method::exact, 1, {}, 4000, {}}, {}, false);
+                     {Method::exact, 1, {}, draws, {}}, {}, false);
   }
   std::string refusal(const std::string& text) const {
     return message_of<InputError>(
@@ -144,16 +144,18 @@ TEST_F(FormulaLevels, LivesOfMachinesThatHaveComeSoFar) {
   EXPECT_EQ(*b10.predictive, left.b10);
 }
 
-// What remains to one that was seen, beyond a place that it has not come to yet, is what remained before, cut there.
+// What remains to one that was seen, beyond a place that it has not come to yet, is what remained before, cut there: of any
+// posterior, so few draws are enough.
 TEST_F(FormulaLevels, RemainingLivesOfASeenMachineAreCutAtThePlace) {
   const PosteriorSummary now =
-      run(example("formula", machines + std::string("b_lives = [20, 36, 60]\n")));
+      run(example("formula", machines + std::string("b_lives = [20, 36, 60]\n")), 50);
   const double last = 50;  // km, of machine 3
   const QuantityQuantiles& before = found(now, "remaining useful life", "machine 3").best();
   const double place = *found(now, "B20 remaining useful life", "machine 3").best().predictive;
-  const PosteriorSummary later =
-      run(example("formula", machines + fmt::format("b_lives = [20, 50]\nsurvived = \"{} km\"\n",
-                                                    last + place)));
+  const PosteriorSummary later = run(
+      example("formula",
+              machines + fmt::format("b_lives = [20, 50]\nsurvived = \"{} km\"\n", last + place)),
+      50);
   EXPECT_NE(found(later, "remaining useful life", "machine 3").at.find("on"), std::string::npos);
   const double survival =
       found(later, "survival to " + fmt::format("{:.6g} km", last + place), "machine 3").best().q50;
