@@ -79,7 +79,7 @@ class StudyKeysTest : public ScratchTest {
           "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
           "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
     for (const char* name : {"joint", "bearing", "fatigue", "clutch", "spring", "formula", "life",
-                             "accelerated", "repairable", "warranty"}) {
+                             "accelerated", "repairable", "warranty", "fleet"}) {
       for (const auto& entry :
            fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
         if (!fs::exists(folder() / entry.path().filename()))
@@ -593,11 +593,13 @@ void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
       {"joint", "archard-joint"}, {"bearing", "bearing-wear"}, {"fatigue", "sn"},
       {"spring", "sn"},           {"clutch", "clutch-wear"},   {"formula", "formula"},
       {"life", "formula"},        {"accelerated", "formula"},  {"repairable", "repairable"},
-      {"warranty", "formula"}};
+      {"warranty", "formula"},    {"fleet", "formula"}};
   for (const auto& [folder, model] : folders) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {
-      if (entry.path().extension() != ".toml" || entry.path().filename() == "truth.toml") continue;
+      if (entry.path().extension() != ".toml" || entry.path().filename() == "truth.toml" ||
+          entry.path().filename() == "monitor.toml")
+        continue;
       std::string text = read_text_file(entry.path()).text;
       if (folder == "formula") text = std::regex_replace(text, std::regex("wear\\.csv"), "law.csv");
       studies.emplace_back(model, text);

@@ -128,7 +128,7 @@
     if (view.beyond) say('fail', 'Beyond the limit.', `The last reading is beyond the limit of ${given(fleet.limit, fleet.level_unit)}, whatever the forecast.`);
     const change = view.rate_change;
     if (change && change.probability > 0.5) {
-      say('doubt', 'The rate has changed.', `Probability ${probability(change.probability)}: since ${range(change.since.q05, change.since.q95, fleet.axis_unit)} it is ${wearwell.number(change.factor.q05)} to ${wearwell.number(change.factor.q95)} times the earlier rate (90 %). The forecast below takes it into account.`);
+      say('doubt', 'The rate has probably changed.', `Probability ${probability(change.probability)}: since ${range(change.since.q05, change.since.q95, fleet.axis_unit)} it is ${wearwell.number(change.factor.q05)} to ${wearwell.number(change.factor.q95)} times the earlier rate (90 %). The forecast below takes it into account.`);
     }
     if (view.doubt) say('doubt', 'Forecast in doubt.', `${wearwell.capital(view.doubt)}. Level, remaining useful life and risk below rest on a ${fleet.noun} that ${change ? 'changes its rate at most once' : 'does not change'}.`);
     return all;

@@ -8,8 +8,6 @@
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
-#include "wearwell/math/tied_ranks.h"
-#include "wearwell/math/view.h"
 #include "wearwell/predict/item_mixture.h"
 
 namespace wearwell {
@@ -138,11 +136,8 @@ DominantDraws::DominantDraws(const WeightedDraws& draws) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.values.rows()));
   std::iota(order.begin(), order.end(), 0);
   if (!draws.lower.empty()) {
-    const Eigen::VectorXd log_weight = draws.weights.array().log();
-    const std::vector<std::uint32_t> rank = tied_ranks(view(log_weight), 1e-9);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-      return rank[static_cast<std::size_t>(a)] > rank[static_cast<std::size_t>(b)];
-    });
+    std::sort(order.begin(), order.end(),
+              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
   }
   double total = 0;
   for (const Eigen::Index i : order) {

@@ -5,8 +5,6 @@
 #include <numeric>
 
 #include "wearwell/base/stop_scope.h"
-#include "wearwell/math/tied_ranks.h"
-#include "wearwell/math/view.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell {
@@ -14,59 +12,30 @@ namespace {
 
 using Eigen::Index;
 
-// Coordinates of symmetric nodes, weights and spreads are often equal but for rounding errors. These must not choose: the
-// points would be others on another processor.
-constexpr double equal = 1e-9;
-constexpr double equal_coordinate = 1e-7;  // in standard deviations
-constexpr double least_size = 1e-5;        // of a spread or direction that is no rounding error
-
-// Gram and Schmidt's basis of the columns, in their order, without those that follow from others:
-// among nodes of a lattice moments do, and would leave directions to rounding errors.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd basis(columns.rows(), std::min(columns.rows(), columns.cols()));
-  Index found = 0;
-  for (Index i = 0; i < columns.cols() && found < basis.cols(); ++i) {
-    Eigen::VectorXd each = columns.col(i);
-    const auto before = basis.leftCols(found);
-    for (int again = 0; again < 2; ++again) each -= before * (before.transpose() * each);
-    const double size = each.norm();
-    if (size > least_size) basis.col(found++) = each / size;
-  }
-  return basis.leftCols(found);
-}
-
-// The whitened posterior.
+// Points of a region of the whitened posterior.
 struct Cloud {
   Points at;
   std::vector<double> weight;
-  std::vector<std::vector<std::uint32_t>> rank;  // of each point along each axis
 };
 
-// Coordinates of mean 0 and covariance 1. A parameter that is constant, or follows from those before it, has 0.
-void whiten(Points& at, const Eigen::Map<const Eigen::VectorXd>& weight) {
-  for (Index j = 0; j < at.cols(); ++j) {
-    Eigen::VectorXd x = at.col(j);
-    const double largest = x.cwiseAbs().maxCoeff();
-    if (largest > 0) x /= largest;
-    x.array() -= weight.dot(x);
-    const double spread = std::sqrt(weight.dot(x.cwiseAbs2()));
-    x *= spread > 1e-12 ? 1 / spread : 0;
-    for (int again = 0; again < 2; ++again) {
-      for (Index k = 0; k < j; ++k) x -= weight.dot(at.col(k).cwiseProduct(x)) * at.col(k);
-    }
-    const double size = std::sqrt(weight.dot(x.cwiseAbs2()));
-    at.col(j) = size > least_size ? Eigen::VectorXd(x / size) : Eigen::VectorXd::Zero(x.size());
-  }
-}
-
 Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
-  const auto n = static_cast<Index>(dominant.rows.size());
-  Cloud cloud{draws.values(dominant.rows, Eigen::all), dominant.weights, {}};
-  whiten(cloud.at, {cloud.weight.data(), n});
-  for (Index j = 0; j < cloud.at.cols(); ++j) {
-    const Eigen::VectorXd x = cloud.at.col(j);
-    cloud.rank.push_back(tied_ranks(view(x), equal_coordinate));
+  const auto n = static_cast<Index>(dominant.rows.size()), d = draws.values.cols();
+  Cloud cloud{Points(n, d), dominant.weights};
+  for (Index i = 0; i < n; ++i) {
+    cloud.at.row(i) = draws.values.row(dominant.rows[static_cast<std::size_t>(i)]);
   }
+  const Eigen::Map<const Eigen::VectorXd> w(cloud.weight.data(), n);
+  const Eigen::RowVectorXd mean = w.transpose() * cloud.at;
+  cloud.at.rowwise() -= mean;
+  // Scales parameters first, because they span orders of magnitude.
+  const Eigen::RowVectorXd size = (w.transpose() * cloud.at.cwiseAbs2()).cwiseSqrt();
+  for (Index j = 0; j < d; ++j) {
+    if (size[j] > 0) cloud.at.col(j) /= size[j];
+  }
+  const Eigen::MatrixXd covariance = cloud.at.transpose() * w.asDiagonal() * cloud.at;
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  if (llt.info() != Eigen::Success) return cloud;
+  cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
   return cloud;
 }
 
@@ -89,7 +58,7 @@ class Region {
       square += cloud.weight[i] * (cloud.at.row(static_cast<Index>(i)) - middle_).cwiseAbs2();
     }
     size_ = (square / sum).cwiseSqrt();
-    for (double& each : size_) each = each > least_size ? each : 1;
+    for (double& each : size_) each = each > 0 ? each : 1;
   }
 
   static Index moments(Index d) { return 1 + d + d * (d + 1) / 2; }
@@ -128,50 +97,33 @@ class Region {
     return sums;
   }
 
-  // Orthonormal combinations of points with zero moments.
-  static Eigen::MatrixXd null_combinations(const Eigen::MatrixXd& sums) {
-    const Eigen::MatrixXd independent = orthonormal(sums);
-    const Eigen::MatrixXd q = independent.householderQr().householderQ();
-    return q.rightCols(q.cols() - independent.cols());
-  }
-
-  // Those of them without point i.
-  static Eigen::MatrixXd without(Eigen::MatrixXd combinations, Index i) {
-    Eigen::VectorXd essential(combinations.cols() - 1), workspace(combinations.rows());
-    double tau = 0, size = 0;
-    Eigen::VectorXd(combinations.row(i)).makeHouseholder(essential, tau, size);
-    combinations.applyHouseholderOnTheRight(essential, tau, workspace.data());
-    combinations.row(i).setZero();
-    return combinations.rightCols(combinations.cols() - 1);
-  }
-
   void take_away(std::vector<std::size_t>& points, std::vector<double>& weight) const {
-    Eigen::MatrixXd none = null_combinations(sums_of(points));
-    const Index n = none.rows();
+    const Eigen::MatrixXd sums = sums_of(points);
+    const Index n = sums.rows(), free = n - sums.cols();
+    const Eigen::MatrixXd q = sums.householderQr().householderQ();
+    Eigen::MatrixXd none = q.rightCols(free);  // combinations with zero moments
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
-    const Eigen::VectorXd whole = w;
-    while (none.cols() > 0) {
-      // The projection of a point does not depend on the basis.
-      Index start = 0;
-      while (start < n && !(none.row(start).norm() > least_size)) ++start;
-      if (start == n) break;
-      const Eigen::VectorXd step = none * none.row(start).transpose();
-      const double least_step = equal * step.maxCoeff();
+    std::vector<bool> gone(static_cast<std::size_t>(n));
+    for (Index c = 0; c < free; ++c) {
       Index first = -1;
-      double least_share = 0;
+      double least = 0;
       for (Index i = 0; i < n; ++i) {
-        if (!(step[i] > least_step)) continue;
-        const double share = w[i] / step[i];
-        if (first < 0 || share < (1 - equal) * least_share) least_share = share, first = i;
+        if (gone[static_cast<std::size_t>(i)] || !(std::abs(none(i, c)) > 1e-12)) continue;
+        if (!(none(i, c) > 0)) continue;
+        const double share = w[i] / none(i, c);
+        if (first < 0 || share < least) least = share, first = i;
       }
-      w -= least_share * step;
-      w = (w.array() > equal * whole.array()).select(w, 0);
+      if (first < 0) continue;
+      w -= least * none.col(c);
+      for (Index other = c + 1; other < free; ++other) {
+        none.col(other) -= none(first, other) / none(first, c) * none.col(c);
+      }
       w[first] = 0;
-      none = without(std::move(none), first);
+      gone[static_cast<std::size_t>(first)] = true;
     }
     std::size_t left = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!(weight[i] > 0)) continue;
+      if (gone[i] || !(weight[i] > 0)) continue;
       points[left] = points[i];
       weight[left++] = weight[i];
     }
@@ -199,16 +151,13 @@ void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t region
     second += cloud.weight[i] * x.cwiseAbs2();
     sum += cloud.weight[i];
   }
-  const Eigen::RowVectorXd spread = second / sum - (first / sum).cwiseAbs2();
   Index axis = 0;
-  while (spread[axis] < (1 - equal) * spread.maxCoeff()) ++axis;
-  const std::vector<std::uint32_t>& rank = cloud.rank[static_cast<std::size_t>(axis)];
-  std::sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-    return rank[a] != rank[b] ? rank[a] < rank[b] : a < b;
+  (second / sum - (first / sum).cwiseAbs2()).maxCoeff(&axis);
+  std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
+    return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
   });
   const std::size_t left = regions / 2;
-  const double wanted =
-      (1 - equal) * sum * static_cast<double>(left) / static_cast<double>(regions);
+  const double wanted = sum * static_cast<double>(left) / static_cast<double>(regions);
   std::size_t cut = 0;
   for (double below = 0; cut + 1 < points.size() && below < wanted; ++cut) {
     below += cloud.weight[points[cut]];
@@ -231,8 +180,6 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     weights.clear();
     halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
     chosen = std::move(kept);
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (double& each : weights) each /= sum;
   } else if (n > most) {
     // Equal-weight points by systematic sampling along the order of the nodes, in which neighbours
     // are similar.
@@ -243,8 +190,7 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     const double share = 1 / static_cast<double>(most);
     for (const std::size_t each : chosen) {
       sum += dominant.weights[each];
-      while (few.size() < most &&
-             sum > (1 - equal) * (static_cast<double>(few.size()) + 0.5) * share) {
+      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
         few.push_back(each);
       }
     }

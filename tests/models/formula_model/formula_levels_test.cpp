@@ -101,10 +101,10 @@ TEST_F(FormulaLevels, BLivesOfMachinesAreThoseOfTheirLaw) {
     const QuantityDistribution whole(result.fit->exact->nodes, [&](const double* x) {
       return 2.5e-13 / x[0] * std::exp(x[2] * normal_at(percent / 100));
     });
-    EXPECT_NEAR(b.exact->q05 / whole.quantile(0.05), 1, 0.005) << percent;
-    EXPECT_NEAR(b.exact->q50 / whole.quantile(0.5), 1, 0.005) << percent;
-    EXPECT_NEAR(b.exact->q95 / whole.quantile(0.95), 1, 0.005) << percent;
-    EXPECT_NEAR(*b.exact->bound / whole.quantile(0.05), 1, 0.005) << percent;
+    EXPECT_NEAR(b.exact->q05 / whole.quantile(0.05), 1, 0.008) << percent;
+    EXPECT_NEAR(b.exact->q50 / whole.quantile(0.5), 1, 0.008) << percent;
+    EXPECT_NEAR(b.exact->q95 / whole.quantile(0.95), 1, 0.008) << percent;
+    EXPECT_NEAR(*b.exact->bound / whole.quantile(0.05), 1, 0.008) << percent;
   }
   // What is asked beside them changes no bit of the life.
   const PosteriorSummary plain = run(example("formula", machines));

@@ -17,6 +17,7 @@
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/models/formula_model/formula_reader.h"
 #include "wearwell/models/formula_model/node_lives.h"
+#include "wearwell/models/formula_model/rate_change.h"
 #include "wearwell/models/formula_model/unit_nodes.h"
 
 namespace wearwell::resource {
@@ -50,6 +51,7 @@ struct Exported {
         lives(root, model),
         rows(model, lives.wanted()),
         population(model, state.posterior) {
+    refuse_rate_change(root);
     if (rows.follows())
       throw InputError(
           "the formula depends on earlier rows (cum, step, a state given by its rate); C export "

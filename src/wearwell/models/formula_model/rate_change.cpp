@@ -8,6 +8,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/median_factor.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/node_points.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -22,7 +23,26 @@ std::shared_ptr<const Points> joined_rows(const Points& a, const Points& b) {
   return both;
 }
 
+void refuse_running(const TomlReader& predict) {
+  predict.fail("rate_change",
+               "is not possible with cum() or a state: it changes how use counts, which their sums "
+               "over rows contain; write the path in closed form, or leave rate_change out");
+}
+
 }  // namespace
+
+void refuse_rate_change(const TomlReader& root) {
+  const auto predict = root.table("predict");
+  if (predict && predict->has("rate_change"))
+    predict->fail(
+        "rate_change",
+        "is not in exported code, whose units have one rate: fit the study without it (the "
+        "fit is the same) and export that result");
+}
+
+std::pair<double, double> change_fractions(std::size_t i) {
+  return {fraction(i, 0.8191725133961645), fraction(i, 0.6710436067037893)};
+}
 
 std::vector<double> picked(const std::vector<double>& from, std::span<const std::size_t> which) {
   std::vector<double> to;
@@ -49,6 +69,9 @@ std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
     predict.fail(key,
                  "needs predict.along and predict.limit: it is for units on line, which wear "
                  "towards a failure threshold");
+  for (const Measured& each : model.measured) {
+    if (NodeProgram(model, each.wanted, true).running() > 0) refuse_running(predict);
+  }
   const TomlReader table = predict.required_table(key);
   std::string si;
   for (const formula::ColumnSymbol& each : model.row_symbols.columns)
@@ -76,11 +99,7 @@ std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
 RateChanges::RateChanges(std::shared_ptr<const Tracked> of, const RateChangePrior& change,
                          const TomlReader& root)
     : tracked(std::move(of)), prior(change), rows(tracked->model, tracked->lives.wanted(), true) {
-  if (rows.runs())
-    root.required_table("predict").fail(
-        "rate_change",
-        "is not possible with cum() or a state: it changes how use counts, which their sums over "
-        "rows contain; write the path in closed form, or leave rate_change out");
+  if (rows.runs()) refuse_running(root.required_table("predict"));
 }
 
 ChangedUnits ChangedUnits::taken(std::span<const std::size_t> which) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "wearwell/models/formula_model/tracked_unit.h"
 
@@ -19,10 +20,17 @@ struct RateChangePrior {
   double log_density(double place, double start, double z) const;
 };
 
-/// Empty if the study has none. Throws InputError for a study without a limit, or a value that is
-/// not possible.
+/// Empty if the study has none. Throws InputError for a study without a limit, a formula that sums
+/// over rows or has a state, or a value that is not possible.
 std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
                                                 const FormulaModel& model);
+
+/// Throws InputError if the study has predict.rate_change: exported code has units of one rate.
+void refuse_rate_change(const TomlReader& root);
+
+/// Place and factor of the i-th change, evenly distributed in the unit square, and independent of the
+/// scores of a node with two effects (its lattice has other multiples).
+std::pair<double, double> change_fractions(std::size_t i);
 
 /// What units of one population share: made once, never changed.
 struct RateChanges {
@@ -30,7 +38,7 @@ struct RateChanges {
   RateChangePrior prior;
   NodeRows rows;  ///< each node has its own place on the axis
 
-  /// Throws InputError where the formula sums over rows, or has a state.
+  /// Throws InputError where what is limited sums over rows, or has a state.
   RateChanges(std::shared_ptr<const Tracked> of, const RateChangePrior& change,
               const TomlReader& root);
 };

@@ -13,9 +13,9 @@ NodeAxis RateChangeUnit::future(std::size_t nodes) const {
   NodeAxis axis;
   const double from = last_place();
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double u = fraction(i, 0.7548776662466927), v = fraction(i, 0.5698402909980532);
-    axis.since.push_back(from - std::log1p(-u) / shared_->prior.hazard);
-    axis.factor.push_back(shared_->prior.factor(normal_quantile(v)));
+    const auto [place, score] = change_fractions(i);
+    axis.since.push_back(from - std::log1p(-place) / shared_->prior.hazard);
+    axis.factor.push_back(shared_->prior.factor(normal_quantile(score)));
   }
   return axis;
 }

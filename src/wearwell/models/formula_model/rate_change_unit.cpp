@@ -89,8 +89,8 @@ ChangedUnits RateChangeUnit::newborn(double until, Rng& rng) const {
   ChangedUnits born = drawn_from_base(resampled(base_->log_weight_, proposed, rng.uniform()), rng);
   // Nodes follow each other along the line: places and factors must not follow them, too.
   for (std::size_t i = 0; i < born.count(); ++i) {
-    const double u = std::fmod(fraction(i, 0.7548776662466927) + turn_since, 1.0);
-    const double v = std::fmod(fraction(i, 0.5698402909980532) + turn_score, 1.0);
+    const auto [place, score] = change_fractions(i);
+    const double u = std::fmod(place + turn_since, 1.0), v = std::fmod(score + turn_score, 1.0);
     const double z = normal_quantile(std::clamp(v, 1e-12, 1 - 1e-12));
     born.axis.since.push_back(from - std::log1p(-u * changes) / shared_->prior.hazard);
     born.axis.factor.push_back(shared_->prior.factor(z));
@@ -265,6 +265,10 @@ prognosis::UpdateResult RateChangeUnit::update_in_order(const prognosis::Reading
   if (all > -infinity) {
     log_unchanged_ -= all;
     for (double& each : changed_.log_weight) each -= all;
+  } else {
+    // No node explains the reading, but new ones do: the unit goes on from them.
+    log_unchanged_ = 0;
+    changed_ = {};
   }
   if (!tails.empty()) {
     taken.tails = std::move(tails);
@@ -313,7 +317,9 @@ std::vector<prognosis::PredictiveTails> RateChangeUnit::mixed_tails(
   const double length = std::max(0.0, reading.place - last_place());
   const double both[] = {log_unchanged_ - shared_->prior.hazard * length,
                          log_sum(units.log_weight)};
-  const double changed = std::exp(both[1] - log_sum(both));
+  const double all = log_sum(both);
+  if (!(all > -infinity)) return tails;
+  const double changed = std::exp(both[1] - all);
   NodeRows::Sample sample;
   normalize(units.log_weight, sample.weight);
   sample.node.resize(units.count());

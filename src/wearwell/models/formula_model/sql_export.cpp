@@ -15,6 +15,7 @@
 #include "wearwell/models/formula_model/formula_reader.h"
 #include "wearwell/models/formula_model/formula_sql.h"
 #include "wearwell/models/formula_model/node_rows.h"
+#include "wearwell/models/formula_model/rate_change.h"
 #include "wearwell/models/formula_model/sql_statements.h"
 #include "wearwell/models/formula_model/unit_nodes.h"
 
@@ -92,6 +93,7 @@ class Exporter {
         model_(read_formula_model(root_, state.source)),
         population_(model_, state.posterior) {
     refuse_unsupported(*model_, "exported");
+    refuse_rate_change(root_);
     // Speed does not matter here.
     population_.few = population_.many;
     if (model_->has_process())
