@@ -79,7 +79,7 @@ std::string label(const QuantitySummary& each) {
 }
 
 // Least and largest value of one quantile under the families that are close.
-struct Range {
+struct CloseRange {
   double least = INFINITY, most = -INFINITY;
   void add(double x) {
     least = std::min(least, x);
@@ -89,7 +89,7 @@ struct Range {
 };
 
 struct LifeRange {
-  Range low, median, high;
+  CloseRange low, median, high;
   bool known = true;  // by all of them
 };
 
