@@ -43,7 +43,7 @@ const QuantitySummary* same_quantity(const SavedResult& result, const QuantitySu
 /// For the terminal, ending with a newline.
 std::string comparison_text(const Comparison& comparison);
 
-/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in
+/// comparable, obstacle, note, cautions, conclusion, studies[].{study, title, model, ...}; keys in
 /// docs/how-to/compare.md.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
