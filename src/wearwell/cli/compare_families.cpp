@@ -17,6 +17,7 @@
 #include "wearwell/present/progress_line.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/family_study.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell {

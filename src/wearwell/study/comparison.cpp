@@ -203,11 +203,6 @@ Comparison compare(std::vector<std::pair<std::string, SavedResult>> results) {
   return comparison;
 }
 
-bool is_b_life(const QuantitySummary& quantity) {
-  return quantity.name.size() > 1 && quantity.name.front() == 'B' &&
-         quantity.name.find(" life") != quantity.name.npos;
-}
-
 std::string life_label(const QuantitySummary& quantity) {
   return quantity.name + (quantity.of == "unit" ? "" : " of " + quantity.of) +
          (quantity.at.empty() ? "" : " " + quantity.at);

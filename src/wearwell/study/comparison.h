@@ -31,9 +31,6 @@ struct Comparison {
 /// Compares results by name. Studies of different data are shown but not ranked.
 Comparison compare(std::vector<std::pair<std::string, SavedResult>> results);
 
-/// A quantity like "B10 life".
-bool is_b_life(const QuantitySummary& quantity);
-
 /// "B10 life of seal 80 degC", without its unit.
 std::string life_label(const QuantitySummary& quantity);
 

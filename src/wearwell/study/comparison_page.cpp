@@ -10,6 +10,7 @@
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/comparison_overlays.h"
 #include "wearwell/study/density_unit.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
