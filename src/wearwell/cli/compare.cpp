@@ -23,6 +23,7 @@ struct CompareOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path page;
   std::string families;
+  bool ranked = false;  // --families stands, perhaps empty
   bool json = false;
 };
 
@@ -52,7 +53,7 @@ int run_compare(const CompareOptions& options, Models models) {
     throw InputError(fmt::format("-o {}: the page must be named FILE.html", options.page.string()));
   }
   std::optional<FamilyRanking> ranking;
-  if (!options.families.empty()) ranking = ranking_of(options, models);
+  if (options.ranked) ranking = ranking_of(options, models);
   const Comparison comparison = ranking ? ranking->comparison : compare_folders(options);
   if (!options.page.empty()) write_file(options.page, comparison_page(comparison));
   if (options.json) {
@@ -79,11 +80,12 @@ void add_compare_command(CLI::App& app, Models models, int& exit_code) {
                    "Folders that `wearwell fit` wrote; or a study, with --families")
       ->required()
       ->expected(1, 100);
-  compare
-      ->add_option("--families", options->families,
-                   "Fit the study with each of these families of lives and rank them: "
-                   "weibull,lognormal,... or all")
-      ->type_name("NAMES");
+  const CLI::Option* const families =
+      compare
+          ->add_option("--families", options->families,
+                       "Fit the study with each of these families of lives and rank them: "
+                       "weibull,lognormal,... or all")
+          ->type_name("NAMES");
   compare->add_option(
       "-o,--output", options->page,
       "Page to write, FILE.html: the tables, and the posteriors of the parameters overlaid");
@@ -94,8 +96,11 @@ void add_compare_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell compare study.toml --families weibull,lognormal\n\n"
       "Studies of different data are shown but not ranked. Exit codes: 0 all studies are trusted; "
       "1 one is not; 2 a\n"
-      "folder holds no result.");
-  compare->callback([options, models, &exit_code] { exit_code = run_compare(*options, models); });
+      "folder holds no result, or --families cannot rank the study.");
+  compare->callback([options, families, models, &exit_code] {
+    options->ranked = families->count() > 0;
+    exit_code = run_compare(*options, models);
+  });
 }
 
 }  // namespace wearwell

@@ -17,6 +17,7 @@
 #include "wearwell/present/progress_line.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/family_study.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
@@ -24,6 +25,9 @@ namespace {
 
 // elpd differences below it are small (Sivula, Magnusson, Vehtari 2020).
 constexpr double small_difference = 4;
+
+// Lives agree if the largest is at most this times the least.
+constexpr double agreement = 1.1;
 
 std::vector<std::string> listed_families(const std::string& text) {
   if (text == "all") {
@@ -66,25 +70,42 @@ SavedResult fitted(const Source& source, const std::string& family, Models model
           {}};
 }
 
-bool is_b_life(const QuantitySummary& each) {
-  return each.name.size() > 1 && each.name.front() == 'B' &&
-         each.name.find(" life") != each.name.npos;
-}
-
 std::string interval_text(const QuantityQuantiles& known) {
   return fmt::format("{} ({} to {})", plain_number(known.q50), plain_number(known.q05),
                      plain_number(known.q95));
 }
 
 std::string label(const QuantitySummary& each) {
-  return each.name + (each.of == "unit" ? "" : " of " + each.of) +
-         (each.at.empty() ? "" : " " + each.at) + fmt::format(" [{}]", each.unit);
+  return life_label(each) + fmt::format(" [{}]", each.unit);
 }
 
-const QuantitySummary* same(const SavedResult& result, const QuantitySummary& wanted) {
-  for (const QuantitySummary& each : result.quantities)
-    if (each.name == wanted.name && each.of == wanted.of && each.at == wanted.at) return &each;
-  return nullptr;
+// Least and largest value of one quantile under the families that are close.
+struct CloseRange {
+  double least = INFINITY, most = -INFINITY;
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  bool agrees() const { return least > 0 && most <= agreement * least; }
+};
+
+struct LifeRange {
+  CloseRange low, median, high;
+  bool known = true;  // by all of them
+};
+
+LifeRange range_of(const FamilyRanking& ranking, const QuantitySummary& wanted) {
+  LifeRange range;
+  for (const Comparison::Entry& each : ranking.comparison.studies) {
+    if (!contains(ranking.close, each.name)) continue;
+    const QuantitySummary* const found = same_quantity(each.result, wanted);
+    range.known = range.known && found;
+    if (!found) continue;
+    range.low.add(found->best().q05);
+    range.median.add(found->best().q50);
+    range.high.add(found->best().q95);
+  }
+  return range;
 }
 
 std::string conclusion(const FamilyRanking& ranking) {
@@ -97,31 +118,41 @@ std::string conclusion(const FamilyRanking& ranking) {
       "The data do not separate {}: differences of elpd are below {:.0f}, or below twice their "
       "standard error.",
       fmt::join(ranking.close, ", "), small_difference);
-  std::vector<std::string> agree, differ;
+  std::vector<std::string> agree, near, differ;
   for (const QuantitySummary& wanted : studies.front().result.quantities) {
     if (!is_b_life(wanted)) continue;
-    double least = INFINITY, most = 0, lowest = 0, highest = INFINITY;
-    for (const Comparison::Entry& each : studies) {
-      const QuantitySummary* const found =
-          contains(ranking.close, each.name) ? same(each.result, wanted) : nullptr;
-      if (!found) continue;
-      least = std::min(least, found->best().q50);
-      most = std::max(most, found->best().q50);
-      lowest = std::max(lowest, found->best().q05);
-      highest = std::min(highest, found->best().q95);
-    }
-    (least >= lowest && most <= highest ? agree : differ)
-        .push_back(
-            fmt::format("{} ({} to {})", label(wanted), plain_number(least), plain_number(most)));
+    const auto [low, median, high, known] = range_of(ranking, wanted);
+    if (!known) continue;
+    const bool inside = median.least >= low.most && median.most <= high.least;
+    (low.agrees() && median.agrees() && high.agrees() ? agree
+     : inside                                         ? near
+                                                      : differ)
+        .push_back(fmt::format("{} ({} to {})", label(wanted), plain_number(median.least),
+                               plain_number(median.most)));
   }
   if (!agree.empty())
     text +=
-        fmt::format(" One of them will do for {}: each median lies in the 90 % interval of all.",
-                    fmt::join(agree, ", "));
+        fmt::format(" One of them will do for {}: median and both bounds agree within {:.0f} %.",
+                    fmt::join(agree, ", "), 100 * (agreement - 1));
+  if (!near.empty())
+    text += fmt::format(
+        " For {} the medians differ less than their uncertainty, but medians or "
+        "bounds differ by more than {:.0f} %.",
+        fmt::join(near, ", "), 100 * (agreement - 1));
   if (!differ.empty())
     text += fmt::format(" The choice matters for {}: report all of them.", fmt::join(differ, ", "));
-  if (!agree.empty() || !differ.empty()) return text;
+  if (!agree.empty() || !near.empty() || !differ.empty()) return text;
   return text + " State predict.b_lives to see whether the choice matters.";
+}
+
+// An error in a study that the user did not write begins with its family.
+template <class Work>
+auto in_family(const std::string& family, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", family, error.what()));
+  }
 }
 
 }  // namespace
@@ -133,13 +164,16 @@ FamilyRanking rank_families(const Source& study, const std::string& families, Mo
   std::vector<Source> sources;
   for (const std::string& each : names) sources.push_back(study_with_family(study, each));
   for (std::size_t i = 0; i < names.size(); ++i)
-    results.emplace_back(names[i], fitted(sources[i], names[i], models));
+    results.emplace_back(names[i],
+                         in_family(names[i], [&] { return fitted(sources[i], names[i], models); }));
   FamilyRanking ranking{compare(std::move(results)), {}};
   for (const Comparison::Entry& each : ranking.comparison.studies) {
     if (each.behind &&
         (each.behind->value < small_difference || each.behind->value < 2 * each.behind->se))
       ranking.close.push_back(each.name);
   }
+  ranking.comparison.note = family_priors(written_family(study), names);
+  ranking.comparison.conclusion = conclusion(ranking);
   return ranking;
 }
 
@@ -152,13 +186,13 @@ std::string ranking_text(const FamilyRanking& ranking) {
     lines.push_back({"  " + each.name});
     for (const QuantitySummary& wanted : studies.front().result.quantities) {
       if (!is_b_life(wanted)) continue;
-      const QuantitySummary* const found = same(each.result, wanted);
+      const QuantitySummary* const found = same_quantity(each.result, wanted);
       lines.back().push_back(found ? interval_text(found->best()) : "-");
     }
   }
   std::string text;
   if (lines.front().size() > 1) text = "\nLives, median (90 %)\n" + text_table(lines);
-  if (const std::string end = conclusion(ranking); !end.empty())
+  if (const std::string& end = ranking.comparison.conclusion; !end.empty())
     text += "\n" + wrapped(printable(end), 0, 2);
   return text;
 }

@@ -26,17 +26,6 @@ std::string name_for_option(const ColumnRoles& roles, const Column& column) {
 
 }  // namespace
 
-std::string shell_word(const std::string& text) {
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](char each) {
-    return std::isalnum(static_cast<unsigned char>(each)) ||
-           std::string_view("_-./,=+:").find(each) != std::string_view::npos;
-  });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char each : text) quoted += each == '\'' ? std::string("'\\''") : std::string(1, each);
-  return quoted + "'";
-}
-
 std::optional<Scaffold> first_selection(ColumnRoles& roles) {
   const bool stated = roles.has({"response"});
   const bool wear = roles.has({"depth", "volume", "mass", "measured"});

@@ -2,14 +2,12 @@
 
 #include <optional>
 
+#include "wearwell/base/shell_word.h"
 #include "wearwell/study/column_roles.h"
 
 namespace wearwell {
 
 /// For a table of a response with inputs: the options of `wearwell select`. Empty for other tables.
 std::optional<Scaffold> first_selection(ColumnRoles& roles);
-
-/// A word quoted for a shell.
-std::string shell_word(const std::string& text);
 
 }  // namespace wearwell

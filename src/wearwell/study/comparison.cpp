@@ -203,6 +203,17 @@ Comparison compare(std::vector<std::pair<std::string, SavedResult>> results) {
   return comparison;
 }
 
+std::string life_label(const QuantitySummary& quantity) {
+  return quantity.name + (quantity.of == "unit" ? "" : " of " + quantity.of) +
+         (quantity.at.empty() ? "" : " " + quantity.at);
+}
+
+const QuantitySummary* same_quantity(const SavedResult& result, const QuantitySummary& wanted) {
+  for (const QuantitySummary& each : result.quantities)
+    if (each.name == wanted.name && each.of == wanted.of && each.at == wanted.at) return &each;
+  return nullptr;
+}
+
 std::string comparison_text(const Comparison& comparison) {
   std::string out;
   Rows rows;
@@ -232,6 +243,7 @@ std::string comparison_text(const Comparison& comparison) {
     row.insert(row.end(),
                {fmt::format("{}", result.parameters.size()), trust_word(result.header.checks)});
   }
+  if (!comparison.note.empty()) out += wrapped(printable(comparison.note), 0, 2) + "\n";
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
@@ -255,7 +267,9 @@ std::string comparison_text(const Comparison& comparison) {
               : fmt::format("{} +- {}", number(each->mean), number(each->sd)));
     }
   }
-  out += "\nParameters (mean +- sd)\n" + text_table(parameters);
+  out += (comparison.note.empty() ? "\nParameters (mean +- sd)\n"
+                                  : "\nParameters of the written family (mean +- sd)\n") +
+         text_table(parameters);
   if (!comparison.cautions.empty()) out += "\nBear in mind\n";
   for (const std::string& caution : comparison.cautions) {
     out += wrapped(printable(caution), 2, 4);
@@ -305,8 +319,10 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
   }
   Json json = {{"comparable", comparison.comparable}};
   if (!comparison.obstacle.empty()) json["obstacle"] = comparison.obstacle;
+  if (!comparison.note.empty()) json["note"] = comparison.note;
   json["cautions"] = comparison.cautions;
   json["studies"] = studies;
+  if (!comparison.conclusion.empty()) json["conclusion"] = comparison.conclusion;
   return json;
 }
 

@@ -24,15 +24,23 @@ struct Comparison {
   bool comparable = false;            ///< same data, and the same observations are left out
   std::string obstacle;               ///< the reason if not comparable, as a sentence
   std::vector<std::string> cautions;  ///< warnings, as sentences
+  std::string note;                   ///< what the parameters are, if names do not say it
+  std::string conclusion;             ///< as sentences; empty if there is none
 };
 
 /// Compares results by name. Studies of different data are shown but not ranked.
 Comparison compare(std::vector<std::pair<std::string, SavedResult>> results);
 
+/// "B10 life of seal 80 degC", without its unit.
+std::string life_label(const QuantitySummary& quantity);
+
+/// The quantity of another result with the same name, part and condition; null if it has none.
+const QuantitySummary* same_quantity(const SavedResult& result, const QuantitySummary& wanted);
+
 /// For the terminal, ending with a newline.
 std::string comparison_text(const Comparison& comparison);
 
-/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in
+/// comparable, obstacle, note, cautions, conclusion, studies[].{study, title, model, ...}; keys in
 /// docs/how-to/compare.md.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 

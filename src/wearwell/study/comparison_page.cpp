@@ -10,6 +10,7 @@
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/comparison_overlays.h"
 #include "wearwell/study/density_unit.h"
+#include "wearwell/study/never_reached.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
@@ -29,6 +30,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 Section verdict_section(const Comparison& comparison) {
   Section section{"comparison", "Comparison"};
+  if (!comparison.note.empty()) section.add(Prose{comparison.note});
   if (!comparison.comparable) {
     section.add(present::Callout{"warn", "Not ranked.", comparison.obstacle});
   } else {
@@ -62,6 +64,7 @@ Section verdict_section(const Comparison& comparison) {
         "(stacking). Smaller AIC and BIC are better.",
         data_unit.empty() ? "" : ", " + data_unit)});
   }
+  if (!comparison.conclusion.empty()) section.add(Prose{comparison.conclusion});
   for (const std::string& caution : comparison.cautions) section.add(Prose{caution});
   return section;
 }
@@ -138,9 +141,10 @@ html::Figure histograms(const Overlaid& parameter) {
                      {"Density", false, 0.0, {}, {}, false}, marks)};
 }
 
-Section parameter_section(const std::vector<Overlaid>& parameters) {
+Section parameter_section(const std::vector<Overlaid>& parameters, bool one_study) {
   Table table{"parameters",
-              "Parameters of each study",
+              one_study ? "Parameters of the written family, for each family of lives"
+                        : "Parameters of each study",
               {{"Parameter"},
                {"Unit"},
                {"Study"},
@@ -166,10 +170,29 @@ Section parameter_section(const std::vector<Overlaid>& parameters) {
   return section;
 }
 
+// B-lives of one study with several families.
+Table b_life_table(const Comparison& comparison) {
+  Table table{"b-lives",
+              "B-lives of each family",
+              {{"Life"}, {"Unit"}, {"Family"}, {"5 %"}, {"50 %"}, {"95 %"}}};
+  if (comparison.note.empty()) return table;
+  for (const QuantitySummary& wanted : comparison.studies.front().result.quantities) {
+    if (!is_b_life(wanted)) continue;
+    for (const auto& study : comparison.studies) {
+      const QuantitySummary* const found = same_quantity(study.result, wanted);
+      if (!found) continue;
+      const QuantityQuantiles& q = found->best();
+      table.rows.push_back({life_label(wanted), wanted.unit, study.name, q.q05, q.q50, q.q95});
+    }
+  }
+  return table;
+}
+
 Section answer_section(const Comparison& comparison) {
   Section section{"answers", "Curves and lives"};
   if (auto figures = curve_figures(comparison); !figures.empty())
     section.add(present::Figures{std::move(figures)});
+  if (auto table = b_life_table(comparison); !table.rows.empty()) section.add(std::move(table));
   if (auto table = life_table(comparison); !table.rows.empty()) section.add(std::move(table));
   return section;
 }
@@ -199,7 +222,7 @@ std::string comparison_page(const Comparison& comparison) {
   std::vector<Section> sections = {verdict_section(comparison)};
   if (Section section = answer_section(comparison); !section.blocks.empty())
     sections.push_back(std::move(section));
-  sections.push_back(parameter_section(overlaid(comparison)));
+  sections.push_back(parameter_section(overlaid(comparison), !comparison.note.empty()));
   sections.push_back(study_section(comparison));
   return html_page(
       {comparison.studies.front().result.header.version, "Comparison of studies", names, sections});

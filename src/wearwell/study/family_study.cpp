@@ -50,24 +50,70 @@ std::string key_of(const std::string& line) {
                               column));
 }
 
-// The family that the parameters belong to. A list, or "best", stands in studies that want a ranking.
-std::string written_family(const TomlReader& table) {
-  if (table.is_text("family")) {
-    const std::string family = table.required_text("family");
-    if (family != "best" && family != "all" && family != "auto") return family;
+// The family of the parameters: of a list, the first.
+std::string family_of(const TomlReader& table) {
+  if (!table.has("family")) table.fail("family", "is missing");
+  if (!table.is_text("family")) {
+    const std::vector<std::string> listed = table.texts("family");
+    if (listed.empty()) table.fail("family", "is an empty list");
+    return listed.front();
   }
-  if (table.has("median")) return "lognormal";
-  return table.has("mean") ? "inverse-gaussian" : "weibull";
+  std::string family = table.required_text("family");
+  if (family == "best" || family == "all" || family == "auto")
+    table.fail("family", fmt::format("\"{}\" does not say which family the parameters belong to; "
+                                     "write that family, --families names those to rank",
+                                     family));
+  return family;
+}
+
+// Distributions beside the one that is exchanged would stay and blur the ranking.
+void refuse_own_families(const TomlReader& root) {
+  for (const char* const section : {"failure_modes", "subpopulations"}) {
+    const auto table = root.table(section);
+    if (!table) continue;
+    std::vector<std::string> own;
+    for (const std::string& key : table->keys()) {
+      if (key == "share" || key == "column" || key == "names" || key == "runout" ||
+          key == "unknown")
+        continue;
+      own.push_back(fmt::format("[{}.{}]", section, key));
+    }
+    if (!own.empty())
+      root.fail(
+          section,
+          fmt::format("has families beside that of [likelihood]: {}. --families "
+                      "exchanges one family; write parameters of each, as in "
+                      "scale[{}], or fit one study for each combination and compare "
+                      "the results",
+                      fmt::join(own, ", "),
+                      std::string_view(section) == "failure_modes" ? "mode" : "subpopulation"));
+  }
+}
+
+// A value that goes on in the next line cannot be exchanged by lines.
+void refuse_long_value(const Source& study, const TomlReader& table, const std::string& line,
+                       const std::string& key) {
+  bool whole = true;
+  try {
+    TomlReader::parse({study.study.path, line});
+  } catch (const InputError&) {
+    whole = false;
+  }
+  if (!whole)
+    table.fail(key,
+               "goes over several lines; write it in one line, so that its family can be "
+               "exchanged");
 }
 
 LikelihoodLines likelihood_lines(const Source& study) {
   const TomlReader root = TomlReader::parse(study.study);
+  refuse_own_families(root);
   const TomlReader likelihood = root.required_table("likelihood");
   if (likelihood.keys().size() != 1)
     root.fail("likelihood", "needs one measured column to rank families of it");
   LikelihoodLines found{likelihood.keys().front(), {}, {}, 0, 0};
   const TomlReader table = likelihood.required_table(found.column);
-  found.family = written_family(table);
+  found.family = family_of(table);
   if (std::find(std::begin(families), std::end(families), found.family) == std::end(families))
     table.fail("family", fmt::format("is not one of the families that can be ranked: {}",
                                      fmt::join(families, ", ")));
@@ -82,8 +128,12 @@ LikelihoodLines likelihood_lines(const Source& study) {
       ++found.end;
   }
   std::size_t keys = 0;
-  for (std::size_t i = found.begin; i < found.end; ++i)
-    keys += table.has(key_of(found.lines[i])) ? 1 : 0;
+  for (std::size_t i = found.begin; i < found.end; ++i) {
+    const std::string key = key_of(found.lines[i]);
+    if (key.empty() || !table.has(key)) continue;
+    refuse_long_value(study, table, found.lines[i], key);
+    ++keys;
+  }
   if (found.begin == 0 || keys != table.keys().size()) refuse_layout(likelihood, found.column);
   return found;
 }
@@ -95,6 +145,12 @@ std::string parameter(const TomlReader& table, const char* name) {
                              : fmt::format("({})", table.required_quantity(name, "1").si());
 }
 
+// Mean of an inverse Gaussian life over exp(mean of log life), of mean/shape = r: exp(exp(x) E1(x)) with x = 2/r, by
+// 1 + (x + a)/(x (x + b)), which has the limits of small and large x.
+std::string mean_to_middle(const std::string& r) {
+  return fmt::format("(1 + {0}*(1 + 0.3201*{0})/(2 + 1.1402*{0}))", r);
+}
+
 LogMoments moments_of(const TomlReader& table, const std::string& family) {
   const auto of = [&](const char* name) { return parameter(table, name); };
   if (family == "weibull")
@@ -104,10 +160,11 @@ LogMoments moments_of(const TomlReader& table, const std::string& family) {
   if (family == "loglogistic") return {of("scale"), fmt::format("1.8137993642/{}", of("shape"))};
   if (family == "gamma")
     return {fmt::format("{} * exp(digamma{})", of("scale"), of("shape")),
-            fmt::format("sqrt(1/{0} + 0.5/{0}^2)", of("shape"))};
+            fmt::format("sqrt((1 + sqrt(1 + 4*{0}^2))/(2*{0}^2))", of("shape"))};
   if (family == "inverse-gaussian") {
-    const std::string square = fmt::format("log(1 + {}/{})", of("mean"), of("shape"));
-    return {fmt::format("{} * exp(-{}/2)", of("mean"), square), fmt::format("sqrt({})", square)};
+    const std::string ratio = fmt::format("({}/{})", of("mean"), of("shape"));
+    return {fmt::format("{}/{}", of("mean"), mean_to_middle(ratio)),
+            fmt::format("sqrt(log1p{})", ratio)};
   }
   table.fail(
       "family",
@@ -128,15 +185,20 @@ std::vector<std::pair<std::string, std::string>> parameters_of(std::string_view 
   if (family == "lognormal") return {{"median", m}, {"log_sd", s}};
   if (family == "loglogistic") return {{"scale", m}, {"shape", fmt::format("1.8137993642/{}", s)}};
   if (family == "gamma") {
-    const std::string k = fmt::format("((1 + sqrt(1 + 2*{0}^2))/(2*{0}^2))", s);
+    // trigamma(k) = s^2: 1/k^2 for small k, 1/k + 1/(2 k^2) for large k.
+    const std::string k = fmt::format("(sqrt(1 + {0}^2)/{0}^2)", s);
     return {{"shape", k}, {"scale", fmt::format("{} * exp(-digamma({}))", m, k)}};
   }
   if (family == "inverse-gaussian") {
-    const std::string mean = fmt::format("{} * exp({}^2/2)", m, s);
-    return {{"mean", mean}, {"shape", fmt::format("{}/(exp({}^2) - 1)", mean, s)}};
+    const std::string ratio = fmt::format("expm1({}^2)", s);
+    const std::string mean = fmt::format("{} * {}", m, mean_to_middle(ratio));
+    return {{"mean", mean}, {"shape", fmt::format("{}/{}", mean, ratio)}};
   }
+  // sd of 2 asinh(shape z/2), z standard normal, is s.
   if (family == "birnbaum-saunders")
-    return {{"scale", m}, {"shape", fmt::format("exp({0}/2) - exp(-{0}/2)", s)}};
+    return {{"scale", m},
+            {"shape",
+             fmt::format("(exp({0}/2) - exp(-{0}/2))*(1 + 0.258*{0}^2)/(1 + 0.1747*{0}^2)", s)}};
   return {{"scale", m}, {"sigma", s}, {"lambda", "family_lambda"}};
 }
 
@@ -154,6 +216,38 @@ std::span<const std::string_view> exchangeable_families() {
   return families;
 }
 
+std::string written_family(const Source& study) {
+  return likelihood_lines(study).family;
+}
+
+std::string family_priors(std::string_view written, std::span<const std::string> names) {
+  std::vector<std::string> exact, near, wider;
+  for (const std::string& each : names) {
+    if (each == written) continue;
+    if (each == "generalized-gamma" || each == "exponentiated-weibull") {
+      wider.push_back(each == "generalized-gamma"
+                          ? "generalized-gamma with family_lambda ~ normal(0.5, 1), 0 is lognormal"
+                          : "exponentiated-weibull with family_exponent ~ lognormal(1, 0.7), 1 is "
+                            "weibull");
+    } else {
+      const bool closed = each == "weibull" || each == "lognormal" || each == "loglogistic";
+      const bool from = written != "gamma" && written != "inverse-gaussian";
+      (closed && from ? exact : near).push_back(each);
+    }
+  }
+  std::string text =
+      fmt::format("Parameters are those of {} lives, the family of the study", written);
+  if (!exact.empty())
+    text += fmt::format("; {} lives have the same mean and sd of log life", fmt::join(exact, ", "));
+  if (!near.empty())
+    text +=
+        fmt::format("; {} lives roughly the same mean and sd of log life", fmt::join(near, ", "));
+  if (!wider.empty())
+    text += fmt::format("; a further parameter makes the prior of lives wider: {}",
+                        fmt::join(wider, "; "));
+  return text + ".";
+}
+
 Source study_with_family(const Source& study, std::string_view family) {
   if (std::find(std::begin(families), std::end(families), family) == std::end(families))
     throw InputError(fmt::format("--families: '{}' cannot be ranked; possible are {}", family,
@@ -163,6 +257,14 @@ Source study_with_family(const Source& study, std::string_view family) {
   const TomlReader table = root.required_table("likelihood").required_table(found.column);
   const bool same = found.family == family;
   const LogMoments log = same ? LogMoments{} : moments_of(table, found.family);
+  const auto parameters =
+      same ? std::vector<std::pair<std::string, std::string>>() : parameters_of(family, log);
+  // A new parameter takes the line of an old one, so that messages name the lines of the study.
+  std::size_t written = 0;
+  const auto next = [&] {
+    const auto& [name, value] = parameters[written++];
+    return fmt::format("{} = {}\n", name, toml_text(value));
+  };
   std::string text;
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
     const std::string key = i >= found.begin && i < found.end ? key_of(found.lines[i]) : "";
@@ -170,9 +272,9 @@ Source study_with_family(const Source& study, std::string_view family) {
                                              key) != std::end(two_parameters);
     if (key == "family") {
       text += fmt::format("family = {}\n", toml_text(std::string(family)));
-      if (same) continue;
-      for (const auto& [name, value] : parameters_of(family, log))
-        text += fmt::format("{} = {}\n", name, toml_text(value));
+    } else if (replaced && written < parameters.size()) {
+      text += next();
+      while (written == 2 && written < parameters.size()) text += next();
     } else if (!replaced) {
       text += found.lines[i] + "\n";
     }

@@ -12,6 +12,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/shell_word.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/formula_model/fail_at_place.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
@@ -22,6 +23,7 @@
 #include "wearwell/models/formula_model/step_stress.h"
 #include "wearwell/models/formula_model/use_rate_model.h"
 #include "wearwell/models/formula_model/written_mixture.h"
+#include "wearwell/study/family_study.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of earlier
 // ones.
@@ -174,14 +176,27 @@ class Reader {
     const std::vector<std::string> keys = table.keys();
     if (std::find(keys.begin(), keys.end(), "family") == keys.end()) return;
     if (table.is_text("family") && !ranking.count(table.required_text("family"))) return;
+    const std::string file = shell_word(source_.study.path.string());
+    if (table.is_text("family"))
+      table.fail("family",
+                 fmt::format("is one family: write the one that the parameters are of. To "
+                             "rank several for the same data, then run: wearwell compare "
+                             "{} --families all",
+                             file));
+    std::vector<std::string> ranked = table.texts("family");
+    std::erase_if(ranked, [](const std::string& each) {
+      const auto known = exchangeable_families();
+      return std::find(known.begin(), known.end(), each) == known.end();
+    });
     table.fail(
         "family",
-        fmt::format("is one family. To rank several for the same data, run: wearwell compare {} "
-                    "--families {}",
-                    source_.study.path.string(),
-                    table.is_text("family")
-                        ? "all"
-                        : fmt::format("{}", fmt::join(table.texts("family"), ","))));
+        ranked.size() < 2 || ranked.front() != table.texts("family").front()
+            ? fmt::format("is one family; those that `wearwell compare STUDY --families` "
+                          "ranks are {}",
+                          fmt::join(exchangeable_families(), ", "))
+            : fmt::format("is one family. To rank several for the same data, with parameters "
+                          "of the first, run: wearwell compare {} --families {}",
+                          file, fmt::join(ranked, ",")));
   }
 
   WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
