@@ -270,7 +270,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
-      {"compare joint", "DIR is given 1 times; at least 2 are needed"},
+      {"compare joint", "one result cannot be compared; name two or more"},
       {"compare joint bearing",
        "joint does not contain summary.json, so it is not a folder of results of wearwell fit"},
       {"compare joint/study.toml bearing",
