@@ -8,7 +8,8 @@ class App;
 
 namespace wearwell {
 
-/// `wearwell compare DIR DIR ...`, `wearwell compare STUDY --families NAMES`: sets `exit_code` when it ran.
+/// `wearwell compare DIR DIR ...` and `wearwell compare STUDY --families NAMES`: sets `exit_code` when
+/// it ran.
 void add_compare_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

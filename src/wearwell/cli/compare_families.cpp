@@ -23,9 +23,6 @@
 namespace wearwell {
 namespace {
 
-// elpd differences below it are small (Sivula, Magnusson, Vehtari 2020).
-constexpr double small_difference = 4;
-
 // Lives agree if the largest is at most this times the least.
 constexpr double agreement = 1.1;
 
@@ -117,7 +114,7 @@ std::string conclusion(const FamilyRanking& ranking) {
   std::string text = fmt::format(
       "The data do not separate {}: differences of elpd are below {:.0f}, or below twice their "
       "standard error.",
-      fmt::join(ranking.close, ", "), small_difference);
+      fmt::join(ranking.close, ", "), small_elpd_difference);
   std::vector<std::string> agree, near, differ;
   for (const QuantitySummary& wanted : studies.front().result.quantities) {
     if (!is_b_life(wanted)) continue;
@@ -169,7 +166,7 @@ FamilyRanking rank_families(const Source& study, const std::string& families, Mo
   FamilyRanking ranking{compare(std::move(results)), {}};
   for (const Comparison::Entry& each : ranking.comparison.studies) {
     if (each.behind &&
-        (each.behind->value < small_difference || each.behind->value < 2 * each.behind->se))
+        (each.behind->value < small_elpd_difference || each.behind->value < 2 * each.behind->se))
       ranking.close.push_back(each.name);
   }
   ranking.comparison.note = family_priors(written_family(study), names);

@@ -91,8 +91,8 @@ std::vector<std::string> cautions_of(const Comparison& comparison) {
   if (n < 100) {
     cautions.push_back(
         fmt::format("With {:.0f} observations the standard error of a difference is itself "
-                    "uncertain; treat a difference below 4 as small (Sivula et al. 2020).",
-                    n));
+                    "uncertain; treat a difference below {:.0f} as small (Sivula et al. 2020).",
+                    n, small_elpd_difference));
   }
   return cautions;
 }

@@ -9,6 +9,9 @@
 
 namespace wearwell {
 
+/// Differences of elpd below it are small (Sivula, Magnusson and Vehtari 2020).
+inline constexpr double small_elpd_difference = 4;
+
 /// Studies side by side: which model form predicts best, and how their parameters differ.
 struct Comparison {
   struct Entry {

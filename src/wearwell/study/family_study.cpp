@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <sstream>
 #include <vector>
 
@@ -32,15 +33,9 @@ struct LikelihoodLines {
   std::size_t begin = 0, end = 0;  // after its heading, to the next
 };
 
-std::string trimmed(std::string text) {
-  text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
-  text.erase(text.find_last_not_of(" \t\r") + 1);
-  return text;
-}
-
 std::string key_of(const std::string& line) {
   const std::size_t equals = line.find('=');
-  return equals == line.npos ? std::string() : trimmed(line.substr(0, equals));
+  return equals == line.npos ? std::string() : boost::algorithm::trim_copy(line.substr(0, equals));
 }
 
 [[noreturn]] void refuse_layout(const TomlReader& likelihood, const std::string& column) {
@@ -121,10 +116,11 @@ LikelihoodLines likelihood_lines(const Source& study) {
   for (std::string line; std::getline(text, line);) found.lines.push_back(line);
   const std::string heading = fmt::format("[likelihood.{}]", found.column);
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
-    if (!trimmed(found.lines[i]).starts_with(heading)) continue;
+    if (!boost::algorithm::trim_copy(found.lines[i]).starts_with(heading)) continue;
     found.begin = i + 1;
     found.end = i + 1;
-    while (found.end < found.lines.size() && !trimmed(found.lines[found.end]).starts_with("["))
+    while (found.end < found.lines.size() &&
+           !boost::algorithm::trim_copy(found.lines[found.end]).starts_with("["))
       ++found.end;
   }
   std::size_t keys = 0;

@@ -48,9 +48,9 @@ inline constexpr const char* mode_of_returns = "mode";
 
 /// The lives that the fitted periods tell, as a table of intervals: columns `lower` and `upper` (in
 /// periods; no lower end: a failure before the first look, no upper end: a survivor) and `count`. A
-/// cell of the triangle is a row of failures (one for each failure mode, with a column `mode`), and the units of a period of sale that did not come
-/// back a row of survivors. Throws InputError that names the period of sale: a return before the end
-/// of the delays.
+/// cell of the triangle is a row of failures (one for each failure mode, with a column `mode`), and
+/// the units of a period of sale that did not come back a row of survivors. Throws InputError that
+/// names the period of sale: a return before the end of the delays.
 FormulaData lives_of_returns(const FieldReturns& returns);
 
 /// What a reader should know of the data, as sentences.

@@ -8,6 +8,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/median_factor.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/math/log_sum_exp.h"
 #include "wearwell/models/formula_model/node_points.h"
 
 namespace wearwell::formula_model {
@@ -152,19 +153,10 @@ std::vector<double> ChangedUnits::places(double place) const {
   return at;
 }
 
-double log_sum(std::span<const double> log_weight) {
-  double top = -infinity;
-  for (const double each : log_weight) top = std::max(top, each);
-  if (!(top > -infinity)) return -infinity;
-  double sum = 0;
-  for (const double each : log_weight) sum += std::exp(each - top);
-  return top + std::log(sum);
-}
-
 std::vector<std::size_t> resampled(std::span<const double> log_weight, std::size_t count,
                                    double offset) {
   std::vector<std::size_t> drawn;
-  const double all = log_sum(log_weight);
+  const double all = log_sum_exp(log_weight);
   if (!(all > -infinity)) return drawn;
   drawn.reserve(count);
   double before = 0;

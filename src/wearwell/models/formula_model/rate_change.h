@@ -62,8 +62,6 @@ struct ChangedUnits {
 
 /// These of the values; none if there are none.
 std::vector<double> picked(const std::vector<double>& from, std::span<const std::size_t> which);
-/// log of the sum of exponentials.
-double log_sum(std::span<const double> log_weight);
 /// `count` indices in proportion to the weights, by systematic resampling from `offset` in (0, 1).
 std::vector<std::size_t> resampled(std::span<const double> log_weight, std::size_t count,
                                    double offset);

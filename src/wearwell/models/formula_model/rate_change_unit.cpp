@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "wearwell/math/constants.h"
+#include "wearwell/math/log_sum_exp.h"
 #include "wearwell/models/formula_model/node_points.h"
 
 namespace wearwell::formula_model {
@@ -37,7 +38,7 @@ UnitReading RateChangeUnit::last_row() const {
 
 double RateChangeUnit::probability() const {
   if (changed_.count() == 0) return 0;
-  const double changed = log_sum(changed_.log_weight);
+  const double changed = log_sum_exp(changed_.log_weight);
   return 1 / (1 + std::exp(log_unchanged_ - changed));
 }
 
@@ -116,20 +117,20 @@ double RateChangeUnit::weigh(const UnitReading& reading, ChangedUnits& born) {
   std::vector<double> value(base_->log_weight_.size());
   shared_->tracked->rows.look(base_->nodes_.nodes, reading, base_->paths_, nullptr, value, nullptr,
                               nullptr);
-  const double before = log_sum(base_->log_weight_);
+  const double before = log_sum_exp(base_->log_weight_);
   for (std::size_t i = 0; i < value.size(); ++i) value[i] += base_->log_weight_[i];
-  return log_sum(value) - before;
+  return log_sum_exp(value) - before;
 }
 
 // Keeps new particles in proportion to their share of all that have changed.
 void RateChangeUnit::thin(ChangedUnits& born, Rng& rng) const {
-  const double mass = log_sum(born.log_weight);
+  const double mass = log_sum_exp(born.log_weight);
   const double offset = rng.uniform();
   if (!(mass > -infinity)) {
     born = {};
     return;
   }
-  const double old = changed_.count() > 0 ? log_sum(changed_.log_weight) : -infinity;
+  const double old = changed_.count() > 0 ? log_sum_exp(changed_.log_weight) : -infinity;
   const double share = 1 / (1 + std::exp(old - mass));
   const auto count = static_cast<std::size_t>(std::ceil(share * usual));
   const std::vector<std::size_t> which =
@@ -209,7 +210,7 @@ void RateChangeUnit::move(const std::vector<UnitReading>& all, Rng& rng) {
 // Resamples where few particles carry the weight, or there are too many.
 void RateChangeUnit::keep_diverse(const prognosis::Reading& reading,
                                   const prognosis::History& history, Rng& rng) {
-  const double mass = log_sum(changed_.log_weight);
+  const double mass = log_sum_exp(changed_.log_weight);
   if (!(mass > -infinity)) {
     changed_ = {};
     return;
@@ -259,9 +260,9 @@ prognosis::UpdateResult RateChangeUnit::update_in_order(const prognosis::Reading
     if (born.count() > 0) changed_.append(born);
   }
   if (changed_.count() > 0) keep_diverse(reading, history, rng);
-  const double changed = changed_.count() > 0 ? log_sum(changed_.log_weight) : -infinity;
+  const double changed = changed_.count() > 0 ? log_sum_exp(changed_.log_weight) : -infinity;
   const double both[] = {log_unchanged_, changed};
-  const double all = log_sum(both);
+  const double all = log_sum_exp(both);
   if (all > -infinity) {
     log_unchanged_ -= all;
     for (double& each : changed_.log_weight) each -= all;
@@ -316,8 +317,8 @@ std::vector<prognosis::PredictiveTails> RateChangeUnit::mixed_tails(
   if (units.count() == 0) return tails;
   const double length = std::max(0.0, reading.place - last_place());
   const double both[] = {log_unchanged_ - shared_->prior.hazard * length,
-                         log_sum(units.log_weight)};
-  const double all = log_sum(both);
+                         log_sum_exp(units.log_weight)};
+  const double all = log_sum_exp(both);
   if (!(all > -infinity)) return tails;
   const double changed = std::exp(both[1] - all);
   NodeRows::Sample sample;
