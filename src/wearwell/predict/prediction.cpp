@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "wearwell/base/rng.h"
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
@@ -136,8 +137,11 @@ DominantDraws::DominantDraws(const WeightedDraws& draws) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.values.rows()));
   std::iota(order.begin(), order.end(), 0);
   if (!draws.lower.empty()) {
-    std::sort(order.begin(), order.end(),
-              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
+    // Symmetric nodes have weights that are equal but for rounding errors, which must not order them.
+    Eigen::VectorXd size = draws.weights;
+    Rng rng(0, 0);
+    for (double& each : size) each *= 1 + rng.uniform(0, 1e-6);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return size[a] > size[b]; });
   }
   double total = 0;
   for (const Eigen::Index i : order) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/base/rng.h"
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/predict/prediction.h"
 
@@ -12,30 +13,49 @@ namespace {
 
 using Eigen::Index;
 
-// Points of a region of the whitened posterior.
+// Nodes of a lattice are symmetric: coordinates, weights, spreads and moments are equal but for rounding
+// errors, which must not choose the points, since they would be others on another processor. Points are
+// moved by up to this many standard deviations before the choice, by the same numbers everywhere.
+constexpr double shift = 1e-4;
+constexpr double equal =
+    1e-9;  // relative difference of sums that are equal but for rounding errors
+
+// The whitened posterior.
 struct Cloud {
   Points at;
   std::vector<double> weight;
 };
 
+// Coordinates of mean 0 and covariance 1 (Gram and Schmidt). A parameter that is constant, or follows from those
+// before it, has 0.
+void whiten(Points& at, const Eigen::Map<const Eigen::VectorXd>& weight) {
+  constexpr double least = 1e-5;  // of a direction that is no rounding error
+  const auto spread = [&](const Eigen::VectorXd& x) {
+    return std::sqrt(weight.dot(x.cwiseAbs2()));
+  };
+  for (Index j = 0; j < at.cols(); ++j) {
+    Eigen::VectorXd x = at.col(j);
+    const double largest = x.cwiseAbs().maxCoeff();
+    if (largest > 0) x /= largest;
+    x.array() -= weight.dot(x);
+    const double size = spread(x);
+    x *= size > 1e-12 ? 1 / size : 0;
+    for (int again = 0; again < 2; ++again) {
+      for (Index k = 0; k < j; ++k) x -= weight.dot(at.col(k).cwiseProduct(x)) * at.col(k);
+    }
+    const double rest = spread(x);
+    at.col(j) = x * (rest > least ? 1 / rest : 0);
+  }
+}
+
 Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
-  const auto n = static_cast<Index>(dominant.rows.size()), d = draws.values.cols();
-  Cloud cloud{Points(n, d), dominant.weights};
+  const auto n = static_cast<Index>(dominant.rows.size());
+  Cloud cloud{draws.values(dominant.rows, Eigen::all), dominant.weights};
+  whiten(cloud.at, {cloud.weight.data(), n});
   for (Index i = 0; i < n; ++i) {
-    cloud.at.row(i) = draws.values.row(dominant.rows[static_cast<std::size_t>(i)]);
+    Rng rng(0, static_cast<std::uint64_t>(dominant.rows[static_cast<std::size_t>(i)]));
+    for (double& each : cloud.at.row(i)) each += rng.uniform(-shift, shift);
   }
-  const Eigen::Map<const Eigen::VectorXd> w(cloud.weight.data(), n);
-  const Eigen::RowVectorXd mean = w.transpose() * cloud.at;
-  cloud.at.rowwise() -= mean;
-  // Scales parameters first, because they span orders of magnitude.
-  const Eigen::RowVectorXd size = (w.transpose() * cloud.at.cwiseAbs2()).cwiseSqrt();
-  for (Index j = 0; j < d; ++j) {
-    if (size[j] > 0) cloud.at.col(j) /= size[j];
-  }
-  const Eigen::MatrixXd covariance = cloud.at.transpose() * w.asDiagonal() * cloud.at;
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  if (llt.info() != Eigen::Success) return cloud;
-  cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
   return cloud;
 }
 
@@ -151,13 +171,15 @@ void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t region
     second += cloud.weight[i] * x.cwiseAbs2();
     sum += cloud.weight[i];
   }
+  const Eigen::RowVectorXd spread = second / sum - (first / sum).cwiseAbs2();
   Index axis = 0;
-  (second / sum - (first / sum).cwiseAbs2()).maxCoeff(&axis);
+  while (spread[axis] < (1 - shift) * spread.maxCoeff()) ++axis;
   std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
     return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
   });
   const std::size_t left = regions / 2;
-  const double wanted = sum * static_cast<double>(left) / static_cast<double>(regions);
+  const double wanted =
+      (1 - equal) * sum * static_cast<double>(left) / static_cast<double>(regions);
   std::size_t cut = 0;
   for (double below = 0; cut + 1 < points.size() && below < wanted; ++cut) {
     below += cloud.weight[points[cut]];
@@ -190,7 +212,8 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
     const double share = 1 / static_cast<double>(most);
     for (const std::size_t each : chosen) {
       sum += dominant.weights[each];
-      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
+      while (few.size() < most &&
+             sum > (1 - equal) * (static_cast<double>(few.size()) + 0.5) * share) {
         few.push_back(each);
       }
     }

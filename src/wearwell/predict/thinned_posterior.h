@@ -9,9 +9,10 @@
 namespace wearwell {
 
 /// A posterior thinned to few of its points. In each of many regions they are chosen and weighted
-/// to preserve means, variances and covariances, so sums of smooth quantities are far more accurate
-/// than with as many equally weighted points. With too many parameters, equally weighted points are
-/// used.
+/// to preserve means, variances and covariances (within some 1e-5 standard deviations), so sums of
+/// smooth quantities are far more accurate than with as many equally weighted points. With too many
+/// parameters, equally weighted points are used. The choice does not depend on rounding errors, so
+/// it is the same on every processor.
 struct ThinnedPosterior {
   ThinnedPosterior(const WeightedDraws& draws, std::size_t most);
   Points values;

@@ -168,14 +168,14 @@ TEST_F(PublishedPredictions, InsulatingFluidAtTwentyKilovolts) {
   }
   const PosteriorSummary result = run(fluid);
   const QuantityQuantiles& survival = found(result, "survival to 100 h");
-  EXPECT_NEAR(failed(*survival.predictive) / known.mean(), 1, 1e-4);
+  EXPECT_NEAR(failed(*survival.predictive) / known.mean(), 1, 2e-4);
   expect_quantile(known, survival.q50, 0.5, 1e-3);
   expect_quantile(known, survival.q05, 0.05, 1e-3);
   expect_quantile(known, survival.q95, 0.95, 1e-3);
   // What is averaged over all that is unknown is more than the median.
   EXPECT_GT(known.mean(), 1.1 * failed(survival.q50));
   const prognosis::UnitLife life = ask(fluid, result, {.survived = "100 h"});
-  EXPECT_NEAR(*life.passed / known.mean(), 1, 1e-4);
+  EXPECT_NEAR(*life.passed / known.mean(), 1, 2e-4);
 }
 
 // Cracks in tubes of heat exchangers of three plants, of 100 tubes each, found in yearly inspections (Nelson 1982; Meeker and
@@ -230,13 +230,13 @@ TEST_F(PublishedPredictions, HeatExchangerTubes) {
                   "beta = { distribution = \"lognormal\", median = 1.5, log_sd = 0.5 }\n");
   const PosteriorSummary result = run(study);
   const QuantityQuantiles& survival = found(result, "survival to 4 year");
-  EXPECT_NEAR(failed(*survival.predictive) / known.mean(), 1, 1e-4);
+  EXPECT_NEAR(failed(*survival.predictive) / known.mean(), 1, 2e-4);
   expect_quantile(known, survival.q50, 0.5, 1e-3);
   expect_quantile(known, survival.q05, 0.05, 1e-3);
   expect_quantile(known, survival.q95, 0.95, 1e-3);
   EXPECT_GT(known.mean(), failed(survival.q50));
   const prognosis::UnitLife life = ask(study, result, {.survived = "4 year"});
-  EXPECT_NEAR(*life.passed / known.mean(), 1, 1e-4);
+  EXPECT_NEAR(*life.passed / known.mean(), 1, 2e-4);
 }
 
 // BIC takes the logarithm of how many tubes there are, not of how many rows.

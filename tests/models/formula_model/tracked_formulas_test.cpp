@@ -23,7 +23,7 @@ struct Kind {
   /// The middle of the posterior, in the study's order of parameters, SI, and how far it is spread (of logarithms).
   std::vector<double> middle;
   double spread = 0.15;
-  double tolerance = 8e-3;
+  double tolerance = 1e-2;
 };
 
 // A posterior that is wide beside what one unit says: each parameter lognormal about its middle.
