@@ -188,11 +188,11 @@ TEST_F(Retained, KilledInTheMiddleItLosesNothing) {
   const auto fill = [&] {
     open();
     put_fleet();
-    put("long", 1, 9000, 400);
-    put_event("long", EventKind::replaced, 9001, 0, 390);
-    put("long", 9001, 9010, 380);
-    put("longer", 1, 9000, 400);
-    put_event("longer", EventKind::removed, 9000, 0, 390);
+    put("long", 1, 5000, 400);
+    put_event("long", EventKind::replaced, 5001, 0, 390);
+    put("long", 5001, 5010, 380);
+    put("longer", 1, 3000, 400);
+    put_event("longer", EventKind::removed, 3000, 0, 390);
     put("in service", 51, 52, 380);
     catch_up();
     return states();
@@ -209,7 +209,7 @@ TEST_F(Retained, KilledInTheMiddleItLosesNothing) {
   close();
   Rng rng(5, 1);
   std::set<std::uint64_t> counts;
-  for (int kill_number = 0; kill_number < 30; ++kill_number) {
+  for (int kill_number = 0; kill_number < 12; ++kill_number) {
     const pid_t child = fork();
     if (child == 0) {
       open();
@@ -219,7 +219,7 @@ TEST_F(Retained, KilledInTheMiddleItLosesNothing) {
       _exit(0);
     }
     std::this_thread::sleep_for(std::chrono::microseconds(
-        static_cast<std::int64_t>(rng.uniform(0, kill_number < 20 ? 3e4 : 2e5))));
+        static_cast<std::int64_t>(rng.uniform(0, kill_number < 8 ? 3e4 : 2e5))));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     // What is there now is consistent: states that are stored follow from readings that are stored.
