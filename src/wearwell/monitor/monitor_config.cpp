@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/input_errors.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/monitor/foreign_message.h"
@@ -48,7 +49,7 @@ class Problems {
   }
   bool empty() const { return all_.empty(); }
   void finish() const {
-    if (!all_.empty()) throw InputError(fmt::format("{}", fmt::join(all_, "\n")));
+    if (!all_.empty()) throw InputErrors(all_);
   }
 
  private:

@@ -12,6 +12,7 @@ namespace wearwell::monitor {
 namespace {
 
 constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
+constexpr auto between_passes = std::chrono::hours(24);
 
 /// How many of a unit's first parts are out of service, and have no event since `before_ms`.
 std::size_t ended_parts(const UnitEvents& events, std::int64_t before_ms) {
@@ -127,14 +128,13 @@ Retention::Retention(std::optional<double> keep_s, Store& store, const prognosis
 
 // What is removed cannot be had back, so a clock that has jumped removes nothing.
 bool Retention::is_due() {
-  constexpr auto between = std::chrono::hours(24);
   constexpr double most_drift = 3600;  // s
   const Clock::time_point now = Clock::now();
   if (!keep_s_ || (next_ && now < *next_)) return false;
-  next_ = now + between;
   const double by_clock = 1e-3 * static_cast<double>(unix_ms_now() - started_ms_);
   const double drift = by_clock - std::chrono::duration<double>(now - started_).count();
   if (std::abs(drift) < most_drift) return true;
+  next_ = now + between_passes;
   notices_.tell("store",
                 fmt::format("the clock of this machine has moved by {:.3g} h since the start: old "
                             "readings are removed (store.keep) after a restart",
@@ -150,6 +150,7 @@ void Retention::begin(const Fleet& fleet) {
     if (ended_parts(*events, before_ms_) > 0) waiting_.push_back(unit);
   }
   counts_ = {};
+  next_ = Clock::now() + between_passes;
   running_ = true;
 }
 
