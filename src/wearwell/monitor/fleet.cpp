@@ -152,12 +152,6 @@ void Fleet::take_events() {
   }
 }
 
-void Fleet::rebuild(const std::string& unit) {
-  Unit& removed = unit_named(unit);
-  const std::lock_guard lock(removed.moving);
-  removed.lost = any_lost_ = true;
-}
-
 void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
   std::int64_t received_ms = 0;
   const auto take_one = [&](const StoredReading& each) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/monitor/fleet_unit.h"
 #include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
@@ -214,6 +215,12 @@ void Retention::finish() {
               ? fmt::format("{} alarm{} or moved forecast{}", counts_.forecasts,
                             counts_.forecasts == 1 ? "" : "s", counts_.forecasts == 1 ? "" : "s")
               : ""));
+}
+
+void Fleet::rebuild(const std::string& unit) {
+  Unit& removed = unit_named(unit);
+  const std::lock_guard lock(removed.moving);
+  removed.lost = any_lost_ = true;
 }
 
 }  // namespace wearwell::monitor
