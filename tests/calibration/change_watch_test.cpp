@@ -149,8 +149,7 @@ void print(const char* name, bool may_change, FleetCounts& counts) {
   std::fflush(stdout);
 }
 
-// The same units for a rate that is fixed and for one that may change.
-TEST(ChangeWatch, OfFleetsThatChange) {
+void compare_fleets(bool may_change) {
   const int units = fleet_size();
   std::printf(
       "| fleet | rate in the study | units that changed | doubted before, %% | found, %% | delay, "
@@ -161,22 +160,29 @@ TEST(ChangeWatch, OfFleetsThatChange) {
   std::uint64_t first = 0;
   for (const Change& change : changes()) {
     first += 1000;
-    for (const bool may_change : {false, true}) {
-      FleetCounts counts = fleet_of(change, may_change, guides, first);
-      print(change.name, may_change, counts);
-      EXPECT_GE(counts.units, units);
-      // One in 1,000, and three standard errors.
-      const double expected = 0.001 * counts.units;
-      EXPECT_LE(counts.doubted_before, expected + 3 * std::sqrt(expected) + 1) << change.name;
-      if (change.named[0] == 0) {
-        // Units whose rate does not change live within intervals that allow for it.
-        EXPECT_NEAR(counts.before.percent(), may_change ? 94 : 90, may_change ? 6 : 4);
-      }
-      if (may_change && std::string(change.name).ends_with(" times")) {
-        EXPECT_GT(counts.after.percent(), 60) << change.name;
-      }
+    FleetCounts counts = fleet_of(change, may_change, guides, first);
+    print(change.name, may_change, counts);
+    EXPECT_GE(counts.units, units);
+    // One in 1,000, and three standard errors.
+    const double expected = 0.001 * counts.units;
+    EXPECT_LE(counts.doubted_before, expected + 3 * std::sqrt(expected) + 1) << change.name;
+    if (change.named[0] == 0) {
+      // Units whose rate does not change live within intervals that allow for it.
+      EXPECT_NEAR(counts.before.percent(), may_change ? 94 : 90, may_change ? 6 : 4);
+    }
+    if (may_change && std::string(change.name).ends_with(" times")) {
+      EXPECT_GT(counts.after.percent(), 60) << change.name;
     }
   }
+}
+
+TEST(ChangeWatch, OfFleetsThatChange) {
+  compare_fleets(false);
+}
+
+// The same units in a study with predict.rate_change.
+TEST(ChangeWatch, OfFleetsWhoseRateMayChange) {
+  compare_fleets(true);
 }
 
 }  // namespace

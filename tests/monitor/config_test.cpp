@@ -47,9 +47,19 @@ silence = "1 d"
   GrowthTracker tracker_;
 };
 
+TEST_F(Configs, KeepReadingsForATime) {
+  std::string text = good;
+  text.replace(text.find("[alarm]"), 7, "[store]\nkeep = \"5 years\"\n[alarm]");
+  const MonitorConfig config = read(text);
+  ASSERT_TRUE(config.keep_s);
+  EXPECT_NEAR(*config.keep_s / 86400, 5 * 365.25, 0.1);
+  EXPECT_EQ(config.store, "fleet.sqlite");
+}
+
 TEST_F(Configs, Whole) {
   const MonitorConfig config = read(good);
   EXPECT_EQ(config.store, "fleet.sqlite");
+  EXPECT_FALSE(config.keep_s);
   EXPECT_EQ(config.alarm.horizon, 7200);
   EXPECT_EQ(config.alarm.watch, 0.1);
   EXPECT_EQ(config.alarm.act, 0.2);
@@ -156,6 +166,10 @@ TEST_F(Configs, Refused) {
               HasSubstr("is not HOST:PORT"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
               HasSubstr("neither a file nor postgresql"));
+  EXPECT_THAT(refusal("[alarm]", "[store]\nkeep = \"5 min\"\n[alarm]"),
+              HasSubstr("store.keep: must lie between 1 d and 1000 years"));
+  EXPECT_THAT(refusal("[alarm]", "[store]\nkeep = \"5 um\"\n[alarm]"), HasSubstr("store.keep"));
+  EXPECT_THAT(refusal("[alarm]", "[store]\nkeep = 5\n[alarm]"), HasSubstr("store.keep"));
   for (const char* host : {"127.alarms.example:80", "126.0.0.1:80", "[::2]:80"})
     EXPECT_THAT(refusal("[alarm]", std::string("[http]\nlisten = \"") + host + "\"\n[alarm]"),
                 HasSubstr("set a token"));

@@ -493,6 +493,16 @@ class FailingStore : public Store {
     store_->log(changes);
   }
   std::vector<AlarmChange> alarms() override { return store_->alarms(); }
+  bool remove(const Removal& removal) override {
+    if (adds == Fails::before) throw StoreError("the disk is full");
+    const bool removed = store_->remove(removal);
+    if (adds == Fails::after) throw StoreError("the connection was lost");
+    return removed;
+  }
+  std::map<std::string, RemovedReadings> removed() override { return store_->removed(); }
+  std::uint64_t remove_forecasts(std::int64_t before_ms) override {
+    return store_->remove_forecasts(before_ms);
+  }
   void note_file(const std::string& file, std::int64_t bytes) override {
     store_->note_file(file, bytes);
   }

@@ -74,6 +74,32 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
 }
 
 // `decide` takes the units as the store has them, beside the monitor and without it: the same lives as the monitor tells.
+// Each problem is a message of its own, with its place in the file.
+TEST_F(Programs, CheckReportsEachProblem) {
+  const auto config = configure("a", folder_source);
+  const std::string good = content(config);
+  const auto check = [&](const std::string& text) {
+    write("a/fleet.toml", text);
+    return run_wearwell("monitor '" + config.string() + "' --check");
+  };
+  EXPECT_EQ(check(good).exit_code, 0);
+  EXPECT_EQ(check(good).out.find("removed"), std::string::npos);
+  std::string keeps = good;
+  keeps.replace(keeps.find("[store]"), 7, "[store]\nkeep = \"100 d\"");
+  EXPECT_THAT(
+      check(keeps).out,
+      HasSubstr("readings of parts that have been out of service for 100 days are removed"));
+  std::string wrong = good;
+  wrong.replace(wrong.find("horizon"), 7, "horizont");
+  wrong.replace(wrong.find("[store]"), 7, "[store]\nkeep = \"5 min\"");
+  const CommandResult run = check(wrong);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("wearwell: " + config.string() + ":3:"));
+  EXPECT_THAT(run.err, HasSubstr("store.keep: must lie between 1 d and 1000 years\n    keep = "));
+  EXPECT_THAT(run.err, HasSubstr("\nwearwell: " + config.string()));
+  EXPECT_THAT(run.err, HasSubstr("alarm.horizon: is missing"));
+}
+
 TEST_F(Programs, BeginWithACommentedConfiguration) {
   const std::string folder_name = (folder() / "new").string();
   const std::string make = "new monitor '" + folder_name + "' --from '" + result() + "'";

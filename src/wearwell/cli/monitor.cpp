@@ -19,6 +19,7 @@
 #include "wearwell/monitor/fleet_text.h"
 #include "wearwell/monitor/monitor_run.h"
 #include "wearwell/monitor/monitor_signals.h"
+#include "wearwell/monitor/retention.h"
 
 namespace wearwell {
 namespace {
@@ -40,7 +41,14 @@ void export_readings(const MonitoredFleet& read, const MonitorCommand& command) 
   write_file(command.exported, ending == ".csv"
                                    ? monitor::readings_as_csv(*store, *read.tracker, count)
                                    : monitor::readings_as_parquet(*store, *read.tracker, count));
-  if (!command.quiet) fmt::print("{} readings are in {}\n", count, command.exported.string());
+  if (command.quiet) return;
+  fmt::print("{} readings are in {}\n", count, command.exported.string());
+  const std::size_t units = store->removed().size();
+  if (units > 0)
+    fmt::print(
+        "of {} unit{} parts that have long been out of service have their last reading alone "
+        "(store.keep)\n",
+        units, units == 1 ? "" : "s");
 }
 
 void export_lives(const MonitoredFleet& read, const MonitorCommand& command) {
@@ -105,6 +113,28 @@ void check_files(const MonitoredFleet& read) {
                       monitor::Access::copy);
 }
 
+/// What store.keep means for the store that is there; empty without it.
+std::string retention_text(const MonitoredFleet& read) {
+  if (!read.config.keep_s) return {};
+  constexpr double day = 86400;
+  const std::string rule = fmt::format(
+      "readings of parts that have been out of service for {:.6g} days are removed, and forecasts "
+      "as old",
+      *read.config.keep_s / day);
+  const std::string& url = read.config.store;
+  std::error_code ignored;
+  if (monitor::is_postgres(url) || !std::filesystem::exists(read.config.folder / url, ignored))
+    return rule + "\n";
+  try {
+    const auto store = store_to_read(read);
+    const std::string now =
+        monitor::removed_text(monitor::count_old(*store, *read.tracker, *read.config.keep_s));
+    return fmt::format("{}: now {}\n", rule, now.empty() ? "no readings" : now);
+  } catch (const InputError&) {  // an earlier version, which knows of no removal
+    return fmt::format("{}; the store is upgraded first\n", rule);
+  }
+}
+
 bool runs(const MonitorCommand& command) {
   return !command.check && command.exported.empty() && command.exported_lives.empty() &&
          command.backup.empty();
@@ -125,6 +155,7 @@ void run(const MonitorCommand& command, Models models) {
     if (command.quiet) return;
     fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,
                sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
+    fmt::print("{}", retention_text(read));
   } else if (!runs(command)) {
     try {
       if (!command.backup.empty()) back_up(read, command);

@@ -66,6 +66,7 @@ result = {2}  # what wearwell fit has written
 
 [store]
 url = "fleet.sqlite"  # readings, states, events; or postgresql://USER@HOST/DATABASE
+# keep = "5 years"    # then readings of parts that are out of service for so long are removed
 
 # The fields of a message: a JSON object, or a line of CSV with a heading.
 [reading]

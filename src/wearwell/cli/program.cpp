@@ -18,6 +18,7 @@
 
 #include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/input_errors.h"
 #include "wearwell/base/shown.h"
 #include "wearwell/cli/app.h"
 #include "wearwell/cli/command_line.h"
@@ -61,6 +62,9 @@ int run(int argc, char** argv, Models models, int& output_error) {
     return app->exit(help);
   } catch (const CLI::ParseError& error) {
     return complain(said_of(*app, error), bad_request);
+  } catch (const InputErrors& errors) {
+    for (const std::string& each : errors.all) complain(each, bad_request);
+    return bad_request;
   } catch (const InputError& error) {
     return complain(error.what(), bad_request);
   } catch (const MachineError& error) {

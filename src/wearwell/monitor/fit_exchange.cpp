@@ -33,6 +33,12 @@ std::optional<FitExchange::Ready> FitExchange::ready() {
   return std::exchange(ready_, std::nullopt);
 }
 
+std::unique_lock<std::mutex> FitExchange::hold() {
+  std::unique_lock building(building_, std::try_to_lock);
+  const std::lock_guard lock(lock_);
+  return building && !ready_ ? std::move(building) : std::unique_lock<std::mutex>();
+}
+
 void FitExchange::watch(const std::stop_token& stop) {
   constexpr auto between = std::chrono::milliseconds(500);
   // Another one may have come between the start and the first look.
@@ -91,6 +97,7 @@ void FitExchange::look(bool asked, const std::stop_token& stop) {
                                           source_.folder.string(), now.fingerprint.substr(0, 7)));
     return;
   }
+  const std::lock_guard building(building_);
   std::shared_ptr<Fleet> fleet;
   // Until the store can be read.
   for (auto wait = std::chrono::milliseconds(200);;

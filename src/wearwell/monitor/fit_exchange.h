@@ -36,6 +36,9 @@ class FitExchange {
   void request() { requested_ = true; }
   /// The fleet that is ready to take the place of the running one, once.
   std::optional<Ready> ready();
+  /// Holds back the next fleet while it lives, so that no fleet is built from readings that are
+  /// being removed; empty while one is built, or waits.
+  std::unique_lock<std::mutex> hold();
 
  private:
   void watch(const std::stop_token& stop);
@@ -53,7 +56,7 @@ class FitExchange {
   Population present_;  ///< or the one that is ready; of the thread
   ResultWatch watch_;
   std::atomic<bool> requested_ = false;
-  std::mutex lock_;
+  std::mutex lock_, building_;
   std::optional<Ready> ready_;
   std::jthread thread_;
 };

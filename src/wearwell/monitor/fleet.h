@@ -67,6 +67,10 @@ class Fleet : public FleetReader {
   void save();
   std::int64_t place() const { return place_; }
   std::int64_t last_event() const { return last_event_; }
+  /// Of all units that have events, as far as they are processed.
+  const EventsOfUnits& events() const { return events_; }
+  /// Readings of this unit are removed: its state follows from those that are left.
+  void rebuild(const std::string& unit);
   FleetSettings::Start start() const { return {started_ms_, stored_before_}; }
   /// The present alarms of the units follow those of `before`, the fleet that readers see now, as if
   /// it had gone on; what that has not stored yet is stored by this one. To be called before readers see this one.

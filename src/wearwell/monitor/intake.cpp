@@ -13,6 +13,17 @@
 
 namespace wearwell::monitor {
 
+namespace {
+
+std::string too_old_text(const std::string& unit, const std::string& what) {
+  return fmt::format(
+      "unit '{}': {} of a part whose readings were removed, out of service for longer than "
+      "store.keep",
+      unit, what);
+}
+
+}  // namespace
+
 Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages,
                          const std::string& no_events) {
   Batch batch;
@@ -57,6 +68,8 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
     } else if (batch.kept[i] == Kept::repeated) {
       ++delivery.repeated;
       tally_.repeated(each.unit);
+    } else if (batch.kept[i] == Kept::too_old) {
+      refuse(source, {each.unit, too_old_text(each.unit, "a reading")}, delivery);
     } else {
       const bool sequence = !source.mapping.sequence.empty();
       const std::string which =
@@ -68,8 +81,9 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
              delivery);
     }
   }
-  for (std::size_t i = 0; i < batch.kept_events.size(); ++i)
-    ++(batch.kept_events[i] == Kept::stored ? delivery.events : delivery.repeated);
+  for (const Kept each : batch.kept_events) {
+    if (each != Kept::too_old) ++(each == Kept::stored ? delivery.events : delivery.repeated);
+  }
   if (delivery.problem.empty()) delivery.problem = batch.remark;
   return delivery;
 }
@@ -188,8 +202,11 @@ void Intake::commit_events(Batch& batch) {
       }
     }
     batch.kept_events = store_.add_events(events);
-    for (std::size_t i = 0; i < events.size() && batch.remark.empty(); ++i) {
-      if (batch.kept_events[i] == Kept::repeated) batch.remark = not_in_force(events[i]);
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const Kept kept = batch.kept_events[i];
+      if (kept == Kept::too_old)
+        refusals.push_back({events[i].unit, too_old_text(events[i].unit, "an event")});
+      if (kept == Kept::repeated && batch.remark.empty()) batch.remark = not_in_force(events[i]);
     }
     batch.refusals.insert(batch.refusals.end(), refusals.begin(), refusals.end());
     stored_();

@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/input_errors.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/monitor/foreign_message.h"
@@ -48,7 +49,7 @@ class Problems {
   }
   bool empty() const { return all_.empty(); }
   void finish() const {
-    if (!all_.empty()) throw InputError(fmt::format("{}", fmt::join(all_, "\n")));
+    if (!all_.empty()) throw InputErrors(all_);
   }
 
  private:
@@ -458,6 +459,16 @@ PublishSettings read_publish(const TomlReader& table) {
   return publish;
 }
 
+/// What is removed cannot be had back, so a short time is a mistake.
+std::optional<double> read_keep(const TomlReader& store) {
+  const auto keep = store.quantity("keep", "s");
+  if (!keep) return {};
+  constexpr double day = 86400, year = 365.25 * day;
+  if (!(keep->si() >= day && keep->si() <= 1000 * year))
+    store.fail("keep", "must lie between 1 d and 1000 years");
+  return keep->si();
+}
+
 /// The keys of the file itself, where `finish` would also see those behind a problem.
 void refuse_unknown_tables(const TomlReader& root) {
   const std::vector<std::string> known = {"result", "title", "store",   "reading", "source",
@@ -483,7 +494,10 @@ MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Track
   Problems problems;
   problems.in([&] { config.title = root.text("title").value_or(""); });
   problems.in_table(root, "store", [&] {
-    if (const auto store = root.table("store")) config.store = store->text("url").value_or("");
+    if (const auto store = root.table("store")) {
+      config.store = store->text("url").value_or("");
+      config.keep_s = read_keep(*store);
+    }
     if (config.store.empty()) config.store = "fleet.sqlite";
     if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
       root.required_table("store").fail("url", "is neither a file nor postgresql://...");

@@ -55,6 +55,8 @@ struct MonitorConfig {
   std::string title;
   std::filesystem::path folder;  ///< folder of the file, to which paths in it are relative
   std::string store;             ///< file or URL
+  /// How long readings of parts out of service and earlier forecasts are kept, s; empty: for ever.
+  std::optional<double> keep_s = {};
   std::vector<SourceSettings> sources;
   AlarmSettings alarm;
   std::optional<HttpSettings> http;

@@ -19,6 +19,7 @@
 #include "wearwell/monitor/learned_readings.h"
 #include "wearwell/monitor/monitor_signals.h"
 #include "wearwell/monitor/publisher.h"
+#include "wearwell/monitor/retention.h"
 #include "wearwell/monitor/source.h"
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/webhook.h"
@@ -258,7 +259,8 @@ void RunningFleet::exchange(const FitExchange::Ready& ready) {
 /// Keeps a fleet up to date with its store.
 class Follower {
  public:
-  Follower(RunningFleet& running, Notices& notices) : running_(running), notices_(notices) {}
+  Follower(RunningFleet& running, Retention& retention, Notices& notices)
+      : running_(running), retention_(retention), notices_(notices) {}
 
   /// One round; false if there is nothing to do now.
   bool round() {
@@ -280,6 +282,16 @@ class Follower {
     if (auto ready = exchange.ready()) next_ = std::move(ready);
     if (!next_) return;
     if (guarded([&] { running_.exchange(*next_); })) next_.reset();
+  }
+
+  /// Removes a piece of what need not be kept; false if there is nothing to do now. No fleet of
+  /// another fit may be under way.
+  bool remove_old(FitExchange* exchange) {
+    std::unique_lock<std::mutex> held;
+    if (exchange) held = exchange->hold();
+    if (exchange && (!held || next_)) return false;
+    bool busy = false;
+    return guarded([&] { busy = retention_.round(running_.fleet()); }) && busy;
   }
 
   /// Processes all readings and then saves the states: with retries for a while, should the store
@@ -312,6 +324,7 @@ class Follower {
   }
 
   RunningFleet& running_;
+  Retention& retention_;
   Notices& notices_;
   std::optional<FitExchange::Ready> next_;
   Clock::time_point saved_ = Clock::now();
@@ -388,7 +401,8 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   const Outlets outlets(config, options, running, intake, *population.tracker, *store, notices);
   started(running.readers(), outlets.address());
   Sources sources(config, options.once, intake, *store, notices, wake);
-  Follower follower(running, notices);
+  Retention retention(config.keep_s, *store, *population.tracker, notices);
+  Follower follower(running, retention, notices);
   std::optional<FitExchange> exchange;
   if (!options.once)
     exchange.emplace(
@@ -402,7 +416,8 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
       if (signals.reload()) exchange->request();
       follower.take(*exchange);
     }
-    if (!follower.round()) {
+    const bool removes = !options.once && follower.remove_old(exchange ? &*exchange : nullptr);
+    if (!follower.round() && !removes) {
       if (over) break;
       wake.wait(patience);
     }
@@ -410,6 +425,11 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   exchange.reset();
   sources.stop();
   follower.finish();
+  if (options.once && config.keep_s) {
+    while (!signals.ends() && follower.remove_old(nullptr)) {
+    }
+    follower.finish();
+  }
   ended(running.readers());
 }
 

@@ -43,11 +43,15 @@ constexpr const char* fit_tables = R"(
   CREATE TABLE wearwell_moved (fit bigint NOT NULL, unit text NOT NULL, content text NOT NULL, PRIMARY KEY (fit, unit));
   CREATE TABLE wearwell_sent (unit text PRIMARY KEY, alarm text NOT NULL, time_ms bigint NOT NULL))";
 
+constexpr const char* removed_table = R"(
+  CREATE TABLE wearwell_removed (
+    unit text PRIMARY KEY, before_key bigint NOT NULL, readings bigint NOT NULL, done boolean NOT NULL))";
+
 // Migrations from each version to the next, from 1 on. Never change an existing step: stores of its
 // version exist.
 constexpr const char* steps[] = {
     "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0", event_table,
-    fit_tables};
+    fit_tables, removed_table};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -76,6 +80,14 @@ std::vector<UnitEvent> events_in(const pqxx::result& rows) {
     events.push_back(std::move(event));
   }
   return events;
+}
+
+std::map<std::string, RemovedReadings> removed_in(pqxx::work& work) {
+  std::map<std::string, RemovedReadings> removed;
+  for (const auto& row : work.exec("SELECT unit, before_key, readings, done FROM wearwell_removed"))
+    removed[row[0].c_str()] = {row[1].as<std::int64_t>(), row[2].as<std::uint64_t>(),
+                               row[3].as<bool>()};
+  return removed;
 }
 
 std::string value_of(pqxx::work& work, const char* name) {
@@ -115,10 +127,15 @@ class PostgresStore : public Store {
   std::vector<MovedForecast> moved(std::int64_t fit) override;
   std::map<std::string, SentAlarm> sent_alarms() override;
   void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override;
+  bool remove(const Removal& removal) override;
+  std::map<std::string, RemovedReadings> removed() override;
+  std::uint64_t remove_forecasts(std::int64_t before_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
  private:
+  const std::map<std::string, RemovedReadings>& known_removed(pqxx::work& work);
+  bool is_too_old(pqxx::work& work, const UnitEvent& event);
   void begin_writing(pqxx::connection& connection);
   void migrate(int from);
   void add_piece(pqxx::work& work, std::span<const StoredReading> readings,
@@ -128,6 +145,7 @@ class PostgresStore : public Store {
   const std::string name_;
   bool in_use_ = false;    ///< by another, when the writer last connected
   std::int64_t next_ = 0;  ///< place; of the writer's connection
+  std::optional<std::map<std::string, RemovedReadings>> removed_;  ///< of the writer's connection
   PostgresSession write_, read_;
 };
 
@@ -145,6 +163,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
       work.exec(tables);
       work.exec(event_table);
       work.exec(fit_tables);
+      work.exec(removed_table);
       put(work, "version", fmt::format("{}", store_version));
       put(work, "numbers", json_of(columns.numbers));
       put(work, "labels", json_of(columns.labels));
@@ -187,6 +206,7 @@ void PostgresStore::begin_writing(pqxx::connection& connection) {
   in_use_ = !work.exec1(fmt::format("SELECT pg_try_advisory_lock({})", writer_lock))[0].as<bool>();
   if (in_use_) throw StoreError(fmt::format("{} is in use by another wearwell monitor", name_));
   next_ = 0;  // to be looked up
+  removed_.reset();
 }
 
 std::vector<Kept> PostgresStore::add(const std::vector<StoredReading>& readings) {
@@ -206,19 +226,30 @@ std::vector<Kept> PostgresStore::add(const std::vector<StoredReading>& readings)
 
 void PostgresStore::add_piece(pqxx::work& work, std::span<const StoredReading> readings,
                               std::vector<Kept>& kept) {
+  const auto& removed = known_removed(work);
+  const auto is_old = [&](const StoredReading& each) {
+    const auto found = removed.find(each.unit);
+    return found != removed.end() && each.key < found->second.before_key;
+  };
   std::string values;
+  const std::size_t first = kept.size();
+  kept.resize(first + readings.size(), Kept::repeated);
   for (const StoredReading& each : readings) {
+    if (is_old(each)) {
+      kept[first + static_cast<std::size_t>(&each - readings.data())] = Kept::too_old;
+      continue;
+    }
     values += fmt::format("{}({},{},{},{},{},{},{})", values.empty() ? "" : ",",
                           next_ + static_cast<std::int64_t>(&each - readings.data()),
                           work.quote(each.unit), each.key, each.time_ms, each.received_ms,
                           work.quote(json_of(each.numbers)), work.quote(json_of(each.labels)));
   }
-  const pqxx::result stored = work.exec(
-      fmt::format("INSERT INTO wearwell_reading VALUES {} ON CONFLICT (unit, key) DO NOTHING "
-                  "RETURNING place",
-                  values));
-  const std::size_t first = kept.size();
-  kept.resize(first + readings.size(), Kept::repeated);
+  pqxx::result stored;
+  if (!values.empty())
+    stored = work.exec(
+        fmt::format("INSERT INTO wearwell_reading VALUES {} ON CONFLICT (unit, key) DO NOTHING "
+                    "RETURNING place",
+                    values));
   for (const auto& row : stored)
     kept[first + static_cast<std::size_t>(row[0].as<std::int64_t>() - next_)] = Kept::stored;
   next_ += static_cast<std::int64_t>(readings.size());
@@ -241,9 +272,11 @@ void PostgresStore::compare(pqxx::work& work, std::span<const StoredReading> rea
     there[{row[0].c_str(), row[1].as<std::int64_t>()}] = row[2].c_str();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const StoredReading& each = readings[i];
-    if (kept[i] != Kept::stored &&
-        there[{each.unit, each.key}] != json_of(each.numbers) + json_of(each.labels))
-      kept[i] = Kept::contradicts;
+    if (kept[i] == Kept::stored) continue;
+    const auto found = there.find({each.unit, each.key});
+    if (found == there.end()) continue;  // too old
+    kept[i] = found->second == json_of(each.numbers) + json_of(each.labels) ? Kept::repeated
+                                                                            : Kept::contradicts;
   }
 }
 
@@ -289,6 +322,10 @@ std::vector<Kept> PostgresStore::add_events(const std::vector<UnitEvent>& events
   write_.run([&](pqxx::work& work) {
     kept.clear();
     for (const UnitEvent& each : events) {
+      if (is_too_old(work, each)) {
+        kept.push_back(Kept::too_old);
+        continue;
+      }
       const pqxx::result stored = work.exec_params(
           "INSERT INTO wearwell_event (unit, event, key, received_ms, author, note, content, "
           "identity) VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT DO NOTHING RETURNING "
@@ -299,6 +336,81 @@ std::vector<Kept> PostgresStore::add_events(const std::vector<UnitEvent>& events
     }
   });
   return kept;
+}
+
+const std::map<std::string, RemovedReadings>& PostgresStore::known_removed(pqxx::work& work) {
+  if (!removed_) removed_ = removed_in(work);
+  return *removed_;
+}
+
+// An event that is there already is a repeat, whatever was removed since.
+bool PostgresStore::is_too_old(pqxx::work& work, const UnitEvent& event) {
+  const auto& removed = known_removed(work);
+  const auto found = removed.find(event.unit);
+  if (found == removed.end()) return false;
+  if (!work.exec_params("SELECT 1 FROM wearwell_event WHERE identity = $1", identity_of(event))
+           .empty())
+    return false;
+  std::optional<UnitEvent> cancelled;
+  if (event.kind == EventKind::cancelled) {
+    const std::vector<UnitEvent> others = events_in(work.exec_params(
+        "SELECT number, unit, event, key, received_ms, author, note, content FROM wearwell_event "
+        "WHERE number = $1 AND unit = $2",
+        event.cancels, event.unit));
+    if (!others.empty()) cancelled = others.front();
+  }
+  return is_among_removed(event, cancelled, found->second.before_key);
+}
+
+bool PostgresStore::remove(const Removal& removal) {
+  bool is_present = false;
+  write_.run([&](pqxx::work& work) {
+    // Events of this unit wait until this is done: they are written by this connection alone.
+    is_present =
+        work.exec_params1("SELECT coalesce(max(number), 0) FROM wearwell_event WHERE unit = $1",
+                          removal.unit)[0]
+            .as<std::int64_t>() == removal.last_event;
+    if (!is_present) return;
+    const auto& removed = known_removed(work);
+    const auto found = removed.find(removal.unit);
+    RemovedReadings now = found == removed.end() ? RemovedReadings() : found->second;
+    if (!removal.places.empty())
+      now.count += work.exec(fmt::format("DELETE FROM wearwell_reading WHERE place IN ({}) AND "
+                                         "place < (SELECT max(place) FROM wearwell_reading)",
+                                         fmt::join(removal.places, ",")))
+                       .affected_rows();
+    now.before_key = removal.before_key;
+    now.done = removal.done;
+    work.exec_params(
+        "INSERT INTO wearwell_removed VALUES ($1, $2, $3, $4) ON CONFLICT (unit) DO UPDATE SET "
+        "before_key = excluded.before_key, readings = excluded.readings, done = excluded.done",
+        removal.unit, now.before_key, static_cast<std::int64_t>(now.count), now.done);
+    if (removal.drops_state)
+      work.exec_params("DELETE FROM wearwell_state WHERE unit = $1", removal.unit);
+    (*removed_)[removal.unit] = now;  // looked up again if the transaction fails
+  });
+  return is_present;
+}
+
+std::map<std::string, RemovedReadings> PostgresStore::removed() {
+  std::map<std::string, RemovedReadings> removed;
+  read_.run([&](pqxx::work& work) { removed = removed_in(work); });
+  return removed;
+}
+
+std::uint64_t PostgresStore::remove_forecasts(std::int64_t before_ms) {
+  std::uint64_t count = 0;
+  write_.run([&](pqxx::work& work) {
+    count = 0;
+    for (const char* sql :
+         {"DELETE FROM wearwell_alarm WHERE time_ms < $1 AND number NOT IN (SELECT max(number) "
+          "FROM "
+          "wearwell_alarm GROUP BY unit)",
+          "DELETE FROM wearwell_moved WHERE fit IN (SELECT number FROM wearwell_fit WHERE since_ms "
+          "< $1 AND number < (SELECT max(number) FROM wearwell_fit))"})
+      count += work.exec_params(sql, before_ms).affected_rows();
+  });
+  return count;
 }
 
 std::vector<UnitEvent> PostgresStore::events_after(std::int64_t number) {

@@ -40,9 +40,13 @@ constexpr const char* fit_tables = R"(
   CREATE TABLE moved (fit INTEGER NOT NULL, unit TEXT NOT NULL, content TEXT NOT NULL, PRIMARY KEY (fit, unit)) WITHOUT ROWID;
   CREATE TABLE sent (unit TEXT PRIMARY KEY, alarm TEXT NOT NULL, time_ms INTEGER NOT NULL) WITHOUT ROWID;)";
 
+constexpr const char* removed_table = R"(
+  CREATE TABLE removed (
+    unit TEXT PRIMARY KEY, before_key INTEGER NOT NULL, readings INTEGER NOT NULL, done INTEGER NOT NULL) WITHOUT ROWID;)";
+
 // Migrations from each version to the next. Never change an existing step: stores of it exist.
 constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
-                                 event_table, fit_tables};
+                                 event_table, fit_tables, removed_table};
 static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
@@ -93,10 +97,14 @@ class SqliteStore : public Store {
   std::vector<MovedForecast> moved(std::int64_t fit) override;
   std::map<std::string, SentAlarm> sent_alarms() override;
   void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) override;
+  bool remove(const Removal& removal) override;
+  std::map<std::string, RemovedReadings> removed() override;
+  std::uint64_t remove_forecasts(std::int64_t before_ms) override;
   void note_file(const std::string& file, std::int64_t bytes) override;
   std::map<std::string, std::int64_t> files() override;
 
  private:
+  bool is_too_old(const UnitEvent& event, const std::string& identity);
   void begin_tables(const StoreColumns& columns);
   int check(const StoreColumns& columns, Access access);
   void migrate(int from);
@@ -109,6 +117,7 @@ class SqliteStore : public Store {
   std::mutex write_lock_, read_lock_;
   SqliteSession write_, read_;
   std::unique_ptr<SqliteStatement> insert_, existing_, of_unit_;
+  std::map<std::string, RemovedReadings> removed_;  // of a writer
 };
 
 /// A writing monitor is the only writer; a reader must find a store.
@@ -156,6 +165,7 @@ SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& 
       fmt::format(
           "SELECT {} FROM reading WHERE unit = ? AND place > ? AND place <= ? ORDER BY place",
           reading_columns));
+  if (access == Access::write) removed_ = removed();
 }
 
 void SqliteStore::begin_tables(const StoreColumns& columns) {
@@ -163,6 +173,7 @@ void SqliteStore::begin_tables(const StoreColumns& columns) {
   write_.run(tables);
   write_.run(event_table);
   write_.run(fit_tables);
+  write_.run(removed_table);
   put("version", fmt::format("{}", store_version));
   put("numbers", json_of(columns.numbers));
   put("labels", json_of(columns.labels));
@@ -209,6 +220,16 @@ std::vector<Kept> SqliteStore::add(const std::vector<StoredReading>& readings) {
   SqliteTransaction transaction(write_);
   for (const StoredReading& each : readings) {
     const std::string numbers = json_of(each.numbers), labels = json_of(each.labels);
+    const auto removed = removed_.find(each.unit);
+    if (removed != removed_.end() && each.key < removed->second.before_key) {
+      existing_->bind(1, std::string_view(each.unit)).bind(2, each.key);
+      kept.push_back(!existing_->next() ? Kept::too_old
+                     : existing_->text(0) == numbers && existing_->text(1) == labels
+                         ? Kept::repeated
+                         : Kept::contradicts);
+      existing_->reset();
+      continue;
+    }
     insert_->bind(1, std::string_view(each.unit)).bind(2, each.key).bind(3, each.time_ms);
     insert_->bind(4, each.received_ms).bind(5, std::string_view(numbers));
     insert_->bind(6, std::string_view(labels)).run();
@@ -267,6 +288,10 @@ std::vector<Kept> SqliteStore::add_events(const std::vector<UnitEvent>& events) 
                          "identity) VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   for (const UnitEvent& each : events) {
     const std::string content = content_of(each), identity = identity_of(each);
+    if (is_too_old(each, identity)) {
+      kept.push_back(Kept::too_old);
+      continue;
+    }
     insert.bind(1, std::string_view(each.unit)).bind(2, std::string_view(name(each.kind)));
     insert.bind(3, each.key).bind(4, each.received_ms).bind(5, std::string_view(each.author));
     insert.bind(6, std::string_view(each.note)).bind(7, std::string_view(content));
@@ -275,6 +300,79 @@ std::vector<Kept> SqliteStore::add_events(const std::vector<UnitEvent>& events) 
   }
   transaction.commit();
   return kept;
+}
+
+// An event that is there already is a repeat, whatever was removed since.
+bool SqliteStore::is_too_old(const UnitEvent& event, const std::string& identity) {
+  const auto removed = removed_.find(event.unit);
+  if (removed == removed_.end()) return false;
+  SqliteStatement same(write_, "SELECT 1 FROM event WHERE identity = ?");
+  if (same.bind(1, std::string_view(identity)).next()) return false;
+  std::optional<UnitEvent> cancelled;
+  if (event.kind == EventKind::cancelled) {
+    SqliteStatement select(
+        write_, fmt::format("SELECT {} FROM event WHERE number = ? AND unit = ?", event_columns));
+    select.bind(1, event.cancels).bind(2, std::string_view(event.unit));
+    const std::vector<UnitEvent> found = events_in(select);
+    if (!found.empty()) cancelled = found.front();
+  }
+  return is_among_removed(event, cancelled, removed->second.before_key);
+}
+
+bool SqliteStore::remove(const Removal& removal) {
+  const std::lock_guard lock(write_lock_);
+  SqliteTransaction transaction(write_);
+  SqliteStatement last(write_, "SELECT coalesce(max(number), 0) FROM event WHERE unit = ?");
+  last.bind(1, std::string_view(removal.unit)).next();
+  if (last.integer(0) != removal.last_event) return false;
+  last.reset();
+  const auto before = removed_.find(removal.unit);
+  RemovedReadings now = before == removed_.end() ? RemovedReadings() : before->second;
+  SqliteStatement erase(
+      write_, "DELETE FROM reading WHERE place = ? AND place < (SELECT max(place) FROM reading)");
+  for (const std::int64_t each : removal.places) {
+    erase.bind(1, each).run();
+    now.count += static_cast<std::uint64_t>(write_.changes());
+  }
+  now.before_key = removal.before_key;
+  now.done = removal.done;
+  SqliteStatement note(write_, "INSERT OR REPLACE INTO removed VALUES (?, ?, ?, ?)");
+  note.bind(1, std::string_view(removal.unit)).bind(2, now.before_key);
+  note.bind(3, static_cast<std::int64_t>(now.count)).bind(4, std::int64_t{now.done}).run();
+  if (removal.drops_state) {
+    SqliteStatement drop(write_, "DELETE FROM state WHERE unit = ?");
+    drop.bind(1, std::string_view(removal.unit)).run();
+  }
+  transaction.commit();
+  removed_[removal.unit] = now;
+  return true;
+}
+
+std::map<std::string, RemovedReadings> SqliteStore::removed() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT unit, before_key, readings, done FROM removed");
+  std::map<std::string, RemovedReadings> removed;
+  while (select.next())
+    removed[select.text(0)] = {select.integer(1), static_cast<std::uint64_t>(select.integer(2)),
+                               select.integer(3) != 0};
+  return removed;
+}
+
+std::uint64_t SqliteStore::remove_forecasts(std::int64_t before_ms) {
+  const std::lock_guard lock(write_lock_);
+  SqliteTransaction transaction(write_);
+  std::uint64_t count = 0;
+  for (const char* sql :
+       {"DELETE FROM alarm WHERE time_ms < ? AND number NOT IN (SELECT max(number) FROM alarm "
+        "GROUP "
+        "BY unit)",
+        "DELETE FROM moved WHERE fit IN (SELECT number FROM fit WHERE since_ms < ? AND number < "
+        "(SELECT max(number) FROM fit))"}) {
+    SqliteStatement(write_, sql).bind(1, before_ms).run();
+    count += static_cast<std::uint64_t>(write_.changes());
+  }
+  transaction.commit();
+  return count;
 }
 
 std::vector<UnitEvent> SqliteStore::events_after(std::int64_t number) {

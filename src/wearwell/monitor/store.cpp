@@ -84,6 +84,13 @@ std::string migrated_text(const std::string& name, int from) {
                      store_version);
 }
 
+bool is_among_removed(const UnitEvent& event, const std::optional<UnitEvent>& cancelled,
+                      std::int64_t before_key) {
+  if (event.kind == EventKind::cancelled)  // the event at the key itself ends what is removed
+    return cancelled && changes_state(cancelled->kind) && cancelled->key <= before_key;
+  return changes_state(event.kind) && event.key < before_key;
+}
+
 std::string json_of(const std::vector<double>& numbers) {
   std::string text = "[";
   for (const double each : numbers) {

@@ -31,8 +31,9 @@ struct StoredReading {
 /// The outcome of a reading that was passed to a store.
 enum class Kept {
   stored,
-  repeated,    ///< the same one is stored already
-  contradicts  ///< another one with its key is stored already, and stays
+  repeated,     ///< the same one is stored already
+  contradicts,  ///< another one with its key is stored already, and stays
+  too_old       ///< it is of readings that are removed, or an event among these
 };
 
 /// The state of a unit after all its readings up to `place`.
@@ -62,6 +63,24 @@ struct SentAlarm {
 std::string text_of(const SentAlarm& sent);
 SentAlarm sent_alarm(std::string_view text);
 
+/// Readings of parts that have long been out of service, which a store need not keep.
+struct Removal {
+  std::string unit;
+  std::int64_t before_key = 0;  ///< they have smaller keys; the first one that may still be added
+  std::int64_t last_event = 0;  ///< number of the unit's last event when they were chosen
+  std::vector<std::int64_t> places = {};
+  bool drops_state = false;  ///< the unit's state is one of these readings
+  bool done = false;         ///< no others are to be removed
+};
+
+/// What was removed of a unit.
+struct RemovedReadings {
+  std::int64_t before_key =
+      0;  ///< of readings with smaller keys only the last of each part is there
+  std::uint64_t count = 0;
+  bool done = false;
+};
+
 /// The store is temporarily unavailable: the disk is full, the server is away. The operation was
 /// not done, or is found as done when it is repeated; it may succeed later.
 struct StoreError : std::runtime_error {
@@ -87,7 +106,8 @@ class Store {
   virtual std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) = 0;
   virtual std::uint64_t count() = 0;
 
-  /// Stores new events, all or, when it throws, none; the same one again counts as repeated.
+  /// Stores new events, all or, when it throws, none; the same one again counts as repeated. Too old
+  /// ones would change what removed readings say.
   virtual std::vector<Kept> add_events(const std::vector<UnitEvent>& events) = 0;
   /// Events with a larger number, in order.
   virtual std::vector<UnitEvent> events_after(std::int64_t number) = 0;
@@ -115,6 +135,16 @@ class Store {
   /// What the server of the webhook has been sent, by unit.
   virtual std::map<std::string, SentAlarm> sent_alarms() = 0;
   virtual void note_sent(const std::string& unit, const SentAlarm& sent, std::int64_t time_ms) = 0;
+
+  /// Removes readings in one transaction; never the last one of the store, whose place would be given
+  /// again. Further readings and events before this key are too old from then on. False, with
+  /// nothing done, if the unit has other events by now.
+  virtual bool remove(const Removal& removal) = 0;
+  /// What was removed, by unit.
+  virtual std::map<std::string, RemovedReadings> removed() = 0;
+  /// Removes alarms from before this Unix time, but the last of each unit, and forecasts moved by
+  /// fits that were taken before it, but the last. Returns their number.
+  virtual std::uint64_t remove_forecasts(std::int64_t before_ms) = 0;
 
   /// The position read so far in a file of a folder: bytes.
   virtual void note_file(const std::string& file, std::int64_t bytes) = 0;
@@ -150,14 +180,19 @@ std::string shown_store(const std::string& url);
 std::string shown_url(const std::string& url);
 
 /// The version of the tables that this program writes. 2: alarms have a place; 3: events of units;
-/// 4: fits, moved forecasts, alarms that were sent.
-inline constexpr int store_version = 4;
+/// 4: fits, moved forecasts, alarms that were sent; 5: readings that were removed.
+inline constexpr int store_version = 5;
 
 /// The version of the store `name` from its own text, if it is supported: 1 to `store_version`.
 /// Throws InputError.
 int check_store(const std::string& name, const std::string& version, const StoreColumns& there,
                 const StoreColumns& wanted, Access access);
 std::string migrated_text(const std::string& name, int from);
+
+/// Whether an event would change what readings before `before_key` say, which are removed.
+/// `cancelled`: the event that it cancels, if it cancels one.
+bool is_among_removed(const UnitEvent& event, const std::optional<UnitEvent>& cancelled,
+                      std::int64_t before_key);
 
 /// Lists in the store's tables, as JSON: "[1.5,null]", numbers in the shortest form that reads back
 /// to the same.
