@@ -56,6 +56,8 @@ class Comparison:
         >>> fit = ww.life(pumps, "hours", event="failed", units={"hours": "h"}, b=10, method="exact", draws=100, report=False)
         >>> ww.compare(fit, families=["weibull", "lognormal"]).lives[["family", "name", "unit", "q50"]].round(0)
               family      name unit    q50
+        0  lognormal  B10 life    h  188.0
+        1    weibull  B10 life    h  169.0
         """
         import pandas
 
