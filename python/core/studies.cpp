@@ -100,6 +100,16 @@ py::tuple compared(const embed::Files& names_and_folders) {
   return py::make_tuple(compared.json.dump(), compared.text, compared.page);
 }
 
+py::tuple compared_families(const ReadStudy& read, const std::string& families, int threads,
+                            const py::object& progress) {
+  embed::Compared compared;
+  attended(progress, [&](Monitor monitor) {
+    monitor.threads = threads;
+    compared = embed::compared_families(read, families, std::move(monitor));
+  });
+  return py::make_tuple(compared.json.dump(), compared.text, compared.page);
+}
+
 }  // namespace
 
 void add_studies(py::module_& module) {
@@ -138,6 +148,7 @@ void add_studies(py::module_& module) {
     wearwell::write_file(target, content);
   });
   module.def("compared", &compared);
+  module.def("compared_families", &compared_families);
 }
 
 }  // namespace wearwell::python

@@ -85,5 +85,7 @@ def test_a_table_without_rows_or_columns_is_refused(life):
     frame = pd.DataFrame({"hours": hours, "event": event, "group": group, "T": stress})
     with pytest.raises(ww.InputError, match="data has no rows"):
         life(frame.iloc[:0])
+    with pytest.raises(ww.InputError, match="column 'event' has 1 rows, and 'hours' has 8"):
+        life({"hours": hours, "event": [1], "group": group, "T": stress})
     with pytest.raises(ww.InputError, match="data has no column"):
         life(pd.DataFrame())

@@ -16,7 +16,7 @@ of_damage = {f"{name}.{each}" for name in ("Damage", "DesignCurves", "LivesAgain
 return_nothing = {each for each in of_damage if not each.endswith("tables")} | {"Comparison.report", "Fit.report", "Fit.to_netcdf", "Fit.write", "Plan.report", "Plan.write", "Selection.report"}
 raise_nothing = {each for each in of_damage if each.endswith("tables")} | {"Damage", "Damage.damage", "Damage.life", "Damage.lives", "Damage.sources", "DesignCurves",
                  "DesignCurves.curves", "DesignCurves.models", "LoadSpectrum", "LivesAgainst", "LivesAgainst.differences", "LivesAgainst.outlives", "UnitTracker.passed", "Backtest", "Backtest.coverage", "Backtest.forecasts", "Quantiles", "UnitTracker", "UnitTracker.doubt", "UnitTracker.level",
-                 "UnitTracker.outcomes", "UnitTracker.path", "UnitTracker.rate_change", "UnitTracker.rul", "UnitTracker.summary", "Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
+                 "UnitTracker.outcomes", "UnitTracker.path", "UnitTracker.rate_change", "UnitTracker.rul", "UnitTracker.summary", "Plot", "Plot.to_dict", "Plot.to_html", "ArrowTable", "ArrowTable.columns", "Check", "Comparison", "Comparison.lives", "Fit", "Fit.quantities", "Fit.tables", "Plan", "Plan.tables",
                  "Selection", "Selection.models", "Study.description", "clutch.CycleSum.plates", "clutch.CycleSum.summary", "default"}
 
 

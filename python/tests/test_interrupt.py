@@ -75,6 +75,7 @@ calls = {
     "select": lambda s: ww.select(s["wide"], "y", inputs=[f"x{k}" for k in range(40)], degree=1),
     "select, nested": lambda s: ww.select(s["terms"], "y", inputs=[f"x{k}" for k in range(9)], degree=2, nested=10),
     "repairable": lambda s: ww.repairable(s["repairs"], "age", unit="unit", event="event", units={"age": "h"}),
+    "compare families": lambda s: s["many"].compare(families="all"),
     "residuals": lambda s: s["many"].residuals(),
     "life of a large table": lambda s: ww.life(s["hours"], "hours", units={"hours": "h"}, seed=1, report=False),
 }

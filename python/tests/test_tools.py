@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import subprocess
 import sys
 import warnings
@@ -82,6 +83,63 @@ def test_comparison_is_the_programs(examples, wearwell, tmp_path):
         ww.compare(fits["normal_flat"])
     with pytest.raises(ww.InputError, match="no such folder"):
         ww.compare(tmp_path / "nowhere", fits["normal_flat"])
+
+
+lives = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+
+
+@pytest.fixture(scope="module")
+def pumps():
+    return ww.life(lives, "hours", event="failed", units={"hours": "h"}, b=[10, 50], method="exact", draws=100, report=False)
+
+
+def test_families_are_the_programs(pumps, wearwell, tmp_path):
+    (tmp_path / "study.toml").write_text(pumps.study.toml.replace('file = "data"', 'file = "data.csv"'))
+    rows = [f"{hours},{failed}" for hours, failed in zip(*lives.values())]
+    (tmp_path / "data.csv").write_text("\n".join(["hours,failed", *rows, ""]))
+    _, out, _ = wearwell("compare", tmp_path / "study.toml", "--families", "weibull,lognormal", "--json")
+    said = json.loads(out)
+    for each in said["studies"]:
+        each["data"]["file"] = "data"
+    ranked = pumps.compare(families=["weibull", "lognormal"])
+    assert ranked.summary == said
+    assert ww.compare(pumps.study, families="weibull,lognormal").summary == ranked.summary
+    assert ww.compare(tmp_path / "study.toml", families=("weibull", "lognormal")).summary == json.loads(out)
+    assert ranked.close == said["close"] and set(ranked.close) == {"weibull", "lognormal"}
+    assert list(ranked.lives["family"]) == [each for each in [s["study"] for s in ranked.summary["studies"]] for _ in range(2)]
+    assert list(ranked.lives.loc[ranked.lives["family"] == "weibull", "q50"]) == [pumps.quantities.set_index("name").loc[each, "q50"] for each in ("B10 life", "B50 life")]
+    assert "The choice" in str(ranked) or "One of them" in str(ranked) or "differ" in str(ranked)
+
+
+def test_families_of_an_updated_and_a_copied_fit(pumps):
+    again = pickle.loads(pickle.dumps(pumps))
+    assert again.compare(families="weibull,lognormal").summary == pumps.compare(families="weibull,lognormal").summary
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        more = pumps.update({"hours": [55.0], "failed": [1]})
+        assert len(more.compare(families="weibull,lognormal").summary["studies"]) == 2
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"families": ["weibull"]}, "families: needs two families"), ({"families": []}, "list of names"), ({"families": 3}, "list of names"),
+    ({"families": "weibull,wei"}, "'wei' cannot be ranked"), ({"families": ["gamma", "gamma"]}, "'gamma' twice"),
+    ({"families": "all", "names": ["a"]}, "names: "), ({"families": "all", "threads": -1}, "threads is -1")])
+def test_families_that_cannot_be_ranked(pumps, arguments, message):
+    with pytest.raises(ww.InputError, match=message):
+        ww.compare(pumps, **arguments)
+
+
+def test_studies_whose_families_cannot_be_ranked(pumps, examples, tmp_path):
+    with pytest.raises(ww.InputError, match="2 are given"):
+        ww.compare(pumps, pumps, families="all")
+    with pytest.raises(ww.InputError, match="of a table: wearwell.life"):
+        ww.compare(lives, families="all")
+    with pytest.raises(ww.InputError, match="but got"):
+        ww.compare(tmp_path, families="all")
+    with pytest.raises(FileNotFoundError):
+        ww.compare("no.toml", families="all")
+    with pytest.raises(ww.InputError, match='model "formula"'):
+        ww.compare(os.path.join(examples, "joint", "study.toml"), families="all")
 
 
 def test_bearings_are_the_programs(wearwell):

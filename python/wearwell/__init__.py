@@ -41,6 +41,7 @@ from ._bearing_study import bearing as _fit_bearings
 from ._callable_module import make_callable as _make_callable
 from ._check import Check
 from ._clutch_study import clutch as _fit_clutch
+from ._compare import Comparison, compare
 from ._data import table
 from ._decide import decide
 from ._degradation_study import degradation
@@ -58,7 +59,7 @@ from ._repairable_study import repairable
 from ._returns_study import returns
 from ._spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectrum
 from ._study import Study, fit
-from ._tools import Comparison, Selection, compare, rainflow, select
+from ._tools import Selection, rainflow, select
 from ._track import Quantiles, UnitTracker, track
 from ._update import update
 

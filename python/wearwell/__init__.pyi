@@ -90,7 +90,14 @@ class Fit:
         self, other: Fit | _Path, *, horizon: _Quantity | None = ..., confidence: float | str = ..., at: str | None = ...
     ) -> LivesAgainst: ...
     def residuals(self, kind: Literal["score", "cox-snell"] = ...) -> pandas.DataFrame: ...
-    def compare(self, *others: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
+    def compare(
+        self,
+        *others: Fit | _Path,
+        names: Sequence[str] | None = ...,
+        families: str | Sequence[str] | None = ...,
+        threads: int = ...,
+        progress: _Progress = ...,
+    ) -> Comparison: ...
     def update(
         self,
         data: Any,
@@ -541,10 +548,19 @@ def rainflow(
 
 class Comparison:
     summary: dict[str, Any]
+    close: list[str]
     def __init__(self, summary: str, text: str, page: str) -> None: ...
+    @property
+    def lives(self) -> pandas.DataFrame: ...
     def report(self, path: _Path) -> None: ...
 
-def compare(*fits: Fit | _Path | Mapping[str, Fit | _Path], names: Sequence[str] | None = ...) -> Comparison: ...
+def compare(
+    *fits: Fit | Study | _Path | Mapping[str, Fit | _Path],
+    names: Sequence[str] | None = ...,
+    families: str | Sequence[str] | None = ...,
+    threads: int = ...,
+    progress: _Progress = ...,
+) -> Comparison: ...
 
 def decide(
     lives: Any,

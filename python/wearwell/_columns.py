@@ -80,8 +80,9 @@ class Columns:
         if self._whole is not None:
             return self._whole
         if not set(self._names) <= self._part_of:
-            self._part_of = set(self._names)
-            self._part = table_of(self.data, only=self._part_of)
+            names = set(self._names)
+            self._part = table_of(self.data, only=names)
+            self._part_of = names  # after what may refuse them
         return self._part
 
     def numbers(self, heading):

@@ -156,15 +156,21 @@ class FitLives:
 
         return conditional(self, survived, b, given, confidence)
 
-    def compare(self, *others, names=None):
-        """Rank this fit and others of the same data, as ``wearwell.compare``.
+    def compare(self, *others, names=None, families=None, threads=0, progress=None):
+        """Rank this fit and others of the same data, or families of its life, as ``wearwell.compare``.
 
         Parameters
         ----------
         *others : Fit, str or path
-            Other fits, or folders of results.
+            Other fits, or folders of results; none with ``families``.
         names : sequence of str, optional
             Names of all fits, this one first.
+        families : str or sequence of str, optional
+            Families of lives to fit this study with, two or more, like ``["weibull", "lognormal"]``; or "all".
+        threads : int
+            Threads of the fits of ``families``, 0 for all. No number depends on it.
+        progress : bool or callable, optional
+            Of the fits of ``families``: True for a bar, or a function of (what, done, total, seconds).
 
         Returns
         -------
@@ -174,7 +180,13 @@ class FitLives:
         Raises
         ------
         InputError
-            If there is no other fit, another number of names, or a folder holds no result.
+            If there is no other fit or only one family, another number of names, a folder holds no result, or the study has
+            no life whose family can be exchanged.
+
+        Warns
+        -----
+        CheckWarning
+            For each family whose fit is not trusted.
 
         Examples
         --------
@@ -185,9 +197,9 @@ class FitLives:
         >>> sorted(each["study"] for each in fits[0].compare(fits[1], names=["weibull", "lognormal"]).summary["studies"])
         ['lognormal', 'weibull']
         """
-        from ._tools import compare
+        from ._compare import compare
 
-        return compare(self, *others, names=names)
+        return compare(self, *others, names=names, families=families, threads=threads, progress=progress)
 
     def against(self, other, *, horizon=None, confidence=0.9, at=None):
         """Compare this life with that of another fit: which lasts longer, and by how much at least.

@@ -1,4 +1,4 @@
-"""Selections, comparisons and cycle counting."""
+"""Selections and cycle counting."""
 
 import json
 import os
@@ -8,7 +8,6 @@ from ._data import headings_of, table_of
 from ._errors import InputError, warn_of
 from ._messages import in_arguments
 from ._check import checks_of
-from ._fitted import named_folders
 
 
 class Selection:
@@ -191,104 +190,6 @@ def select(data, response, *, inputs=(), degree=None, terms=(), criterion="loo",
                                     float("inf") if time is None else float(time), int(threads), bool(report)))
     warn_of(found.checks)
     return found
-
-
-class Comparison:
-    """Fits side by side, as ``compare`` makes them.
-
-    Parameters
-    ----------
-    summary, text, page : str
-        What the comparison wrote: JSON, text and HTML. ``compare`` makes a Comparison.
-
-    Attributes
-    ----------
-    summary : dict
-        All numbers, as ``wearwell compare --json`` prints them.
-
-    Examples
-    --------
-    >>> import wearwell as ww
-    >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
-    >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
-    >>> ww.compare(normal, lognormal, names=["normal", "lognormal"])
-    <wearwell.Comparison of normal, lognormal>
-    """
-
-    def __init__(self, summary, text, page):
-        self.summary = json.loads(summary)
-        self._text, self._page = text, page
-
-    def report(self, path):
-        """Write the comparison, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "comparison.html".
-
-        Raises
-        ------
-        InputError
-            If the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
-        >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
-        >>> page = os.path.join(tempfile.mkdtemp(), "comparison.html")
-        >>> ww.compare(normal, lognormal).report(page)
-        >>> os.path.exists(page)
-        True
-        """
-        _core.write_file(os.fspath(path), self._page)
-
-    def __str__(self):
-        return in_arguments(self._text)
-
-    def __repr__(self):
-        return f"<wearwell.Comparison of {', '.join(s['study'] for s in self.summary['studies'])}>"
-
-
-def compare(*fits, names=None):
-    """Rank fits of the same data by how well they predict, by leave-one-out (elpd).
-
-    Fits of different data are shown side by side and never ranked.
-
-    Parameters
-    ----------
-    *fits : Fit, str or path
-        Two or more fits, or folders that ``Fit.write`` or ``wearwell fit`` wrote; or a dict of them by name.
-    names : sequence of str, optional
-        Names in the order of the fits; by default "a", "b", ..., and of a folder its path.
-
-    Returns
-    -------
-    Comparison
-        Criteria, their differences with standard errors, weights, and parameters.
-
-    Raises
-    ------
-    InputError
-        If there are fewer than two fits, another number of names, or a folder holds no result.
-
-    Examples
-    --------
-    >>> import wearwell as ww
-    >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
-    >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
-    >>> both = ww.compare({"normal": normal, "lognormal": lognormal})
-    >>> sorted(study["study"] for study in both.summary["studies"])
-    ['lognormal', 'normal']
-    """
-    with named_folders(fits, names) as pairs:
-        if len(pairs) < 2:
-            raise InputError("a comparison takes two fits at least")
-        return Comparison(*_core.compared(pairs))
 
 
 def rainflow(signal, *, method="four-point", residual="half"):

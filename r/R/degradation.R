@@ -56,7 +56,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   if (!is.symbol(x[[2]])) measured$name <- "wear"
   readings <- numbers_for(measured, "the formula's left side")
   axis <- find_column(columns, sides$axis, "the formula")
-  along <- numbers_for(list(values = plain_values(axis), heading = axis$heading), "the formula")
+  along <- numbers_for(list(values = plain_values(axis), heading = axis$heading, of = axis$of), "the formula")
   if (!length(readings)) stop_input("data has no rows")
   effects <- effects_of(sides$fixed, columns, list(), "the formula")
   y <- language_name(measured$name)
@@ -67,7 +67,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   if (!is.null(sides$unit)) {
     of_unit <- find_column(columns, sides$unit, "unit")
     label <- language_name(sides$unit, names(study))
-    values <- column_values(plain_values(of_unit), paste0("data, column '", of_unit$heading, "'"))
+    values <- column_values(plain_values(of_unit), place_of(of_unit))
     row <- which(is.na(values))
     if (length(row)) stop_input("data, row ", row[1], ", column '", of_unit$heading, "': a value is missing")
     study[[label]] <- study_column(if (is.double(values)) number_text(values) else values, "")

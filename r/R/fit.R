@@ -159,7 +159,7 @@ of_posterior <- c("parameters", "predictions", "quantities", "lives", "draws", "
   if (name %in% of_posterior) {
     stop_input("a study of the model ", fields$summary$model, " has no ", name, "; fit$summary and fit$tables hold what it found")
   }
-  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live", "rows_call")), "tables", "toml")), ")")
+  stop_input("a fit has no '", name, "' (it has: ", words(c(setdiff(names(fields), c("choice", "report", "live")), "tables", "toml")), ")")
 }
 
 # The run; of a fit that was kept beyond its session it is done again, to the bit.

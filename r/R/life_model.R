@@ -60,32 +60,16 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
   if (!length(columns) || length(columns[[1]]$values) == 0) stop_input("data has no rows")
-  lives <- lives_of_side(x[[2]], columns, environment(x))
-  sides <- split_terms(without_dot(x[[3]], columns, lives$used))
-  stress <- stress_laws(stress)
-  effects <- effects_of(sides$fixed, columns, stress, "the formula")
   parameters <- life_families[[family]]
   location <- parameters[[1]]
-  random <- random_of(sides$random, location, effects, columns, "the formula")
-  if (!is.null(by) && length(random)) stop_input("by gives each level of ", words(by), " its own ", location, ", which then has no random effects: write ~ ",
-                                                 words(by), " + (1 | ...)")
-  study <- life_columns(lives, weights, columns)
-  for (condition in effects$conditions) study[[condition$name]] <- study_column(condition$values, condition$unit)
-  if (!is.null(by)) {
-    by <- condition_of(one_text(by, "by"), columns, names(study), "by")
-    study[[by$name]] <- study_column(if (by$label) by$values else number_text(by$values), "")
-    by$levels <- sort(unique(study[[by$name]]$values))
-  }
-  modes <- modes_of(mode, columns, names(study))
-  if (!is.null(modes)) {
-    if (!is.null(by)) stop_input("by and mode: each failure mode has its own ", location, ", for all groups; leave one out")
-    if (length(random)) stop_input("mode: failure modes have no random effects; leave out (1 | ...), or mode")
-    study[[modes$name]] <- modes$column
-  }
-  effect <- with_random(random, location, effects, columns, names(study), "the formula")
-  study <- c(study, effect$columns)
-  used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), weights)
-  look_at_unused(columns, used, lives$known, unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
+  reader <- list(x = x, location = location, by = by, mode = mode, stress = stress_laws(stress), units = units, weights = weights, unused = unused)
+  read <- read_lives(reader, columns)
+  study <- read$columns
+  lives <- read$lives
+  effects <- read$effects
+  effect <- read$random
+  by <- read$by
+  modes <- read$modes
   index <- if (!is.null(c(by$name, modes$name))) paste0("[", c(by$name, modes$name), "]") else ""
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
@@ -101,7 +85,38 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(family, parameters, lives, study, effects, effect, by)
   known$modes <- !is.null(modes)
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+  reader$used <- read$used
+  reader$made <- names(study)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, reader = reader)
+}
+
+# The columns of a study, as the formula and the arguments of ww_life() read those of a frame. `fitted`: of rows for a fit.
+read_lives <- function(reader, columns, fitted = FALSE) {
+  x <- reader$x
+  by <- reader$by
+  lives <- lives_of_side(x[[2]], columns, environment(x))
+  sides <- split_terms(without_dot(x[[3]], columns, lives$used))
+  effects <- effects_of(sides$fixed, columns, reader$stress, "the formula", fitted)
+  random <- random_of(sides$random, reader$location, effects, columns, "the formula")
+  if (!is.null(by) && length(random)) stop_input("by gives each level of ", words(by), " its own ", reader$location, ", which then has no random effects: write ~ ",
+                                                 words(by), " + (1 | ...)")
+  study <- life_columns(lives, reader$weights, columns)
+  for (condition in effects$conditions) study[[condition$name]] <- study_column(condition$values, condition$unit)
+  if (!is.null(by)) {
+    by <- condition_of(one_text(by, "by"), columns, names(study), "by", fitted)
+    study[[by$name]] <- study_column(if (by$label) by$values else number_text(by$values), "")
+    by$levels <- sort(unique(study[[by$name]]$values))
+  }
+  modes <- modes_of(reader$mode, columns, names(study))
+  if (!is.null(modes)) {
+    if (!is.null(by)) stop_input("by and mode: each failure mode has its own ", reader$location, ", for all groups; leave one out")
+    if (length(random)) stop_input("mode: failure modes have no random effects; leave out (1 | ...), or mode")
+    study[[modes$name]] <- modes$column
+  }
+  effect <- with_random(random, reader$location, effects, columns, names(study), "the formula")
+  used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), reader$weights)
+  look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
+  list(columns = c(study, effect$columns), lives = lives, effects = effects, random = effect, by = by, modes = modes, used = unique(used))
 }
 
 # The column of failure modes, and what [failure_modes] says of it.
@@ -113,7 +128,7 @@ modes_of <- function(mode, columns, taken) {
     stop_input("mode is ", shown_value(mode), "; it is the name of a column, or like list(column = \"cause\", runout = 0)")
   }
   each <- find_column(columns, one_text(table$column, "mode"), "mode")
-  values <- column_values(plain_values(each), paste0("data, column '", each$heading, "'"))
+  values <- column_values(plain_values(each), place_of(each))
   if (is.double(values)) values <- ifelse(is.na(values), NA_character_, number_text(values))
   name <- language_name("mode", taken)
   table$column <- name
@@ -161,12 +176,13 @@ without_dot <- function(side, columns, used) {
 
 life_columns <- function(lives, weights, columns) {
   study <- lives$columns
+  row <- paste0(table_name(columns), ", row ")
   for (name in c("life", "entry", "lower", "upper")) {
     values <- study[[name]]$values
-    if (name %in% c("life", "entry") && anyNA(values)) stop_input("data, row ", which(is.na(values))[1], ": the ", name, " is missing")
-    if (any(is.infinite(values))) stop_input("data, row ", which(is.infinite(values))[1], ": the ", name, " is ", values[is.infinite(values)][1])
+    if (name %in% c("life", "entry") && anyNA(values)) stop_input(row, which(is.na(values))[1], ": the ", name, " is missing")
+    if (any(is.infinite(values))) stop_input(row, which(is.infinite(values))[1], ": the ", name, " is ", values[is.infinite(values)][1])
     if (name == "life" && any(values <= 0)) {
-      stop_input("data, row ", which(values <= 0)[1], ": the life is ", number_text(values[values <= 0][1]), "; lives are above 0")
+      stop_input(row, which(values <= 0)[1], ": the life is ", number_text(values[values <= 0][1]), "; lives are above 0")
     }
   }
   if (!is.null(weights)) {
@@ -264,7 +280,7 @@ columns_table <- function(columns, entries = list()) {
 }
 
 # The fit of a study's text with a frame, or the study.
-one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL) {
+one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL, reader = NULL) {
   if (is.null(tables)) {
     tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
   }
@@ -272,6 +288,7 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
   study$replicates <- replicates
+  study$reader <- reader
   if (!one_truth(fit, "fit")) {
     study$columns <- columns
     return(study)

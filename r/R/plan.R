@@ -115,9 +115,7 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
   about <- fit_or_folder(fit)
   several <- if (is.list(tests) && !is.data.frame(tests) && is.null(names(tests))) tests else if (!is.null(tests)) list(tests)
   files <- vapply(several, is_path, NA)
-  surv <- surv_call(fit)
-  env <- parent.frame()
-  done <- lapply(several[!files], function(each) if (is_of_surv(surv, each)) rows_of_surv(surv, each, env, "tests") else table_of(each, "tests"))
+  done <- lapply(several[!files], function(each) rows_for(fit, each, "tests"))
   plan_of("next", list(goal = goal, grid = grid, specimens = specimens, cost = cost, specimen_cost = specimen_cost, use_cost = use_cost,
                        measure = measure, by = by, value = value, budget = budget, batch = batch, until = until, samples = samples,
                        nodes = nodes, seed = seed_text(seed), failure_cost = failure_cost, replacement_cost = replacement_cost,

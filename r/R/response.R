@@ -29,10 +29,15 @@ frame_columns <- function(data, units, name = "data") {
     unit <- if (has_unit[i]) parts[[i]][3] else ""
     given <- units[names(units) %in% c(headings[i], short[i])]
     if (length(given)) unit <- given[[1]] else if (inherits(values, "units")) unit <- units_of(values)
-    list(values = values, heading = headings[i], unit = if (unit == "1") "" else unit)
+    list(values = values, heading = headings[i], unit = if (unit == "1") "" else unit, of = name)
   })
   stats::setNames(columns, short)
 }
+
+# What messages call a column, and the table of several: the caller's argument.
+place_of <- function(each) paste0(if (is.null(each$of)) "data" else each$of, ", column '", each$heading, "'")
+place_of_row <- function(each, row) paste0(if (is.null(each$of)) "data" else each$of, ", row ", row, ", column '", each$heading, "'")
+table_name <- function(columns) if (length(columns)) columns[[1]]$of else "data"
 
 # The frame of a formula without data: its variables where it was written.
 data_of_formula <- function(formula) {
@@ -48,7 +53,7 @@ find_column <- function(columns, name, what) {
   by_heading <- vapply(columns, function(each) each$heading == name, NA)
   if (any(by_heading)) return(columns[[which(by_heading)[1]]])
   near <- names(columns)[order(utils::adist(name, names(columns), ignore.case = TRUE))[1]]
-  stop_input(what, ": data has no column '", name, "' (columns: ", words(names(columns)), ")",
+  stop_input(what, ": ", table_name(columns), " has no column '", name, "' (columns: ", words(names(columns)), ")",
              if (length(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?"))
 }
 
@@ -58,7 +63,7 @@ plain_values <- function(each) if (inherits(each$values, "units")) as.double(eac
 evaluated <- function(expression, columns, env, what) {
   if (is.symbol(expression)) {
     found <- find_column(columns, as.character(expression), what)
-    return(list(values = plain_values(found), unit = found$unit, heading = found$heading, name = as.character(expression)))
+    return(list(values = plain_values(found), unit = found$unit, heading = found$heading, name = as.character(expression), of = found$of))
   }
   for (name in all.vars(expression)) find_column(columns, name, what)
   values <- tryCatch(eval(expression, lapply(columns, plain_values), env), error = function(error) {
@@ -67,11 +72,11 @@ evaluated <- function(expression, columns, env, what) {
   # A sum or a difference has the unit of its columns; of others nothing is known.
   in_units <- unique(vapply(all.vars(expression), function(name) find_column(columns, name, what)$unit, ""))
   linear <- length(in_units) == 1 && all(setdiff(all.names(expression), all.vars(expression)) %in% c("+", "-", "("))
-  list(values = values, unit = if (linear) in_units else "", heading = paste(deparse(expression), collapse = " "), name = "life")
+  list(values = values, unit = if (linear) in_units else "", heading = paste(deparse(expression), collapse = " "), name = "life", of = table_name(columns))
 }
 
 numbers_for <- function(each, what) {
-  values <- column_values(each$values, paste0("data, column '", each$heading, "'"))
+  values <- column_values(each$values, place_of(each))
   if (!is.double(values)) stop_input(what, ": column '", each$heading, "' holds texts; it is a number")
   values
 }
@@ -80,12 +85,11 @@ numbers_for <- function(each, what) {
 failures_of <- function(each, what) {
   values <- each$values
   heading <- each$heading
-  if (length(dim(values)) > 1 || is.character(values)) column_values(values, paste0("data, column '", heading, "'"))
+  if (length(dim(values)) > 1 || is.character(values)) column_values(values, place_of(each))
   if (is.factor(values)) values <- as.character(values)
   if (is.character(values)) return(values)
   if (is.numeric(values) && !is.object(values) || is.logical(values)) {
-    if (anyNA(values)) stop_input("data, row ", which(is.na(values))[1], ", column '", heading, "': a value is missing; ", what,
-                                  " needs one")
+    if (anyNA(values)) stop_input(place_of_row(each, which(is.na(values))[1]), ": a value is missing; ", what, " needs one")
     if (says_stopped(heading) && !says_failure(heading) && is_name(heading)) {
       stop_input(what, ": column '", heading, "' can be read in two ways: ", heading, " = 1 is a part that was stopped unbroken (as its ",
                  "name says), or a failure (as Surv() reads it): write Surv(..., ", heading, " == 0) for the first, Surv(..., ",
@@ -102,7 +106,7 @@ failures_of <- function(each, what) {
                "; an event is TRUE or 1 of a failure and FALSE or 0 of a part that was stopped; write a condition, like Surv(..., ",
                heading, " == ", kinds[1], "), or, where the numbers are failure modes, mode = list(column = \"", heading, "\", runout = 0) without an event")
   }
-  column_values(values, paste0("data, column '", heading, "'"))
+  column_values(values, place_of(each))
   stop_input(what, ": column '", heading, "' is ", kind_of(values), "; it holds truths, 0 and 1, or words")
 }
 
@@ -250,7 +254,7 @@ looks_like_counts <- function(each) {
 
 look_at_unused <- function(columns, used, known, unused, call) {
   unknown <- setdiff(unused, c(names(columns), vapply(columns, `[[`, "", "heading")))
-  if (length(unknown)) stop_input("unused: data has no column '", unknown[1], "' (columns: ", words(names(columns)), ")")
+  if (length(unknown)) stop_input("unused: ", table_name(columns), " has no column '", unknown[1], "' (columns: ", words(names(columns)), ")")
   left <- columns[!names(columns) %in% c(used, unused)]
   left <- left[!vapply(left, function(each) each$heading %in% c(used, unused), NA)]
   ends <- names(left)[vapply(left, function(each) looks_like_ending(each) || looks_like_modes(each), NA)]

@@ -57,18 +57,19 @@ levels_of <- function(values) {
 }
 
 # What a study has of a condition: its column, the name of that, and its reference.
-condition_of <- function(name, columns, taken, what) {
+# `fitted`: rows for a fit that is there, in which a condition may be the same in all rows.
+condition_of <- function(name, columns, taken, what, fitted = FALSE) {
   each <- find_column(columns, name, what)
   values <- plain_values(each)
-  column_values(values, paste0("data, column '", each$heading, "'"))
+  column_values(values, place_of(each))
   row <- which(is.na(values))
-  if (length(row)) stop_input("data, row ", row[1], ", column '", each$heading, "': a value is missing; the formula uses it")
+  if (length(row)) stop_input(place_of_row(each, row[1]), ": a value is missing; the formula uses it")
   row <- if (is.numeric(values)) which(is.infinite(values))
-  if (length(row)) stop_input("data, row ", row[1], ", column '", each$heading, "': ", values[row[1]], " is not a finite number")
-  found <- list(source = name, name = language_name(name, taken), label = is_label(values), unit = each$unit)
+  if (length(row)) stop_input(place_of_row(each, row[1]), ": ", values[row[1]], " is not a finite number")
+  found <- list(source = name, name = language_name(name, taken), label = is_label(values), unit = each$unit, of = each$of, heading = each$heading)
   if (found$label) {
     found$levels <- levels_of(values)
-    if (length(found$levels) < 2 && !reading$new_rows) stop_input(what, ": column '", each$heading, "' has one level only, ", found$levels, ": leave it out")
+    if (length(found$levels) < 2 && !fitted) stop_input(what, ": column '", each$heading, "' has one level only, ", found$levels, ": leave it out")
     found$values <- as.character(values)
     found$reference <- found$levels[1]
     return(found)
@@ -76,7 +77,7 @@ condition_of <- function(name, columns, taken, what) {
   found$values <- as.double(values)
   found$range <- diff(range(found$values))
   if (found$range == 0) {
-    if (!reading$new_rows) stop_input(what, ": column '", each$heading, "' is ", found$values[1], " in all rows: leave it out")
+    if (!fitted) stop_input(what, ": column '", each$heading, "' is ", found$values[1], " in all rows: leave it out")
     found$range <- 1  # the priors of the fit hold, not those that this would scale
   }
   found$reference <- signif(mean(found$values), 3)
@@ -125,7 +126,7 @@ effect_prior <- function(piece) {
 known_stresses <- c("arrhenius", "eyring", "inverse-power", "exponential")
 
 # The effects of a formula's terms, with the stress laws that take the place of some.
-effects_of <- function(fixed, columns, stress, what) {
+effects_of <- function(fixed, columns, stress, what, fitted = FALSE) {
   terms <- tryCatch(stats::terms(stats::as.formula(call("~", fixed), env = emptyenv())), error = function(error) {
     stop_input(what, ": ", conditionMessage(error))
   })
@@ -140,7 +141,7 @@ effects_of <- function(fixed, columns, stress, what) {
   })), names(stress)))
   conditions <- list()
   for (name in variables) {
-    conditions[[name]] <- condition_of(name, columns, vapply(conditions, `[[`, "", "name"), what)
+    conditions[[name]] <- condition_of(name, columns, vapply(conditions, `[[`, "", "name"), what, fitted)
   }
   effects <- list(terms = character(), priors = list(), constants = list(), conditions = conditions, pieces = list(),
                   values = list(), fixed = list())
@@ -192,8 +193,7 @@ with_stress <- function(effects, condition, law, several) {
     if (law == "eyring") effects$fixed <- c(effects$fixed, list(log(at / kelvin)))
   } else if (law == "inverse-power") {
     if (any(condition$values <= 0)) {
-      stop_input("stress: the inverse power law needs values above 0, and data, row ", which(condition$values <= 0)[1], ", column '",
-                 condition$source, "' is ", condition$values[condition$values <= 0][1])
+      stop_input("stress: the inverse power law needs values above 0, and ", place_of_row(condition, which(condition$values <= 0)[1]), " is ", condition$values[condition$values <= 0][1])
     }
     if (condition$unit %in% c("degC", "degF")) stop_input("stress: the inverse power law of a temperature in ", condition$unit, ": \"arrhenius\" is usual")
     parameter <- named("n")
@@ -256,9 +256,9 @@ with_random <- function(random, location, effects, columns, taken, what) {
   for (each in random) {
     values <- lapply(each$label, function(name) {
       column <- find_column(columns, name, what)
-      value <- column_values(plain_values(column), paste0("data, column '", column$heading, "'"))
+      value <- column_values(plain_values(column), place_of(column))
       row <- which(is.na(value))
-      if (length(row)) stop_input("data, row ", row[1], ", column '", column$heading, "': a value is missing; random effects need one")
+      if (length(row)) stop_input(place_of_row(column, row[1]), ": a value is missing; random effects need one")
       if (is.double(value)) number_text(value) else value
     })
     name <- language_name(paste(each$label, collapse = "_"), taken)

@@ -43,12 +43,45 @@ print.ww_selection <- function(x, ...) {
   invisible(x)
 }
 
-ww_compare <- function(..., names = NULL) {
-  found <- with_folders(list(...), names, "a comparison", function(folders) {
+ww_compare <- function(..., names = NULL, families = NULL, threads = 0, progress = interactive()) {
+  found <- if (!is.null(families)) {
+    compared_families(list(...), names, families, whole(threads, "threads", 0, 1024), progress)
+  } else with_folders(list(...), names, "a comparison", function(folders) {
     if (length(folders) < 2) stop_input("a comparison takes two fits at least")
     core(C_compared, folders)
   })
+  found$text <- in_arguments(found$text)
   structure(class = "ww_comparison", found)
+}
+
+# One study of a life, fitted with each family.
+compared_families <- function(given, names, families, threads, progress) {
+  if (!is.null(names)) stop_input("names: families have their own names; leave names out")
+  if (length(given) != 1) stop_input("families ranks distributions of one study, but ", length(given), " are given")
+  if (!is.character(families) || !length(families) || anyNA(families)) {
+    stop_input("families is ", shown_value(families), "; it is like c(\"weibull\", \"lognormal\"), or \"all\"")
+  }
+  study <- given[[1]]
+  if (inherits(study, "ww_fit")) study <- study$study
+  if (is_path(study) && !grepl("[.]toml$", study)) stop_input("families needs a study, FILE.toml, or a fit, but got '", study, "'")
+  if (!is_path(study) && !inherits(study, "ww_study")) {
+    stop_input("families needs a fit of a life, a study or the path of a study file, not ", kind_of(study), "; of a data frame: ww_life()")
+  }
+  address <- study_address(as_study(study))
+  found <- tryCatch(with_progress(progress, function(report) core(C_compared_families, address, paste(families, collapse = ","), threads, report)),
+                    wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
+  ranked <- found$summary$studies
+  found$close <- found$summary$close
+  found$lives <- do.call(rbind, lapply(ranked, function(each) {
+    lives <- each$b_lives
+    text <- function(key) column(lives, key, "")
+    cbind(data.frame(family = rep(each$study, length(lives)), name = text("name"), of = text("of"), at = text("at"), unit = text("unit")),
+          numbers_of(lives, c("q05", "q50", "q95")))
+  }))
+  for (each in ranked[!column(ranked, "trusted", NA)]) {
+    warn(paste0(each$study, ": the fit is not trusted; fit the life with this family to see its checks"))
+  }
+  found
 }
 
 # Calls `work` with the folders of fits or of results, by name. `of`: what takes them, in messages.

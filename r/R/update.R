@@ -1,38 +1,34 @@
 # New rows for a fit, single units followed by their readings, forecasts against known ends, code.
 
 # Tables or paths: one of them, or a list without names.
-several_rows <- function(data, name) {
+several_rows <- function(data, name, fit = NULL) {
   several <- if (is.list(data) && !is.data.frame(data) && is.null(names(data))) data else list(data)
-  lapply(several, function(each) if (is_path(each)) path_of(each, name) else table_of(each, name))
+  lapply(several, function(each) if (is_path(each)) path_of(each, name) else rows_for(fit, each, name))
 }
 
-# The call by which Surv() made the columns of a fit's study, also of one that was updated; NULL if there is none.
-surv_call <- function(fit) {
-  if (!inherits(fit, "ww_fit")) return(NULL)
-  call <- unclass(fit)$rows_call
-  if (is.null(call)) call <- fit$call
-  if (is.call(call) && "Surv" %in% unlist(lapply(as.list(call), all.names))) call
-}
-
-# Whether rows are read for a fit that is there: a condition may then be the same in all of them.
-reading <- new.env(parent = emptyenv())
-reading$new_rows <- FALSE
-
-# New rows as the call of the fit reads them, with the columns of its study and their units.
-rows_of_surv <- function(call, data, env, name = "data") {
-  options <- c("seed", "method", "chains", "draws", "warmup", "threads", "report", "progress", "title", "predict", "given")
-  call <- call[!names(call) %in% options]
-  call[[1]] <- ww_life
-  call$data <- data
-  call$fit <- FALSE
-  reading$new_rows <- TRUE
-  on.exit(reading$new_rows <- FALSE)
-  columns <- eval(call, env)$columns
+# New rows as the formula of ww_life() reads them, with the columns of the fit's study and their units; others by the
+# names of these columns. `name`: the argument that holds them.
+rows_for <- function(fit, data, name) {
+  reader <- if (inherits(fit, "ww_fit")) fit$study$reader
+  if (is.null(reader) || !is.data.frame(data) || !read_by_formula(reader, data, name)) return(table_of(data, name))
+  if (!nrow(data)) stop_input(name, " has no rows")
+  known <- names(reader$units) %in% c(names(data), names(frame_columns(data, NULL, name)))
+  columns <- read_lives(reader, frame_columns(data, reader$units[known], name), fitted = TRUE)$columns
   table_of(lapply(columns, `[[`, "values"), name, Filter(nzchar, vapply(columns, `[[`, "", "unit")))
 }
 
-# Whether a table has what the call by Surv() reads, and not the columns that it made.
-is_of_surv <- function(call, data) !is.null(call) && is.data.frame(data) && !any(grepl("^(life|lower|upper)($| *\\[)", names(data)))
+# Whether rows have the columns that the formula reads, and not those that it made for the study.
+read_by_formula <- function(reader, data, name) {
+  there <- c(names(data), names(frame_columns(data, NULL, name)))
+  by_formula <- all(reader$used %in% there)
+  by_name <- all(reader$made %in% there)
+  others <- setdiff(reader$made, reader$used)
+  if (by_formula && by_name && length(others)) {
+    stop_input(name, " can be read in two ways: by the formula of the fit, with the columns ", words(reader$used), ", or as the columns of its study, ",
+               words(reader$made), "; leave out ", words(others), ", or ", words(setdiff(reader$used, reader$made)))
+  }
+  by_formula || !any(c("life", "lower", "upper") %in% there)
+}
 
 ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, progress = interactive()) {
   if (!is.null(repeated) && !(is_path(repeated) && repeated %in% c("once", "another"))) {
@@ -40,20 +36,18 @@ ww_update <- function(fit, data, repeated = NULL, threads = 0, report = TRUE, pr
   }
   threads <- whole(threads, "threads", 0, 1024)
   report <- one_truth(report, "report")
-  surv <- surv_call(fit)
-  rows <- if (is_of_surv(surv, data)) list(rows_of_surv(surv, data, parent.frame())) else several_rows(data, "data")
+  rows <- several_rows(data, "data", fit)
   about <- fit_or_folder(fit)
   run <- with_progress(progress, function(report_progress) {
     core(C_update, about$run, about$path, rows, if (is.null(repeated)) "" else repeated, threads, report, report_progress)
   })
   study <- study_of_state(core(C_state, run), if (inherits(fit, "ww_fit")) fit$study$shown else about$path)
+  if (inherits(fit, "ww_fit")) study$reader <- fit$study$reader
   used <- core(C_summary, run)$sampler
   choice <- list(method = used$method, chains = whole(used$chains, "chains", 1, 1000),
                  warmup = if (!identical(used$method, "exact")) whole(used$warmup, "warmup", 0, 1e9),
                  draws = whole(used$draws, "draws", 1, 1e9), seed = if (is.null(used)) "" else seed_text(used$seed))
-  updated <- unclass(with_call(fit_of(study, run, choice, report), match.call()))
-  updated$rows_call <- surv
-  structure(updated, class = "ww_fit")
+  with_call(fit_of(study, run, choice, report), match.call())
 }
 
 # A study kept as the state that its fit saves, in hexadecimal digits.

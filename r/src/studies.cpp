@@ -189,12 +189,25 @@ SEXP from_json(const std::string& text) {
   return list_of(nlohmann::ordered_json::parse(text));
 }
 
-SEXP compared(const Rcpp::CharacterVector& folders) {
-  const embed::Files pairs = pairs_of(folders);
-  const embed::Compared found = interruptible([&] { return embed::compared(pairs); });
+SEXP lists_of(const embed::Compared& found) {
   return named_list({{"summary", Rcpp::Shield<SEXP>(list_of(found.json))},
                      {"text", Rcpp::Shield<SEXP>(text_of(found.text))},
                      {"page", Rcpp::Shield<SEXP>(text_of(found.page))}});
+}
+
+SEXP compared(const Rcpp::CharacterVector& folders) {
+  const embed::Files pairs = pairs_of(folders);
+  return lists_of(interruptible([&] { return embed::compared(pairs); }));
+}
+
+SEXP compared_families(SEXP study, const std::string& families, int threads, SEXP progress) {
+  const ReadStudy& read = held<ReadStudy>(study);
+  embed::Compared found;
+  attended(progress, [&](Monitor monitor) {
+    monitor.threads = threads;
+    found = embed::compared_families(read, families, std::move(monitor));
+  });
+  return lists_of(found);
 }
 
 // An object that R kept beyond its session is an address of nothing.
@@ -223,6 +236,7 @@ void add_studies(Doors& doors) {
                              door<&write_netcdf>("write_netcdf"),
                              door<&asked>("asked"),
                              door<&compared>("compared"),
+                             door<&compared_families>("compared_families"),
                              door<&is_there>("is_there"),
                              door<&residuals_of>("residuals"),
                              door<&from_json>("from_json")});

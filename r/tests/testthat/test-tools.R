@@ -40,6 +40,36 @@ test_that("fits are compared as the program compares folders", {
   refused(ww_compare(one, other, names = "a"), "1 names are given for 2 fits")
 })
 
+test_that("families are ranked as the program ranks them", {
+  pumps <- data.frame(hours = c(312, 480, 510, 640, 700, 700, 150, 260, 420), failed = c(1, 1, 1, 1, 0, 0, 1, 1, 1))
+  study <- ww_life(Surv(hours, failed) ~ 1, data = pumps, units = c(hours = "h"), fit = FALSE)
+  ranked <- ww_compare(study, families = c("weibull", "lognormal"), progress = FALSE)
+  folder <- tempfile()
+  dir.create(folder)
+  file <- file.path(folder, "study.toml")
+  writeLines(sub("file = \"data\"", "file = \"data.csv\"", study$text, fixed = TRUE), file)
+  written <- study$columns
+  write.csv(as.data.frame(lapply(written, `[[`, "values")), file.path(folder, "data.csv"), row.names = FALSE, quote = FALSE)
+  said <- program("compare", file, "--families", "weibull,lognormal")
+  expect_identical(ranked$text, said$out)
+  expect_identical(ww_compare(file, families = "weibull,lognormal", progress = FALSE)$text, said$out)
+  fit <- quiet(ww_fit(study, method = "exact", draws = 100, report = FALSE))
+  expect_identical(ww_compare(fit, families = c("weibull", "lognormal"), progress = FALSE)$summary, ranked$summary)
+  expect_setequal(ranked$close, c("weibull", "lognormal"))
+  of_weibull <- ranked$lives[ranked$lives$family == "weibull", ]
+  expect_identical(of_weibull$q50, fit$quantities$q50[match(of_weibull$name, fit$quantities$name)])
+  page <- tempfile(fileext = ".html")
+  ww_report(ranked, page)
+  expect_gt(file.size(page), 10000)
+  refused(ww_compare(study, families = "weibull"), "needs two families")
+  refused(ww_compare(study, families = c("weibull", "wei")), "'wei' cannot be ranked")
+  refused(ww_compare(study, families = 3), "families is 3")
+  refused(ww_compare(study, study, families = "all"), "2 are given")
+  refused(ww_compare(study, families = "all", names = "a"), "leave names out")
+  refused(ww_compare(pumps, families = "all"), "of a data frame: ww_life()")
+  refused(ww_compare(example("joint", "study.toml"), families = "all"), "model \"formula\"")
+})
+
 test_that("cycles are those of ASTM E1049's example", {
   signal <- c(-2, 1, -3, 5, -1, 3, -4, 4, -2)  # figure 6 of the standard: ranges 3, 4, 4, 8, 9, 8, 6
   found <- ww_rainflow(signal, method = "three-point")

@@ -99,7 +99,11 @@ test_that("new rows of a fit by Surv() are read as its call reads them", {
   expect_identical(later$parameters, quiet(ww_update(fit, in_words, report = FALSE))$parameters)
   again <- quiet(ww_update(later, data.frame(hours = 610, failed = 1), report = FALSE))  # of a fit that was updated
   expect_identical(again$summary$update$rows_before, 12)
-  refused(ww_update(fit, data.frame(hours = 3)), "failed")
+  refused(ww_update(fit, data.frame(hours = 3)), "Surv(): data has no column 'failed'")
+  refused(ww_update(fit, new[0, ]), "data has no rows")
+  refused(ww_update(fit, cbind(new, in_words)), "data can be read in two ways: by the formula of the fit, with the columns hours, failed, or as the columns of its study, life, status")
+  two <- quiet(ww_update(fit, list(new[1, ], new[2, ]), report = FALSE))  # several tables, each as the formula reads it
+  expect_identical(two$parameters, later$parameters)
   pumps$speed <- rep(c(10, 20), 5)
   pumps$site <- rep(c("a", "b"), c(4, 6))
   varied <- quiet(ww_life(Surv(hours, failed) ~ speed + site, data = pumps, units = c(hours = "h"), seed = 1, method = "exact", draws = 100,
@@ -108,4 +112,23 @@ test_that("new rows of a fit by Surv() are read as its call reads them", {
   expect_identical(one$summary$update$counted, 1)
   expect_error(ww_life(Surv(hours, failed) ~ speed, data = pumps[1, ]), "in all rows")
   expect_identical(ww_life(fit, b = 10, survived = 100), ww_life(fit, b = 10, survived = "100 h"))
+})
+
+test_that("new rows are read as the fit was made, whatever its columns are called", {
+  pumps <- data.frame(hours = c(150, 340, 560, 800, 1150, 2470, 100, 900, 300, 700), failed = c(1, 1, 1, 1, 0, 1, 1, 1, 1, 0))
+  fit_of <- function(...) quiet(ww_life(..., seed = 1, method = "exact", draws = 100, report = FALSE))
+  expected <- quiet(ww_update(fit_of(Surv(hours, failed) ~ 1, data = pumps, units = c(hours = "h")), data.frame(hours = 420, failed = 0), report = FALSE))
+  # The columns of the data have the names of those of the study: 0 was stopped, as Surv() reads it.
+  renamed <- stats::setNames(pumps, c("life", "ended"))
+  own <- fit_of(Surv(life, ended) ~ 1, data = renamed, units = c(life = "h"))
+  expect_identical(quiet(ww_update(own, data.frame(life = 420, ended = 0), report = FALSE))$parameters, expected$parameters)
+  by_names <- fit_of(pumps, "hours", event = "failed", units = c(hours = "h"))
+  expect_identical(quiet(ww_update(by_names, data.frame(hours = 420, failed = 0), report = FALSE))$parameters, expected$parameters)
+  formula <- Surv(hours, failed) ~ 1  # a formula that is kept under a name
+  kept <- fit_of(formula, data = pumps, units = c(hours = "h"))
+  rm(formula)
+  expect_identical(quiet(ww_update(kept, data.frame(hours = 420, failed = 0), report = FALSE))$parameters, expected$parameters)
+  refused(ww_plan_next(kept, goal = "B10", candidates = data.frame(count = 1), tests = data.frame(hours = c(3, NA), failed = 1)),
+          "tests, row 2: the life is missing")
+  refused(ww_plan_next(kept, goal = "B10", candidates = data.frame(count = 1), tests = data.frame(hours = 3)), "tests has no column 'failed'")
 })

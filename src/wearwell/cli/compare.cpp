@@ -1,9 +1,11 @@
 #include "wearwell/cli/compare.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,8 +14,9 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/cli/compare_families.h"
+#include "wearwell/present/progress_line.h"
 #include "wearwell/study/comparison.h"
+#include "wearwell/study/family_ranking.h"
 #include "wearwell/study/saved_result.h"
 
 namespace wearwell {
@@ -34,7 +37,9 @@ FamilyRanking ranking_of(const CompareOptions& options, Models models) {
         fmt::format("--families: needs one study, FILE.toml, but got {}{}", study.string(),
                     options.folders.size() > 1 ? " and others"
                                                : "; from a table: wearwell new NAME --from TABLE"));
-  return rank_families(source_of(study), options.families, models);
+  ProgressLine line(isatty(STDERR_FILENO) ? stderr : nullptr);
+  const Monitor monitor{.progress = [&](const Step& step) { line.show(step); }};
+  return rank_families(source_of(study), options.families, models, monitor);
 }
 
 Comparison compare_folders(const CompareOptions& options) {
@@ -60,7 +65,7 @@ int run_compare(const CompareOptions& options, Models models) {
     fmt::print("{}\n",
                printable_json((ranking ? ranking_json(*ranking) : to_json(comparison)).dump(2)));
   } else {
-    fmt::print("{}{}", comparison_text(comparison), ranking ? ranking_text(*ranking) : "");
+    fmt::print("{}", ranking ? ranking_text(*ranking) : comparison_text(comparison));
     if (!options.page.empty()) fmt::print("The page is {}\n", options.page.string());
   }
   return std::all_of(comparison.studies.begin(), comparison.studies.end(),

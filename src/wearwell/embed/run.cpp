@@ -11,6 +11,7 @@
 #include "wearwell/present/section_json.h"
 #include "wearwell/prognosis/carry.h"
 #include "wearwell/study/comparison.h"
+#include "wearwell/study/family_ranking.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/json.h"
 #include "wearwell/study/model.h"
@@ -156,6 +157,13 @@ Compared compared(const Files& names_and_folders) {
     results.emplace_back(name, read_saved_result(folder));
   const Comparison comparison = compare(std::move(results));
   return {to_json(comparison), comparison_text(comparison), comparison_page(comparison)};
+}
+
+Compared compared_families(const ReadStudy& read, const std::string& families, Monitor monitor) {
+  const ForkGuard guard;
+  monitor.threads = guard.most(monitor.threads);
+  const FamilyRanking ranking = rank_families(*read.source, families, all_models(), monitor);
+  return {ranking_json(ranking), ranking_text(ranking), comparison_page(ranking.comparison)};
 }
 
 }  // namespace wearwell::embed

@@ -65,5 +65,7 @@ struct Compared {
 };
 /// Folders of results with their names.
 Compared compared(const Files& names_and_folders);
+/// A study fitted with each of several families of lives (study/family_ranking.h).
+Compared compared_families(const ReadStudy& read, const std::string& families, Monitor monitor);
 
 }  // namespace wearwell::embed

@@ -10,6 +10,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/fatigue/rainflow.h"
 #include "wearwell/selection/json.h"
@@ -44,6 +45,7 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
   result.settings.seed = options.seed;
   result.selection = select_terms(result.design, result.observed, result.weights, result.settings);
   result.settings.search.stop = nullptr;
+  check_stop();  // a search that is stopped returns what it has
   nlohmann::ordered_json json = to_json(selection_header(result));
   json.update(to_json(result), true);
   Selected selected{

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell {
 namespace {
@@ -55,6 +56,7 @@ double deviance(double rss, const Eigen::VectorXd& root_weight) {
 LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                             const Eigen::VectorXd& weights, const std::vector<std::string>& names,
                             double tolerance) {
+  check_stop();  // a search that is stopped fits what it has, model by model
   const Index n = columns.rows(), k = columns.cols();
   if (response.size() != n)
     throw InputError(fmt::format("{} responses for {} rows", response.size(), n));

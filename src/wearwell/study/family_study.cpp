@@ -100,8 +100,17 @@ void refuse_long_value(const Source& study, const TomlReader& table, const std::
                "exchanged");
 }
 
+// Presets have families of their own, without parameters in the study.
+void refuse_presets(const TomlReader& root) {
+  if (root.has("model") && root.is_text("model") && root.required_text("model") != "formula")
+    root.fail("model",
+              "--families ranks distributions of lives under model \"formula\"; fit other models "
+              "with each family and compare the results");
+}
+
 LikelihoodLines likelihood_lines(const Source& study) {
   const TomlReader root = TomlReader::parse(study.study);
+  refuse_presets(root);
   refuse_own_families(root);
   const TomlReader likelihood = root.required_table("likelihood");
   if (likelihood.keys().size() != 1)

@@ -197,6 +197,10 @@ TEST_F(FamilyStudyTest, Refusals) {
                       "\"beta\"\n",
                       "gamma"),
               HasSubstr("likelihood.life.scale: goes over several lines"));
+  const Source preset =
+      source_of(write("sn.toml", "model = \"sn\"\n[likelihood]\nfamily = \"weibull\"\n"));
+  EXPECT_THAT(message_of<InputError>([&] { study_with_family(preset, "gamma"); }),
+              HasSubstr("--families ranks distributions of lives under model \"formula\""));
 }
 
 TEST_F(FamilyStudyTest, FamiliesBesideTheOneAreRefused) {

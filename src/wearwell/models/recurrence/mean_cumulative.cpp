@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell::recurrence {
@@ -82,6 +83,7 @@ std::vector<MeanCumulativeStep> mean_cumulative(const std::vector<UnitHistory>& 
   Deviations deviations(units);
   double mean = 0;
   for (const double age : ages) {
+    check_stop();
     MeanCumulativeStep step;
     step.age = age;
     const auto [from, to] = std::equal_range(all.begin(), all.end(), age);

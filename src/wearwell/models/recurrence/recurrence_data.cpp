@@ -9,6 +9,7 @@
 
 #include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
 #include "wearwell/input/status_words.h"
@@ -231,6 +232,7 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
   data.unit = age.unit;
   std::map<std::string, Reading> read;
   for (std::size_t i = 0; i < table.rows; ++i) {
+    check_stop();
     const std::string name = label_word(table, table.column(unit_column->column), i);
     const auto [at, is_new] = read.try_emplace(name, Reading{data.units.size()});
     if (is_new) data.units.push_back({name, starts[i]});

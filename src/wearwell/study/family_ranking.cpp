@@ -1,12 +1,10 @@
-#include "wearwell/cli/compare_families.h"
+#include "wearwell/study/family_ranking.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "wearwell/base/contains.h"
@@ -14,7 +12,6 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/present/plain.h"
-#include "wearwell/present/progress_line.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/family_study.h"
 #include "wearwell/study/never_reached.h"
@@ -44,15 +41,14 @@ std::vector<std::string> listed_families(const std::string& text) {
   return names;
 }
 
-SavedResult fitted(const Source& source, const std::string& family, Models models) {
+SavedResult fitted(const Source& source, const std::string& family, Models models,
+                   const Monitor& monitor) {
   const auto study = read_study(source, models);
   const auto* const posterior = dynamic_cast<const PosteriorStudy*>(study.get());
   RunOptions options;
   options.report = false;
   if (posterior && posterior->parameters.size() <= max_exact_dimension)
     options.sampler.method = Method::exact;
-  ProgressLine line(isatty(STDERR_FILENO) ? stderr : nullptr);
-  const Monitor monitor{.progress = [&](const Step& step) { line.show(step); }};
   Result result = study->run(options, monitor);
   if (!result.posterior)
     throw InputError(
@@ -154,15 +150,17 @@ auto in_family(const std::string& family, const Work& work) {
 
 }  // namespace
 
-FamilyRanking rank_families(const Source& study, const std::string& families, Models models) {
+FamilyRanking rank_families(const Source& study, const std::string& families, Models models,
+                            const Monitor& monitor) {
   const std::vector<std::string> names = listed_families(families);
   if (names.size() < 2) throw InputError("--families: needs two families or more, or all");
   std::vector<std::pair<std::string, SavedResult>> results;
   std::vector<Source> sources;
   for (const std::string& each : names) sources.push_back(study_with_family(study, each));
   for (std::size_t i = 0; i < names.size(); ++i)
-    results.emplace_back(names[i],
-                         in_family(names[i], [&] { return fitted(sources[i], names[i], models); }));
+    results.emplace_back(names[i], in_family(names[i], [&] {
+                           return fitted(sources[i], names[i], models, monitor);
+                         }));
   FamilyRanking ranking{compare(std::move(results)), {}};
   for (const Comparison::Entry& each : ranking.comparison.studies) {
     if (each.behind &&
@@ -187,8 +185,8 @@ std::string ranking_text(const FamilyRanking& ranking) {
       lines.back().push_back(found ? interval_text(found->best()) : "-");
     }
   }
-  std::string text;
-  if (lines.front().size() > 1) text = "\nLives, median (90 %)\n" + text_table(lines);
+  std::string text = comparison_text(ranking.comparison);
+  if (lines.front().size() > 1) text += "\nLives, median (90 %)\n" + text_table(lines);
   if (const std::string& end = ranking.comparison.conclusion; !end.empty())
     text += "\n" + wrapped(printable(end), 0, 2);
   return text;
