@@ -265,7 +265,7 @@ TEST_F(ReturnsModesTest, EachWordOfATriangleIsAMode) {
   const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
   const std::string rows = "sold,mode,units,1,2\n1,S,9,1,1\n1,0,9,0,1\n1,C,9,1,0\n";
   const Read all = read(rows, modes_study(returns));
-  EXPECT_EQ(all.model->modes->modes, (std::vector<std::string>{"S", "0", "C"}));
+  EXPECT_EQ(all.model->modes->modes, (std::vector<std::string>{"S", "C", "0"}));
   std::string text = modes_study(returns);
   text.replace(text.find("column = \"mode\""), 15, "column = \"mode\"\nrunout = \"S\"");
   EXPECT_THAT(refusal(rows, text),

@@ -155,6 +155,12 @@ std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& root,
     data.fail("columns", "does not go with [data.returns], which names the columns of a triangle");
   FieldReturns returns;
   const auto modes = root.table("failure_modes");
+  if (modes && modes->has("runout") && keys.has("mode") && !keys.has("returned"))
+    modes->fail("runout",
+                fmt::format("does not go with a returns triangle: its rows count returns, so each "
+                            "word of column '{}' is a failure mode; remove the rows of returns "
+                            "that are no failures",
+                            keys.required_text("mode")));
   const ModeWords words = modes ? read_mode_words(*modes) : ModeWords();
   returns.triangle = keys.has("returned") ? counted_triangle(keys, read_table(data, source), words)
                                           : read_triangle(keys, read_table(data, source), words);

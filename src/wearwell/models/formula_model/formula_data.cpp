@@ -337,13 +337,6 @@ void require_modes_of_returns(const TomlReader& root, const FieldReturns& return
   if (const std::string name = modes->required_text("column"); name != mode_of_returns)
     modes->fail("column",
                 fmt::format("must be \"{}\", the key of [data.returns]", mode_of_returns));
-  if (modes->has("runout") &&
-      !root.required_table("data").required_table("returns").has("returned"))
-    modes->fail("runout",
-                fmt::format("does not go with a returns triangle: its rows count returns, so each "
-                            "word of column '{}' is a failure mode; remove the rows of returns "
-                            "that are no failures",
-                            returns.triangle.mode_column));
   const std::vector<std::string> without = modes_without_returns(returns);
   for (const std::string& mode : modes_with_tables(*modes)) {
     if (contains(without, mode))
