@@ -8,7 +8,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
-#include "support/posterior_study.h"
+#include "models/formula_model/formula_models.h"
 #include "support/scratch.h"
 #include "wearwell/study/posterior_result.h"
 #include "wearwell/study/run_study.h"
@@ -78,8 +78,9 @@ TEST(ShareOfHighest, OfCells) {
 class MeanTailTest : public ScratchTest {
  protected:
   PosteriorSummary run(const std::string& text) const {
-    return run_study(wearwell::read_posterior_study(write("study.toml", text)),
-                     {Method::exact, 1, {}, 50, {}}, {}, true);
+    const auto study = read_study(source_of(write("study.toml", text)), formula_models());
+    return run_study(dynamic_cast<const PosteriorStudy&>(*study), {Method::exact, 1, {}, 50, {}},
+                     {}, true);
   }
   static const QuantityQuantiles& named(const PosteriorSummary& result, const std::string& name) {
     for (const QuantitySummary& each : result.quantities)
