@@ -25,6 +25,7 @@
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
 
+// Longer than others: all parts of one printed result.
 namespace wearwell {
 namespace {
 
