@@ -96,8 +96,8 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
     const QuantityDistribution known(draws, of_value);
     result.mean = from_si(request.unit, known.mean());
     // A share is bounded, and the mean of an indicator is a probability: their tails do not matter.
-    const bool is_share = (request.unit.text == "1" || request.unit.text == "%") &&
-                          known.quantile(0) >= 0 && known.quantile(1) <= 1;
+    bool is_share = request.unit.text == "1" || request.unit.text == "%";
+    known.visit([&](double, double value, double) { is_share &= value >= 0 && value <= 1; });
     if (const auto highest = share_of_highest(known); highest && !is_share)
       result.mean_tail = MeanTail{*highest, {}, {}};
   }
