@@ -1,4 +1,5 @@
 #include "wearwell/infer/fit_check.h"
+#include "wearwell/infer/judged_counts.h"
 
 #include <gmock/gmock.h>
 
@@ -225,6 +226,43 @@ TEST(FitCheck, OneRowOfManySurvivorsIsNoMisfit) {
   const Check check = fit_check(judge_fit(data, draws, {}));
   EXPECT_EQ(check.verdict, Verdict::pass) << check.detail;
   EXPECT_THAT(check.detail, HasSubstr("of 24 % of the items of each row"));
+}
+
+// 24 rows of 1000 survivors, and a row for each of the 40 000 that failed before: more rows than are judged. Of both the same share
+// is judged, whatever the lots; rows drawn whole would be 12 of 24 with a standard deviation of 2.4.
+TEST(FitCheck, OfManyRowsTheSameShareOfSurvivorsIsJudged) {
+  FitData data;
+  data.counts.assign(40'000, 1);
+  data.counts.insert(data.counts.begin() + 7000, 24, 1000);
+  for (std::uint64_t lot = 0; lot < 8; ++lot) {
+    const std::vector<std::size_t> row = judged_items(data.counts, 20'000, Rng(3, lot));
+    EXPECT_TRUE(std::is_sorted(row.begin(), row.end()));
+    const auto survivors = static_cast<double>(
+        std::count_if(row.begin(), row.end(), [](std::size_t i) { return i >= 7000 && i < 7024; }));
+    EXPECT_NEAR(survivors, 24'000 * 20'000.0 / 40'024, 1);
+    EXPECT_NEAR(static_cast<double>(row.size()) - survivors, 40'000 * 20'000.0 / 40'024, 1);
+  }
+  constexpr double stop = -0.3186;  // a share of 40 / 64 lies above
+  Rng rng(8, 1);
+  std::vector<NormalScore> scores;
+  for (const int each : data.counts) {
+    if (each > 1) {
+      scores.push_back({-INFINITY, stop});
+      continue;
+    }
+    double z = rng.normal();
+    while (z < stop) z = rng.normal();
+    scores.push_back({z, z});
+  }
+  data.scores = [scores](const double*) { return scores; };
+  WeightedDraws draws;
+  draws.values = Eigen::MatrixXd::Zero(50, 1);
+  draws.weights = Eigen::VectorXd::Constant(50, 0.02);
+  const Check check = fit_check(judge_fit(data, draws, {}));
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.detail;
+  EXPECT_THAT(check.detail, HasSubstr("20000 rows, sampled from 40024"));
+  data.share = 0.5;  // of a model that judges a share of its items itself
+  EXPECT_NEAR(judge_fit(data, draws, {}).share, 0.5, 1e-12);
 }
 
 TEST(FitCheck, OfVeryManyRowsASampleIsJudgedAndTheOutermostOfAll) {

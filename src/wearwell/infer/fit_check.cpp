@@ -13,7 +13,6 @@
 #include "wearwell/infer/distribution_tests.h"
 #include "wearwell/infer/judged_counts.h"
 #include "wearwell/infer/residual_tests.h"
-#include "wearwell/infer/row_sample.h"
 
 namespace wearwell {
 namespace {
@@ -252,9 +251,8 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   std::vector<bool> exact;
   for (std::size_t i = 0; i < rows; ++i) exact.push_back(of_first[i].exact());
   const std::vector<int> counts = judged_counts(data.counts, rows, most_judged, outcome.share);
-  std::vector<std::size_t> row;  // of each single observation
-  for (const std::size_t i : row_sample(rows, most_judged, Rng(seed, of_the_sample)))
-    row.insert(row.end(), static_cast<std::size_t>(counts[i]), i);
+  outcome.share *= data.share;
+  const std::vector<std::size_t> row = judged_items(counts, most_judged, Rng(seed, of_the_sample));
   const bool sampled = rows > most_judged;
   const Eigen::Index fewest =
       std::clamp(static_cast<Eigen::Index>(most_scores / static_cast<double>(rows)), fewest_of_many,

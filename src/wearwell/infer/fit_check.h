@@ -83,7 +83,8 @@ struct FitData {
   MeasuredValues measured = {};          ///< empty: no search for copies
   Remedies remedies = {};
   std::vector<std::string> names =
-      {};  ///< of the observations, in messages; empty: `noun` and number
+      {};            ///< of the observations, in messages; empty: `noun` and number
+  double share = 1;  ///< of the items of each row that `counts` has
 };
 
 /// One test, combined over all draws.

@@ -63,6 +63,12 @@ Json to_json(const QuantityQuantiles& q, bool is_life) {
   if (q.bound) json["bound"] = *q.bound;
   if (q.upper_bound) json["upper_bound"] = *q.upper_bound;
   if (q.mean) json["mean"] = *q.mean;
+  if (q.mean_tail) {
+    json["mean_tail"] = {{"highest", q.mean_tail->highest}};
+    if (q.mean_tail->beyond)
+      json["mean_tail"].update(
+          {{"observed_to", *q.mean_tail->longest}, {"beyond", *q.mean_tail->beyond}});
+  }
   if (q.numerical_error) json["numerical_error"] = *q.numerical_error;
   return json;
 }

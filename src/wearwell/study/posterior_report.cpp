@@ -8,6 +8,7 @@
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/mean_tail.h"
 #include "wearwell/study/never_reached.h"
 #include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/row_tables.h"
@@ -148,6 +149,12 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   return section;
 }
 
+// Under the table that has the means.
+void add_tails(const std::vector<QuantitySummary>& quantities, bool bounds, Section& section) {
+  for (const std::string& each : mean_tail_remarks(quantities, bounds))
+    section.add(present::Callout{"warn", "Mean", each});
+}
+
 Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"predictions", "Predictions"};
   std::vector<html::Figure> figures = prediction_figures(result, plots);
@@ -164,8 +171,12 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
     if (const std::string never = never_reached(result.quantities); !never.empty())
       section.add(Prose{never});
     section.add(std::move(table));
+    add_tails(result.quantities, true, section);
   }
-  if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
+  if (auto table = quantity_table(result.quantities); !table.rows.empty()) {
+    section.add(table);
+    add_tails(result.quantities, false, section);
+  }
   if (auto table = stage_prediction_table(result); !table.rows.empty())
     section.add(Details{"Every prediction, row by row", {{std::move(table)}}});
   return section;

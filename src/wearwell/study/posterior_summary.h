@@ -78,6 +78,15 @@ inline bool has_upper(BoundSides sides) {
   return sides != BoundSides::lower;
 }
 
+/// How much of a mean comes from the upper tail (study/mean_tail.h).
+struct MeanTail {
+  double highest =
+      0;  ///< the share of the posterior mean that the highest 1 % of the posterior carries
+  /// Of a mean life: the longest observed life, in its unit, and the share of the mean that comes from
+  /// lives beyond it, averaged over the posterior.
+  std::optional<double> longest = {}, beyond = {};
+};
+
 /// A quantity derived from the parameters: a pressure, a length, a life.
 struct QuantityQuantiles {
   double q05 = 0, q50 = 0, q95 = 0;
@@ -90,7 +99,8 @@ struct QuantityQuantiles {
   /// Estimated largest relative change of these numbers if they were summed over the whole
   /// posterior (study/numerical_error.h). Empty if they are.
   std::optional<double> numerical_error = {};
-  std::optional<double> mean = {};  ///< of a function of the parameters: its posterior mean
+  std::optional<double> mean = {};         ///< of a function of the parameters: its posterior mean
+  std::optional<MeanTail> mean_tail = {};  ///< of a mean life, or of `mean`
 };
 
 struct QuantitySummary {

@@ -16,6 +16,7 @@
 #include "wearwell/infer/trust.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/study/describe.h"
+#include "wearwell/study/mean_tail.h"
 #include "wearwell/study/plot_study.h"
 #include "wearwell/study/summarize.h"
 
@@ -286,6 +287,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   if (loo) to_density_unit(study.density, *loo);
   result.loo = std::move(loo);
   if (result.life && result.life->now > 0) result.checks.push_back(limit_check(*result.life));
+  if (const auto means = mean_life_check(result.quantities)) result.checks.push_back(*means);
   result.checks.push_back(sense_check(result));
   result.trusted = trusted(result.checks);
   result.posterior_draws = in_units(study, std::move(final.draws));

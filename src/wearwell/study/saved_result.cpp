@@ -138,6 +138,13 @@ QuantityQuantiles read_quantiles(const JsonReader& json) {
   if (json.find("upper_bound")) q.upper_bound = number(json, "upper_bound", never);
   if (json.find("mean")) q.mean = number(json, "mean", never);
   if (json.find("numerical_error")) q.numerical_error = number(json, "numerical_error");
+  if (const auto tail = json.find("mean_tail")) {
+    q.mean_tail = MeanTail{number(*tail, "highest"), {}, {}};
+    if (tail->find("beyond")) {
+      q.mean_tail->longest = number(*tail, "observed_to");
+      q.mean_tail->beyond = number(*tail, "beyond");
+    }
+  }
   return q;
 }
 

@@ -1,4 +1,5 @@
 #include "wearwell/study/summarize.h"
+#include "wearwell/study/mean_tail.h"
 
 #include <tbb/parallel_for.h>
 
@@ -65,6 +66,8 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
   for (std::optional<double>* each : {&q.predictive, &q.bound, &q.upper_bound, &q.mean}) {
     if (*each) *each = from_si(unit, **each);
   }
+  if (q.mean_tail && q.mean_tail->longest)
+    q.mean_tail->longest = from_si(unit, *q.mean_tail->longest);
   return q;
 }
 
@@ -90,7 +93,13 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
   }
   if (request.with_mean) {
     const auto of_value = [&](const double* x) { return request.value(request.driver(x)); };
-    result.mean = from_si(request.unit, QuantityDistribution(draws, of_value).mean());
+    const QuantityDistribution known(draws, of_value);
+    result.mean = from_si(request.unit, known.mean());
+    // A share is bounded, and the mean of an indicator is a probability: their tails do not matter.
+    bool is_share = request.unit.text == "1" || request.unit.text == "%";
+    known.visit([&](double, double value, double) { is_share &= value >= 0 && value <= 1; });
+    if (const auto highest = share_of_highest(known); highest && !is_share)
+      result.mean_tail = MeanTail{*highest, {}, {}};
   }
   return result;
 }

@@ -17,6 +17,7 @@
 #include "wearwell/study/bound_words.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/mean_tail.h"
 #include "wearwell/study/never_reached.h"
 #include "wearwell/study/numerical_error.h"
 #include "wearwell/study/posterior_tables.h"
@@ -24,6 +25,7 @@
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
 
+// Longer than others: all parts of one printed result.
 namespace wearwell {
 namespace {
 
@@ -147,6 +149,14 @@ std::string error_line(const std::vector<QuantitySummary>& quantities, bool boun
                      plain_number(100 * *error, 2));
 }
 
+// Of the means of a table.
+std::string tail_lines(const std::vector<QuantitySummary>& quantities, bool bounds) {
+  std::string lines;
+  for (const std::string& each : mean_tail_remarks(quantities, bounds))
+    lines += wrapped(printable(shown(each)), 2, 4);
+  return lines;
+}
+
 // Quantities of single items (new ones if items vary), grouped by name and condition. If there are
 // lower bounds, they are the design values.
 std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
@@ -182,7 +192,7 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
   }
   if (rows.size() == 1) return "";
   return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +
-         text_table(rows) + error_line(quantities, false);
+         text_table(rows) + error_line(quantities, false) + tail_lines(quantities, false);
 }
 
 // "never" for the life by which a share has failed, if it is not reached.
@@ -224,7 +234,8 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   if (rows.empty()) return "";
   const std::string never = never_reached(quantities);
   return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
-         (never.empty() ? "" : wrapped(never, 2, 4)) + wrapped(bound_sentence(level, sides), 2, 4) +
+         tail_lines(quantities, true) + (never.empty() ? "" : wrapped(never, 2, 4)) +
+         wrapped(bound_sentence(level, sides), 2, 4) +
          wrapped(
              "next one: the value for the next item, averaged over the posterior (predictive). It "
              "has no margin for few tests: do not design with it.",

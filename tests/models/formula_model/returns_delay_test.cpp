@@ -7,11 +7,11 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
+#include "models/formula_model/formula_models.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/registry.h"
 #include "wearwell/study/model.h"
 #include "wearwell/study/posterior_summary.h"
 
@@ -55,7 +55,7 @@ class ReturnsDelayTest : public ScratchTest {
                       "\"month\"\n{}\n[likelihood.life]\nfamily = \"weibull\"\nscale = "
                       "\"scale\"\nshape = \"shape\"\n[prior]\n{}[predict]\n{}\n",
                       returns, prior, predict));
-    return read_study(source_of(folder() / "study.toml"), all_models());
+    return read_study(source_of(folder() / "study.toml"), formula_models());
   }
   Result run(const std::string& table, const std::string& returns, const std::string& predict = "",
              double known = 0) {

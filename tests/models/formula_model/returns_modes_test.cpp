@@ -184,6 +184,131 @@ TEST_F(ReturnsModesTest, UnknownModes) {
   EXPECT_EQ(result.forecast[0].by_mode[1].observed, 1);
 }
 
+// A mode that came back in the held-out month only has no life: it is named, and is not of unknown mode.
+TEST_F(ReturnsModesTest, ModesOfHeldOutMonthsAreNamed) {
+  const std::string returns =
+      "quantity = \"units\"\nmode = \"code\"\nperiod = \"month\"\nhold_out = \"1 month\"\n";
+  const Read all = read(
+      "sold,code,units,1,2,3\n1,seal|seal,90,3,4,2\n1,bearing,90,1,2,1\n1,motor,90,0,0,5\n1,,90,1,"
+      "0,3\n",
+      modes_study(returns));
+  const AskedReturns asked = read_asked_returns(all.root, all.source, all.model);
+  EXPECT_EQ(asked.modes, (std::vector<std::string>{"seal", "bearing"}));
+  const std::vector<double> x = point(*all.model, 40, 1, 25, 1);
+  const ReturnsResult result = modes_forecast(asked, x);
+  EXPECT_EQ(result.forecast[0].unfitted, (std::map<std::string, int>{{"motor", 5}}));
+  EXPECT_EQ(result.forecast[0].masked, 3);
+  EXPECT_EQ(result.forecast[0].by_mode[0].observed, 2);
+  EXPECT_EQ(result.fitted[0].masked, 1);
+  EXPECT_EQ(result.fitted[0].by_mode[0].observed, 3);  // 'seal|seal' is a seal
+  EXPECT_THAT(modes_remarks(asked, result),
+              testing::ElementsAre(
+                  HasSubstr("Of 11 returns in the fitted months (until 2), 1 is of unknown mode"),
+                  HasSubstr("Of 11 returns in the held-out months, 3 are of unknown mode"),
+                  HasSubstr("Held out: 5 returns by 'motor', which has no return in the fitted "
+                            "months (until 2)")));
+  const present::Table table = modes_forecast_table(asked, result);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(std::get<std::string>(table.rows[2][1]), "motor");
+  EXPECT_EQ(table.rows[2].size(), table.columns.size());
+  EXPECT_EQ(std::get<double>(table.rows[2].back()), 5);
+}
+
+// In summary.json all returns of a period are those of its modes, of unknown mode and of modes that are not fitted.
+TEST_F(ReturnsModesTest, ReturnsOfAPeriodAddUpInJson) {
+  const Read all = read(
+      "sold,code,units,1,2\n1,seal,90,3,4\n1,bearing,90,1,2\n1,motor,90,0,2\n1,?,90,1,1\n"
+      "1,seal|bearing,90,2,0\n",
+      modes_study("quantity = \"units\"\nmode = \"code\"\nperiod = \"month\"\n"
+                  "hold_out = \"1 month\"\n",
+                  "next = \"2 month\"\n"));
+  const AskedReturns asked = read_asked_returns(all.root, all.source, all.model);
+  WeightedDraws draws;
+  const std::vector<double> x = point(*all.model, 40, 1, 25, 1);
+  draws.values = Eigen::Map<const Eigen::RowVectorXd>(x.data(), 4);
+  draws.weights = Eigen::VectorXd::Ones(1);
+  const PresetAddition added = returns_addition(asked, draws);
+  const auto& json = added.body.at("returns");
+  for (const auto& each : {json["fitted"][0], json["forecast"][0]}) {
+    int sum = each["unknown_mode"];
+    for (const auto& mode : each["modes"]) sum += mode["observed"].get<int>();
+    if (each.contains("unfitted_modes"))
+      for (const auto& mode : each["unfitted_modes"]) sum += mode["observed"].get<int>();
+    EXPECT_EQ(sum, each["observed"].get<int>()) << each;
+  }
+  EXPECT_EQ(json["fitted"][0]["unknown_mode"], 3);
+  EXPECT_EQ(json["forecast"][0]["unknown_mode"], 1);
+  EXPECT_EQ(json["forecast"][0]["unfitted_modes"][0]["mode"], "motor");
+  EXPECT_FALSE(json["forecast"][1].contains("unknown_mode"));  // still to come
+  EXPECT_THAT(added.text, HasSubstr("3 are of unknown mode"));
+}
+
+// Messages about modes name the cell of the file, in a triangle and in a table of single units.
+TEST_F(ReturnsModesTest, MessagesNameTheCellOfTheFile) {
+  const std::string triangle =
+      "quantity = \"units\"\nmode = \"failure code\"\nperiod = \"month\"\n";
+  EXPECT_THAT(refusal("sold,failure code,units,1,2\n1,seal,9,1,1\n1,bearing,9,1,1\n1,motor,9,0,0\n"
+                      "2,failed,9,,1\n",
+                      modes_study(triangle)),
+              HasSubstr("d.csv, row 4, column 'failure code': 'failed' can mean"));
+  const std::string units =
+      "sold = \"sold\"\nreturned = \"back\"\nmode = \"cause\"\nuntil = 2\nperiod = \"month\"\n";
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,seal\n1,2,seal\n1,1,bearing\n1,,\n2,,\n2,2,failed\n",
+                      modes_study(units)),
+              HasSubstr("d.csv, row 6, column 'cause': 'failed' can mean"));
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,seal\n1,2,bearing|\n", modes_study(units)),
+              HasSubstr("d.csv, row 2, column 'cause': 'bearing|' has an empty failure mode"));
+}
+
+// Which units failed is settled before: a word of one letter is a mode like any other.
+TEST_F(ReturnsModesTest, EachWordOfATriangleIsAMode) {
+  const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
+  const std::string rows = "sold,mode,units,1,2\n1,S,9,1,1\n1,0,9,0,1\n1,C,9,1,0\n";
+  const Read all = read(rows, modes_study(returns));
+  EXPECT_EQ(all.model->modes->modes, (std::vector<std::string>{"S", "C", "0"}));
+  std::string text = modes_study(returns);
+  text.replace(text.find("column = \"mode\""), 15, "column = \"mode\"\nrunout = \"S\"");
+  EXPECT_THAT(refusal(rows, text),
+              HasSubstr("failure_modes.runout: does not go with a returns triangle: its rows count "
+                        "returns, so each word of column 'mode' is a failure mode"));
+  // A word of the study for an unknown mode; of single units also one for those that did not come back.
+  text = modes_study(returns);
+  text.replace(text.find("column = \"mode\""), 15, "column = \"mode\"\nunknown = \"open\"");
+  const Read open = read("sold,mode,units,1,2\n1,S,9,1,1\n1,B,9,0,1\n1,open,9,1,0\n", text);
+  EXPECT_EQ(open.model->modes->modes, (std::vector<std::string>{"S", "B"}));
+  EXPECT_EQ(open.model->joint.size(), 4u);
+  text = modes_study(
+      "sold = \"sold\"\nreturned = \"back\"\nmode = \"cause\"\nuntil = 2\nperiod = \"month\"\n");
+  text.replace(text.find("column = \"mode\""), 15, "column = \"mode\"\nrunout = \"fine\"");
+  EXPECT_EQ(read("sold,back,cause\n1,1,S\n1,2,B\n1,,fine\n", text).model->modes->modes,
+            (std::vector<std::string>{"S", "B"}));
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,S\n1,2,fine\n", text),
+              HasSubstr("'fine' is a run-out, but column 'back' has a return, '2'"));
+}
+
+// A mode whose cells are all zero has no life; neither its row nor its table goes without a remark.
+TEST_F(ReturnsModesTest, ModesWithoutAReturn) {
+  const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
+  const std::string rows = "sold,mode,units,1,2\n1,seal,9,1,1\n1,bearing,9,0,1\n1,motor,9,0,0\n";
+  const Read all = read(rows, modes_study(returns));
+  EXPECT_EQ(all.model->modes->modes.size(), 2u);
+  EXPECT_THAT(notes_of_returns(*read_field_returns(all.root, all.source)),
+              testing::Contains(HasSubstr("failure mode 'motor' has no return in the fitted months "
+                                          "(until 2): it has no life in the fit")));
+  const std::string table =
+      "[failure_modes.motor]\nfamily = \"exponential\"\nmean = \"100 month\"\n[likelihood.life]";
+  std::string text = modes_study(returns);
+  text.replace(text.find("[likelihood.life]"), 17, table);
+  EXPECT_THAT(refusal(rows, text), HasSubstr("failure_modes.motor: this failure mode has no return "
+                                             "in the fitted months (until 2); remove its table"));
+  // Of single units, one that came back after the end of the table.
+  text = modes_study(
+      "sold = \"sold\"\nreturned = \"back\"\nmode = \"cause\"\nuntil = 2\nperiod = \"month\"\n");
+  text.replace(text.find("[likelihood.life]"), 17, table);
+  EXPECT_THAT(refusal("sold,back,cause\n1,1,seal\n1,2,bearing\n1,3,motor\n", text),
+              HasSubstr("failure_modes.motor: this failure mode has no return in the fitted"));
+}
+
 TEST_F(ReturnsModesTest, Refusals) {
   const std::string returns = "quantity = \"units\"\nmode = \"mode\"\nperiod = \"month\"\n";
   const auto of = [&](const std::string& rows) {

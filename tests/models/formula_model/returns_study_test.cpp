@@ -6,12 +6,12 @@
 #include <cmath>
 #include <fstream>
 
+#include "models/formula_model/formula_models.h"
 #include "models/formula_model/simulated_returns.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/registry.h"
 #include "wearwell/study/model.h"
 #include "wearwell/study/posterior_summary.h"
 
@@ -31,7 +31,7 @@ class ReturnsStudyTest : public ScratchTest {
   std::unique_ptr<const Study> read(const std::string& table, const std::string& study) {
     write("d.csv", table);
     write("study.toml", study);
-    return read_study(source_of(folder() / "study.toml"), all_models());
+    return read_study(source_of(folder() / "study.toml"), formula_models());
   }
   Result run(const std::string& table, const std::string& study) {
     RunOptions options;

@@ -24,7 +24,7 @@ class ReturnsTriangleTest : public ScratchTest {
     const Source source =
         source_of(write("study.toml", "[data]\nfile = \"d.csv\"\n[data.returns]\n" + keys));
     const TomlReader root = TomlReader::parse(source.study);
-    return read_field_returns(root.required_table("data"), source);
+    return read_field_returns(root, source);
   }
   std::string refusal(const std::string& table, const std::string& keys = "") {
     return message_of<InputError>([&] { lives_of_returns(*read(table, keys)); });

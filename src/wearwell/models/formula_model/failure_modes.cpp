@@ -11,6 +11,7 @@
 #include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/mode_words.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -20,11 +21,10 @@ constexpr std::string_view keys_of_modes[] = {"column", "runout", "unknown"};
 // Cells of the mode column.
 class ModeCells {
  public:
-  ModeCells(const TomlReader& section, const FormulaData& data, const Observed& all,
-            const std::string& heading)
-      : section_(section), data_(data), column_(data.table.column(heading)), all_(all) {
-    for (const std::string& each : section.texts("runout")) runout_.push_back(folded_word(each));
-    for (const std::string& each : section.texts("unknown")) unknown_.push_back(folded_word(each));
+  // `of_returns`: of a returns triangle, whose reader has settled which units failed.
+  ModeCells(const ModeWords& words, const FormulaData& data, const Observed& all,
+            const Column& column, bool of_returns)
+      : words_(words), data_(data), column_(column), all_(all), of_returns_(of_returns) {
     for (std::size_t i = 0; i < all.rows.size(); ++i) marks_runouts_ |= says_runout(word(i));
     const SpecialColumns special = special_columns(data);
     stated_ = data.status || special.lower || special.upper || marks_runouts_ ||
@@ -39,8 +39,11 @@ class ModeCells {
   };
   Named named(std::size_t i) const {
     const std::string text = word(i);
-    const bool none = text.empty(),
-               unknown = is_in(unknown_, text) || folded_word(text) == "unknown";
+    const bool none = text.empty(), unknown = !none && words_.means_unknown(text);
+    if (of_returns_) {
+      if (all_.responses[i].seen == Censoring::right) return {true};
+      return none ? Named{} : Named{false, parts(i, text)};
+    }
     if (all_.responses[i].seen == Censoring::right) {
       if (!none && !unknown && !says_runout(text) && !is_runout_word(text))
         fail(i,
@@ -70,7 +73,7 @@ class ModeCells {
 
   // "failed" beside "seal" and "motor": a mode of this name, or one that is not known.
   void refuse_failures_of_no_mode(const std::vector<std::string>& modes) const {
-    if (!unknown_.empty() || modes.size() < 2) return;
+    if (!words_.unknown.empty() || modes.size() < 2) return;
     for (std::size_t i = 0; i < all_.rows.size(); ++i) {
       const std::string text = word(i);
       if (all_.responses[i].seen == Censoring::right || !is_failure_of_no_mode(text)) continue;
@@ -91,41 +94,23 @@ class ModeCells {
     const std::string text = cell_word(column_, all_.rows[i]);
     return is_missing_mark(text) ? std::string() : text;
   }
-  static bool is_in(const std::vector<std::string>& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), folded_word(word)) != words.end();
-  }
   static bool is_runout_word(const std::string& text) {
     return censoring_by_word(text) == Censoring::right;
   }
 
-  // The study's words take precedence. With a status column the status decides, so a short word can be a mode.
-  bool says_runout(const std::string& text) const {
-    if (text.empty()) return false;
-    if (!runout_.empty()) return is_in(runout_, text);
-    return is_runout_word(text) && folded_word(text).size() >= shortest_runout_word;
-  }
+  // With a status column the status decides, so a short word can be a mode.
+  bool says_runout(const std::string& text) const { return words_.means_runout(text); }
 
   std::vector<std::string> parts(std::size_t i, const std::string& text) const {
-    std::vector<std::string> modes;
-    for (std::size_t at = 0; at <= text.size();) {
-      const std::size_t bar = std::min(text.find('|', at), text.size());
-      std::string mode = text.substr(at, bar - at);
-      mode.erase(0, std::min(mode.find_first_not_of(" \t"), mode.size()));
-      mode.erase(mode.find_last_not_of(" \t") + 1);
-      at = bar + 1;
-      if (mode.empty())
-        fail(i,
-             fmt::format("'{}' has an empty failure mode; write the possible ones as 'A|B'", text));
-      refuse_two_readings(i, mode);
-      if (mode.find('\'') != mode.npos && mode.find('"') != mode.npos)
-        fail(i, fmt::format("'{}' has both kinds of quotation marks", mode));
-      if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-    }
+    const std::vector<std::string> modes =
+        modes_in(text, [&] { return place(data_.table, column_.name, all_.rows[i]); });
+    if (!of_returns_)
+      for (const std::string& mode : modes) refuse_two_readings(i, mode);
     return modes;
   }
 
   void refuse_two_readings(std::size_t i, const std::string& mode) const {
-    if (!runout_.empty()) return;
+    if (!words_.runout.empty()) return;
     if (const auto near = misspelt_runout(mode); near && !data_.status)
       fail(i,
            fmt::format("'{}' can mean a run-out ('{}', misspelt), or a failure mode of this name; "
@@ -145,12 +130,11 @@ class ModeCells {
     throw InputError(fmt::format("{}: {}", place(data_.table, column_.name, all_.rows[i]), why));
   }
 
-  const TomlReader& section_;
+  ModeWords words_;
   const FormulaData& data_;
   const Column& column_;
   const Observed& all_;
-  std::vector<std::string> runout_, unknown_;
-  bool marks_runouts_ = false, stated_ = false;
+  bool of_returns_ = false, marks_runouts_ = false, stated_ = false;
 };
 
 std::size_t place_of(std::vector<std::string>& all, const std::string& name) {
@@ -182,10 +166,13 @@ FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
   const TomlReader section = root.required_table("failure_modes");
   FailureModes found{section.required_text("column"), {}, {}};
   const TomlReader of_data = root.required_table("data");
-  const std::string heading = of_data.has("returns")
-                                  ? found.name
-                                  : heading_of_modes(of_data.required_table("columns"), found.name);
-  const ModeCells cells(section, data, all, heading);
+  const bool of_returns = of_data.has("returns");
+  const Column& column =
+      of_returns
+          ? data.table.columns.back()
+          : data.table.column(heading_of_modes(of_data.required_table("columns"), found.name));
+  const std::string heading = column.name;
+  const ModeCells cells(read_mode_words(section), data, all, column, of_returns);
   found.possible.assign(data.table.rows, 0);
   std::vector<std::size_t> unknown;
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
@@ -203,8 +190,8 @@ FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
   }
   cells.refuse_failures_of_no_mode(found.modes);
   if (found.modes.empty())
-    throw InputError(
-        fmt::format("{}: column '{}' names no failure mode", data.table.source, heading));
+    throw InputError(fmt::format("{}: column '{}' names no failure mode{}", data.table.source,
+                                 heading, of_returns ? " of a return in the fitted periods" : ""));
   const std::uint32_t every = (std::uint32_t{1} << found.modes.size()) - 1;
   for (const std::size_t row : unknown) found.possible[row] = every;
   for (const std::string& mode : modes_with_tables(section)) {

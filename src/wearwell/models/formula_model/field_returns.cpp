@@ -64,22 +64,21 @@ void read_delays(const TomlReader& keys, const Source& source, FieldReturns& ret
 struct LifeRows {
   std::vector<double> lower, upper, count;
   std::vector<std::string> sold, mode;
-  std::vector<std::size_t> origin;  // of the mode: row of the table, from 1
+  std::vector<std::size_t> row;  // of the triangle
 
-  void add(double from, double to, int units, const std::string& period,
-           const ModeReturns& by = {}) {
+  void add(double from, double to, int units, const std::string& period, const ModeReturns& by) {
     lower.push_back(from);
     upper.push_back(to);
     count.push_back(units);
     sold.push_back(period);
     mode.push_back(by.mode);
-    origin.push_back(by.row + 1);
+    row.push_back(by.row);
   }
 };
 
 // The returns of one cell, mode by mode where the table has modes.
 std::vector<ModeReturns> cell_of(const SalesPeriod& sale, std::size_t after) {
-  if (sale.by_mode.empty()) return {{"", 0, {sale.returns[after]}}};
+  if (sale.by_mode.empty()) return {{"", sale.row, {sale.returns[after]}}};
   std::vector<ModeReturns> cell;
   for (const ModeReturns& each : sale.by_mode)
     if (each.returns[after] > 0) cell.push_back({each.mode, each.row, {each.returns[after]}});
@@ -111,7 +110,8 @@ void add_failures(const FieldReturns& returns, const SalesPeriod& sale, LifeRows
   }
   const int after = returns.last() - sale.at;
   const double now = returns.age(after);
-  if (surviving > 0 && returns.age_in_use(after) > 0) rows.add(now, NAN, surviving, period);
+  if (surviving > 0 && returns.age_in_use(after) > 0)
+    rows.add(now, NAN, surviving, period, {"", sale.row});
 }
 
 NumberColumn column_of_lives(const char* name, const Unit& period, std::vector<double> values) {
@@ -147,14 +147,23 @@ bool FieldReturns::claimed(int after) const {
          to_si(period, age(after - 1)) < reporting->most() + reporting->warranty;
 }
 
-std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
+std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& root,
                                                        const Source& source) {
+  const TomlReader data = root.required_table("data");
   const TomlReader keys = data.required_table("returns");
   if (data.has("columns"))
     data.fail("columns", "does not go with [data.returns], which names the columns of a triangle");
   FieldReturns returns;
-  returns.triangle = keys.has("returned") ? counted_triangle(keys, read_table(data, source))
-                                          : read_triangle(keys, read_table(data, source));
+  const auto modes = root.table("failure_modes");
+  if (modes && modes->has("runout") && keys.has("mode") && !keys.has("returned"))
+    modes->fail("runout",
+                fmt::format("does not go with a returns triangle: its rows count returns, so each "
+                            "word of column '{}' is a failure mode; remove the rows of returns "
+                            "that are no failures",
+                            keys.required_text("mode")));
+  const ModeWords words = modes ? read_mode_words(*modes) : ModeWords();
+  returns.triangle = keys.has("returned") ? counted_triangle(keys, read_table(data, source), words)
+                                          : read_triangle(keys, read_table(data, source), words);
   returns.period = read_period(keys, returns.triangle.names);
   const std::string ages =
       keys.choice("ages", {"middle", "start", "end", "whole"}).value_or("middle");
@@ -171,6 +180,26 @@ std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
   if (returns.last() < returns.triangle.sales.front().at)
     keys.fail("hold_out", "leaves no period to fit");
   return std::make_shared<const FieldReturns>(std::move(returns));
+}
+
+std::vector<std::string> modes_without_returns(const FieldReturns& returns) {
+  std::vector<std::string> without = returns.triangle.modes;
+  for (const SalesPeriod& sale : returns.triangle.sales) {
+    for (const ModeReturns& each : sale.by_mode) {
+      bool any = false;
+      for (int after = 0; sale.at + after <= returns.last(); ++after)
+        any |= each.returns[static_cast<std::size_t>(after)] > 0 && returns.claimed(after);
+      if (!any || each.mode.empty()) continue;
+      for (const std::string& mode : modes_in(each.mode, [] { return std::string(); }))
+        std::erase(without, mode);
+    }
+  }
+  return without;
+}
+
+std::string fitted_periods(const FieldReturns& returns) {
+  return fmt::format("in the fitted {}s (until {})", returns.period.text,
+                     returns.triangle.names.text(returns.last()));
 }
 
 FormulaData lives_of_returns(const FieldReturns& returns) {
@@ -190,9 +219,12 @@ FormulaData lives_of_returns(const FieldReturns& returns) {
                         table_column("upper", returns.period, rows.upper),
                         table_column("count", plain, rows.count)};
   data.table.columns.push_back(Column{"sold", false, {}, rows.sold});
-  if (!returns.triangle.mode_column.empty()) {
-    data.table.columns.push_back(Column{mode_of_returns, false, {}, rows.mode});
-    data.table.origins = rows.origin;  // messages about modes name the row of the triangle
+  if (!returns.triangle.mode_column.empty()) {  // messages about modes name the cell of the file
+    const Table& file = returns.triangle.table;
+    data.table.columns.push_back(Column{returns.triangle.mode_column, false, {}, rows.mode});
+    for (const std::size_t row : rows.row)
+      data.table.origins.push_back(file.origins.empty() ? row + 1 : file.origins[row]);
+    data.table.lines = file.lines;
   }
   data.numbers.push_back(column_of_lives("lower", returns.period, rows.lower));
   data.numbers.push_back(column_of_lives("upper", returns.period, rows.upper));
@@ -240,6 +272,10 @@ std::vector<std::string> notes_of_returns(const FieldReturns& returns) {
   if (triangle.sales.front().at < triangle.first && !returns.whole)
     notes.push_back(fmt::format("no column of {}: none is taken to have come back in it",
                                 names.text(triangle.sales.front().at)));
+  for (const std::string& mode : modes_without_returns(returns))
+    notes.push_back(fmt::format(
+        "failure mode '{}' has no return {}: it has no life in the fit and no part of the forecast",
+        mode, fitted_periods(returns)));
   if (returns.held_out > 0)
     notes.push_back(
         fmt::format("{} {}s after {} are held out of the fit and compared with the "

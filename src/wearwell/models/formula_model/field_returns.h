@@ -39,18 +39,24 @@ struct FieldReturns {
   bool claimed(int after) const;
 };
 
-/// Reads data.returns and its table. Throws InputError.
-std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& data,
+/// Reads data.returns and its table, with the words of [failure_modes]. Throws InputError.
+std::shared_ptr<const FieldReturns> read_field_returns(const TomlReader& root,
                                                        const Source& source);
+
+/// The failure modes that the table names without a return in the fitted periods.
+std::vector<std::string> modes_without_returns(const FieldReturns& returns);
+/// "in the fitted months (until 2024-12)".
+std::string fitted_periods(const FieldReturns& returns);
 
 /// The name of the column of failure modes in a study of returns, `[failure_modes] column`.
 inline constexpr const char* mode_of_returns = "mode";
 
 /// The lives that the fitted periods tell, as a table of intervals: columns `lower` and `upper` (in
 /// periods; no lower end: a failure before the first look, no upper end: a survivor) and `count`. A
-/// cell of the triangle is a row of failures (one for each failure mode, with a column `mode`), and
-/// the units of a period of sale that did not come back a row of survivors. Throws InputError that
-/// names the period of sale: a return before the end of the delays.
+/// cell of the triangle is a row of failures (one for each failure mode), and the units of a period
+/// of sale that did not come back a row of survivors. The column of failure modes is the last one,
+/// with the heading and the rows of the file. Throws InputError that names the period of sale: a
+/// return before the end of the delays.
 FormulaData lives_of_returns(const FieldReturns& returns);
 
 /// What a reader should know of the data, as sentences.

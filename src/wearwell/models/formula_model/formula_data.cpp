@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/base/unit_hint.h"
@@ -16,6 +17,7 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/field_returns.h"
 
 // Longer than others: columns, and the meaning of each cell of a measured one.
@@ -335,6 +337,12 @@ void require_modes_of_returns(const TomlReader& root, const FieldReturns& return
   if (const std::string name = modes->required_text("column"); name != mode_of_returns)
     modes->fail("column",
                 fmt::format("must be \"{}\", the key of [data.returns]", mode_of_returns));
+  const std::vector<std::string> without = modes_without_returns(returns);
+  for (const std::string& mode : modes_with_tables(*modes)) {
+    if (contains(without, mode))
+      modes->fail(mode, fmt::format("this failure mode has no return {}; remove its table",
+                                    fitted_periods(returns)));
+  }
   if (returns.reporting)
     modes->fail("",
                 "is not possible with delays that vary; state fixed delays, or fit the returns "
@@ -349,7 +357,7 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
   if (section.has("returns")) {
     if (root.has("random_effects"))
       root.fail("random_effects", "is not possible with [data.returns]");
-    const auto returns = read_field_returns(section, source);
+    const auto returns = read_field_returns(root, source);
     require_modes_of_returns(root, *returns);
     return lives_of_returns(*returns);
   }

@@ -268,6 +268,23 @@ LifeDistribution::Known LifeDistribution::mean_beyond(const WeightedDraws& draws
   return given ? Known{{*given, value}} : undetermined(draws);
 }
 
+double LifeDistribution::share_of_mean_beyond(const WeightedDraws& draws, double from,
+                                              double life) const {
+  constexpr std::size_t points = 200;  // of a share, between 0 and 1
+  LifeAtPoint at = at_point();
+  const ThinnedPosterior few(draws, std::min(points, affordable(thinned_posterior, draws, {&at})));
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < few.weights.size(); ++i) {
+    at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
+    const double weight = few.weights[i] * (from > 0 ? 1 - at.cdf(from) : 1);
+    const double share = weight > 0 ? at.share_of_mean_beyond(from, life) : std::nan("");
+    if (std::isnan(share)) continue;
+    sum += weight * share;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 LifeDistribution::Known LifeDistribution::survival(const WeightedDraws& draws, double life,
                                                    double share_of_points) const {
   LifeAtPoint at = at_point();

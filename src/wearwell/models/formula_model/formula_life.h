@@ -64,6 +64,8 @@ class LifeDistribution {
   /// The mean life of those that have survived to `from`, from there on, over the posterior given
   /// that survival; infinite where the distribution has none. `from` is 0 for a new item.
   Known mean_beyond(const WeightedDraws& draws, double from, double share_of_points = 1) const;
+  /// The share of that mean that comes from lives beyond `life`, averaged over the posterior given survival to `from`.
+  double share_of_mean_beyond(const WeightedDraws& draws, double from, double life) const;
   /// The hazard rate at this life, per SI unit of life.
   Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
   /// The share that has ended by this life through one of the risks.

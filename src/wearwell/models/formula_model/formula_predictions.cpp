@@ -184,7 +184,8 @@ class Predictions {
                    {"compared_with", under_other, other},
                    {"accelerated", under_fast, fast}},
                   study_);
-    const AskedOfLife asked{life, fast, other, levels, mean, survived, survival, hazard};
+    const AskedOfLife asked{
+        life, fast, other, levels, mean, survived, survival, hazard, ObservedLives(asked_.rows)};
     group.from_draws = [asked](const WeightedDraws& draws) { return life_answers(asked, draws); };
     group.lives = [asked](const WeightedDraws& draws) { return predictive_lives(asked, draws); };
     study_.quantity_groups.push_back(std::move(group));

@@ -2,8 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <functional>
 
+#include "wearwell/study/mean_tail.h"
 #include "wearwell/study/numerical_error.h"
 
 namespace wearwell::formula_model {
@@ -11,39 +13,48 @@ namespace {
 
 using Known = LifeDistribution::Known;
 
+struct Question {
+  std::function<Known()> value;
+  std::optional<double> mean_from = {};  // of a mean life: of survivors of this
+
+  Question(std::function<Known()> of_value, std::optional<double> from = {})
+      : value(std::move(of_value)), mean_from(from) {}
+};
+
 // Those with a posterior; all run in parallel.
-std::vector<std::function<Known()>> known_answers(const AskedOfLife& asked,
-                                                  const WeightedDraws& draws, double points) {
-  std::vector<std::function<Known()>> all;
+std::vector<Question> known_answers(const AskedOfLife& asked, const WeightedDraws& draws,
+                                    double points) {
+  std::vector<Question> all;
   const LifeDistribution& life = *asked.life;
   for (const double percent : asked.levels.percents)
-    all.push_back([=, &draws, &life] { return life.quantile(draws, percent / 100, points); });
-  if (asked.mean) all.push_back([=, &draws, &life] { return life.mean_beyond(draws, 0, points); });
+    all.emplace_back([=, &draws, &life] { return life.quantile(draws, percent / 100, points); });
+  if (asked.mean)
+    all.emplace_back([=, &draws, &life] { return life.mean_beyond(draws, 0, points); }, 0.0);
   if (asked.survived) {
     const double from = asked.survived->si();
     for (const double percent : asked.levels.percents)
-      all.push_back(
+      all.emplace_back(
           [=, &draws, &life] { return life.quantile_beyond(draws, percent / 100, from, points); });
     if (asked.mean)
-      all.push_back([=, &draws, &life] { return life.mean_beyond(draws, from, points); });
+      all.emplace_back([=, &draws, &life] { return life.mean_beyond(draws, from, points); }, from);
   }
   for (const Quantity& each : asked.survival)
-    all.push_back([=, &draws, &life] { return life.survival(draws, each.si(), points); });
+    all.emplace_back([=, &draws, &life] { return life.survival(draws, each.si(), points); });
   if (asked.other) {
     const LifeDistribution& other = *asked.other;
-    all.push_back([=, &draws, &life, &other] { return life.outliving(draws, other, points); });
+    all.emplace_back([=, &draws, &life, &other] { return life.outliving(draws, other, points); });
     for (const double percent : asked.levels.percents)
-      all.push_back(
+      all.emplace_back(
           [=, &draws, &life, &other] { return life.ratio(draws, other, percent / 100, points); });
     for (const Quantity& each : asked.survival)
-      all.push_back([=, &draws, &life, &other] {
+      all.emplace_back([=, &draws, &life, &other] {
         return life.survival_difference(draws, other, each.si(), points);
       });
   }
   for (const Quantity& each : asked.hazard)
-    all.push_back([=, &draws, &life] { return life.hazard(draws, each.si(), points); });
+    all.emplace_back([=, &draws, &life] { return life.hazard(draws, each.si(), points); });
   if (asked.fast)
-    all.push_back(
+    all.emplace_back(
         [=, &draws, &life, &asked] { return life.ratio_of_middles(draws, *asked.fast, points); });
   return all;
 }
@@ -73,6 +84,18 @@ Answer answer_of(const Known& known, const LifeLevels& levels) {
   return answer;
 }
 
+// Of a mean life of survivors of `from`.
+std::optional<MeanTail> tail_of(const AskedOfLife& asked, const WeightedDraws& draws, double from,
+                                const Known& mean) {
+  const auto highest = share_of_highest(mean.distribution);
+  if (!highest) return {};
+  MeanTail tail{*highest, asked.observed.longest(*asked.life, draws), {}};
+  if (!tail.longest) return tail;
+  tail.beyond = asked.life->share_of_mean_beyond(draws, from, *tail.longest);
+  if (!std::isfinite(*tail.beyond)) tail.longest = tail.beyond = {};
+  return tail;
+}
+
 std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const WeightedDraws& draws,
                                             double points) {
   const auto known = known_answers(asked, draws, points);
@@ -84,7 +107,11 @@ std::vector<QuantityQuantiles> answers_from(const AskedOfLife& asked, const Weig
       if (asked.other) other = asked.other->next(draws, points);
       return;
     }
-    found[i - 1] = answer_of(known[i - 1](), asked.levels);
+    const Question& question = known[i - 1];
+    const Known value = question.value();
+    found[i - 1] = answer_of(value, asked.levels);
+    if (question.mean_from && points == 1)
+      found[i - 1].quantiles.mean_tail = tail_of(asked, draws, *question.mean_from, value);
   });
   std::vector<QuantityQuantiles> all;
   auto answer = found.begin();

@@ -6,6 +6,7 @@
 
 #include "wearwell/base/unit.h"
 #include "wearwell/models/formula_model/formula_life.h"
+#include "wearwell/models/formula_model/observed_lives.h"
 #include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_study.h"
 
@@ -20,6 +21,7 @@ struct AskedOfLife {
   bool mean = false;                 ///< the mean life, and the mean remaining useful life
   std::optional<Quantity> survived;  ///< lives are also reported from there on
   std::vector<Quantity> survival, hazard;
+  ObservedLives observed = {};  ///< how far the data reach
 };
 
 /// In this order: the life of the next item, its B-lives, its mean life; the same from `survived`

@@ -279,6 +279,14 @@ double LifeAtPoint::mean_beyond(double from) const {
   return from > 0 ? mean : works * mean;
 }
 
+double LifeAtPoint::share_of_mean_beyond(double from, double life) const {
+  if (!(life > from)) return 1;
+  const double all = mean_beyond(from);
+  if (all == infinity) return 1;
+  const double left = std::exp(log_survival(life) - (from > 0 ? log_survival(from) : 0));
+  return left > 0 ? left * (life - from + mean_beyond(life)) / all : 0;
+}
+
 double LifeAtPoint::outlives(const LifeAtPoint& other) const {
   constexpr double tail = 1e-10;
   // Those of the other that are dead on arrival end at 0.

@@ -67,6 +67,8 @@ class LifeAtPoint {
   double share_among_survivors(std::size_t k, double life) const;
   /// With a rate of use: the share that fails before both an age and a use.
   double failing_within(double age, double use) const;
+  /// The share of that mean that comes from lives beyond `life`: E[N - from; N > life]/E[N - from], given N > from.
+  double share_of_mean_beyond(double from, double life) const;
   /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
   double mean_beyond(double from) const;
   /// The probability that an item outlives one of `other`: the integral of this survival function

@@ -97,10 +97,10 @@ struct JudgedItems {
   std::vector<std::size_t> first;  // of each row; one more for the end
   std::vector<std::size_t> row;
   std::vector<int> count;
+  double share = 1;  // of the items of each row
 
   explicit JudgedItems(const FormulaModel& model) {
     const std::size_t n = model.lives.rows.size();
-    double share = 1;
     const std::vector<int> judged = judged_counts(model.lives.counts, n, n, share);
     std::vector<bool> is_drawn(n);
     for (const JointFailure& each : model.joint) is_drawn[each.row] = true;
@@ -228,6 +228,7 @@ FitData mode_fit_data(std::shared_ptr<const FormulaRows> rows) {
   data.scores = ModeScores(rows, items);
   for (std::size_t k = 0; k < model.measured.size(); ++k)
     data.counts.insert(data.counts.end(), items->count.begin(), items->count.end());
+  data.share = items->share;
   data.terms = false;  // a row is one factor, but has a residual for each mode
   data.noun = "residual";
   for (std::size_t k = 0; k < model.measured.size(); ++k) {

@@ -11,6 +11,7 @@ void add_lives_of(const AskedOfLife& asked, const std::string& noun, const std::
   AskedOfLife own = asked;
   own.fast = own.other = nullptr;
   own.hazard.clear();
+  own.observed = asked.observed.of_other_life();
   QuantityGroup group;
   const auto add = [&](const std::string& name, const std::string& where, const Unit& in) {
     group.requests.push_back(request(name, noun, where, in));

@@ -1,15 +1,16 @@
 #include "wearwell/models/formula_model/returns_count.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/status_words.h"
-#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/returns_period.h"
 #include "wearwell/present/plain.h"
 
@@ -18,10 +19,17 @@ namespace {
 
 constexpr int most_periods = 1200;
 
+// Returns by one failure mode, by period.
+struct CountedMode {
+  std::size_t row = 0;  // the first one
+  std::map<int, double> returns = {};
+};
+
 struct CountedSales {
+  std::size_t row = 0;  // the first one
   double units = 0;
-  // By failure mode (one, without a name, where the table has no modes), then by period.
-  std::map<std::string, std::map<int, double>> returns = {};
+  std::map<std::string, CountedMode> by_mode =
+      {};  // one, without a name, if the table has no modes
 };
 
 struct UnitColumns {
@@ -32,27 +40,27 @@ struct UnitColumns {
 struct UnitCounts {
   std::map<int, CountedSales> sales = {};
   double rows = 0, late_sales = 0, late_returns = 0;
+  std::vector<std::string> late_modes = {};
 };
 
-// The failure mode of a unit that came back (`returned`), or did not.
-std::string mode_of_unit(const Table& units, const UnitColumns& columns, std::size_t row,
-                         bool returned) {
-  if (columns.mode.empty()) return "";
+// The failure modes of a unit that came back (`returned`), or did not; none if they are not known.
+std::vector<std::string> modes_of_unit(const Table& units, const UnitColumns& columns,
+                                       const ModeWords& words, std::size_t row, bool returned) {
+  if (columns.mode.empty()) return {};
   const std::string text = cell_word(units.column(columns.mode), row);
-  if (is_missing_mark(text)) return "";
-  const bool runout = censoring_by_word(text) == Censoring::right &&
-                      folded_word(text).size() >= shortest_runout_word;
-  if (returned && runout)
+  if (words.means_unknown(text)) return {};
+  if (!returned) {
+    if (words.means_runout(text) || censoring_by_word(text) == Censoring::right) return {};
+    throw InputError(
+        fmt::format("{} is a failure mode, but column '{}' has no return; correct one of them",
+                    quoted_place(units, columns.mode, row), columns.returned));
+  }
+  if (words.means_runout(text))
     throw InputError(
         fmt::format("{} is a run-out, but column '{}' has a return, '{}'; correct one of them",
                     quoted_place(units, columns.mode, row), columns.returned,
                     cell_word(units.column(columns.returned), row)));
-  if (!returned && !text.empty() && censoring_by_word(text) != Censoring::right &&
-      folded_word(text) != "unknown")
-    throw InputError(
-        fmt::format("{} is a failure mode, but column '{}' has no return; correct one of them",
-                    quoted_place(units, columns.mode, row), columns.returned));
-  return text;
+  return modes_in(text, [&] { return place(units, columns.mode, row); });
 }
 
 Period read_until(const TomlReader& keys) {
@@ -64,6 +72,11 @@ Period read_until(const TomlReader& keys) {
     keys.fail("until",
               fmt::format("must be the last period that the table covers: {}", allowed_months));
   return *until;
+}
+
+void add_names(std::vector<std::string>& names, const std::vector<std::string>& more) {
+  for (const std::string& each : more)
+    if (!contains(names, each)) names.push_back(each);
 }
 
 // A period of one row, of the kind of `until`.
@@ -79,7 +92,8 @@ Period unit_period(const Table& units, const std::string& column, std::size_t ro
   return *period;
 }
 
-UnitCounts counts_of(const Table& units, const UnitColumns& columns, const Period& until) {
+UnitCounts counts_of(const Table& units, const UnitColumns& columns, const ModeWords& words,
+                     const Period& until) {
   UnitCounts counts;
   std::string prefix = until.prefix;
   for (std::size_t row = 0; row < units.rows; ++row) {
@@ -90,10 +104,10 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const Perio
       counts.late_sales += number;
       continue;
     }
-    CountedSales& sales = counts.sales[sold.number];
+    CountedSales& sales = counts.sales.try_emplace(sold.number, CountedSales{row}).first->second;
     sales.units += number;
     const bool came_back = !cell_word(units.column(columns.returned), row).empty();
-    const std::string mode = mode_of_unit(units, columns, row, came_back);
+    const std::vector<std::string> modes = modes_of_unit(units, columns, words, row, came_back);
     if (!came_back) continue;
     const Period returned = unit_period(units, columns.returned, row, until, prefix);
     if (returned.number < sold.number)
@@ -102,33 +116,37 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const Perio
                                    cell_word(units.column(columns.sold), row)));
     if (returned.number > until.number) {
       counts.late_returns += number;
+      add_names(counts.late_modes, modes);
     } else {
-      sales.returns[mode][returned.number] += number;
+      const std::string mode = fmt::format("{}", fmt::join(modes, "|"));
+      CountedMode& of = sales.by_mode.try_emplace(mode, CountedMode{row}).first->second;
+      of.returns[returned.number] += number;
     }
   }
   return counts;
 }
 
-// The triangle as a table: a row for each period of sale, or for each of its failure modes.
+// The triangle as a table: a row for each period of sale, or for each of its failure modes. Its origins are rows of the units.
 Table table_of(const UnitCounts& counts, const TriangleColumns& columns, const PeriodNames& names,
                int until) {
   const int first = counts.sales.begin()->first;
-  const std::map<std::string, std::map<int, double>> none = {{"", {}}};
   Table table;
   table.columns = {Column{columns.period, false, {}, {}}, Column{columns.quantity, true, {}, {}}};
   for (int period = first; period <= until; ++period)
     table.columns.push_back(Column{names.text(period), true, {}, {}});
   Column modes{columns.mode, false, {}, {}};
   for (const auto& [at, sales] : counts.sales) {
-    for (const auto& [mode, returns] : sales.returns.empty() ? none : sales.returns) {
+    const std::map<std::string, CountedMode> none = {{"", {sales.row}}};
+    for (const auto& [mode, counted] : sales.by_mode.empty() ? none : sales.by_mode) {
       ++table.rows;
+      table.origins.push_back(counted.row + 1);
       table.columns[0].text.push_back(names.text(at));
       table.columns[1].numbers.push_back(sales.units);
       modes.text.push_back(mode);
       for (int period = first; period <= until; ++period) {
-        const auto found = returns.find(period);
+        const auto found = counted.returns.find(period);
         table.columns[static_cast<std::size_t>(period - first) + 2].numbers.push_back(
-            found == returns.end() ? 0 : found->second);
+            found == counted.returns.end() ? 0 : found->second);
       }
     }
   }
@@ -138,7 +156,8 @@ Table table_of(const UnitCounts& counts, const TriangleColumns& columns, const P
 
 }  // namespace
 
-ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
+ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units,
+                                 const ModeWords& words) {
   UnitColumns read{column_named(keys, "sold", units, ""),
                    column_named(keys, "returned", units, "")};
   if (read.sold == read.returned)
@@ -148,7 +167,7 @@ ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
   if (!read.mode.empty() && (read.mode == read.sold || read.mode == read.returned))
     keys.fail("mode", fmt::format("is the column of a period, '{}'", read.mode));
   const Period until = read_until(keys);
-  const UnitCounts counts = counts_of(units, read, until);
+  const UnitCounts counts = counts_of(units, read, words, until);
   const PeriodNames names{until.calendar, until.prefix};
   if (counts.sales.empty())
     throw InputError(fmt::format("{}: no unit was sold until {}, the end of the table (`until`)",
@@ -163,7 +182,10 @@ ReturnsTriangle counted_triangle(const TomlReader& keys, const Table& units) {
   Table table = table_of(counts, columns, names, until.number);
   table.source = units.source;
   table.layout = units.layout;
-  ReturnsTriangle triangle = read_triangle(keys, std::move(table), columns);
+  table.lines = units.lines;
+  ReturnsTriangle triangle = read_triangle(keys, std::move(table), columns, words);
+  triangle.mode_column = read.mode;
+  add_names(triangle.modes, counts.late_modes);
   triangle.notes.push_back(
       fmt::format("{} units counted by period of sale ('{}') and of return "
                   "('{}') until {}",

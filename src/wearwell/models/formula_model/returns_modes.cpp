@@ -72,6 +72,11 @@ present::Table modes_forecast_table(const AskedReturns& asked, const ReturnsResu
            present::Range{of.until.count_low, of.until.count_high},
            each.observed ? present::Cell(static_cast<double>(of.observed)) : present::Cell()});
     }
+    for (const auto& [mode, count] : each.unfitted) {
+      table.rows.push_back({asked.returns->triangle.names.text(each.at), mode});
+      table.rows.back().resize(table.columns.size() - 1);
+      table.rows.back().emplace_back(static_cast<double>(count));
+    }
   }
   return table;
 }
@@ -89,6 +94,32 @@ std::string modes_text(const AskedReturns& asked, const ReturnsResult& result) {
          fmt::format("{} to {}", plain_given(until.count_low), plain_given(until.count_high))});
   }
   return text_table(lines);
+}
+
+std::vector<std::string> modes_remarks(const AskedReturns& asked, const ReturnsResult& result) {
+  std::vector<std::string> remarks;
+  const auto add_masked = [&](const std::vector<ReturnsPeriod>& periods, const std::string& when) {
+    const int masked = masked_in(periods);
+    long long all = 0;
+    for (const ReturnsPeriod& each : periods) all += each.observed.value_or(0);
+    if (masked == 0) return;
+    remarks.push_back(fmt::format(
+        "Of {} returns {}, {} {} of unknown mode or of one of several: they count in all returns, "
+        "in those of no single mode.",
+        plain_given(static_cast<double>(all)), when, plain_given(masked),
+        masked == 1 ? "is" : "are"));
+  };
+  add_masked(result.fitted, fitted_periods(*asked.returns));
+  add_masked(result.forecast, fmt::format("in the held-out {}s", asked.period(1)));
+  std::map<std::string, int> unfitted;
+  for (const ReturnsPeriod& each : result.forecast)
+    for (const auto& [mode, count] : each.unfitted) unfitted[mode] += count;
+  for (const auto& [mode, count] : unfitted)
+    remarks.push_back(fmt::format(
+        "Held out: {} return{} by '{}', which has no return {}, so that the forecast does not "
+        "have it.",
+        plain_given(count), count == 1 ? "" : "s", mode, fitted_periods(*asked.returns)));
+  return remarks;
 }
 
 Json modes_json(const AskedReturns& asked, const ReturnsPeriod& each, bool to_come) {

@@ -179,6 +179,9 @@ std::string forecast_text(const AskedReturns& asked, const ReturnsResult& result
 Json period_json(const AskedReturns& asked, const ReturnsPeriod& each, bool to_come) {
   Json json = {{"period", asked.returns->triangle.names.text(each.at)}};
   if (each.observed) json["observed"] = *each.observed;
+  if (each.observed && !asked.modes.empty()) json["unknown_mode"] = each.masked;
+  for (const auto& [mode, count] : each.unfitted)
+    json["unfitted_modes"].push_back({{"mode", mode}, {"observed", count}});
   json.update(count_json(each.number));
   if (!to_come) {
     json["residual"] = residual(*each.observed, each.number);
@@ -254,6 +257,7 @@ PresetAddition returns_addition(const AskedReturns& asked, const WeightedDraws& 
     }
     predictions.push_back({cells_table(asked, result)});
   }
+  for (const std::string& remark : modes_remarks(asked, result)) added.text += wrapped(remark, 2);
   added.blocks["fit"].push_back({fitted_table(asked, result)});
   if (asked.modes.size() > 1) added.blocks["fit"].push_back({modes_fitted_table(asked, result)});
   added.blocks["fit"].push_back({sales_table(asked, result)});

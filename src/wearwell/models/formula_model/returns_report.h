@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,8 @@ struct ReturnsPeriod {
   ReturnsCount field, planned;  ///< of a forecast: from the units in use, and from planned sales
   ReturnsCount until;           ///< of a forecast: from its beginning on
   std::vector<ReturnsByMode> by_mode = {};
-  int masked = 0;  ///< observed, by one of several modes
+  int masked = 0;                            ///< observed, of unknown mode or of one of several
+  std::map<std::string, int> unfitted = {};  ///< observed, by modes that the fit does not have
 };
 
 /// The returns of the units of one period of sale.
@@ -73,6 +75,8 @@ double residual(int observed, const ReturnsCount& number);
 present::Table modes_fitted_table(const AskedReturns& asked, const ReturnsResult& result);
 present::Table modes_forecast_table(const AskedReturns& asked, const ReturnsResult& result);
 std::string modes_text(const AskedReturns& asked, const ReturnsResult& result);
+/// Sentences on returns that are in no row of a fitted mode.
+std::vector<std::string> modes_remarks(const AskedReturns& asked, const ReturnsResult& result);
 nlohmann::ordered_json modes_json(const AskedReturns& asked, const ReturnsPeriod& each,
                                   bool to_come);
 /// expected, expected_q05, ..., number_q95.

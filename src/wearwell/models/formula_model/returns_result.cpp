@@ -22,7 +22,7 @@ int claims_in(const FieldReturns& returns, int period) {
   return sum;
 }
 
-// Of one period by failure mode; those of several possible modes apart.
+// Of one period by failure mode; those of several possible modes, and of modes without a life in the fit, apart.
 void add_observed(const AskedReturns& asked, ReturnsPeriod& found) {
   const FieldReturns& returns = *asked.returns;
   for (const SalesPeriod& sale : returns.triangle.sales) {
@@ -30,11 +30,15 @@ void add_observed(const AskedReturns& asked, ReturnsPeriod& found) {
     if (after < 0 || !returns.claimed(after)) continue;
     for (const ModeReturns& each : sale.by_mode) {
       const int count = each.returns[static_cast<std::size_t>(after)];
+      if (count == 0) continue;
       const auto mode = std::find(asked.modes.begin(), asked.modes.end(), each.mode);
-      if (mode == asked.modes.end())
+      const auto k = static_cast<std::size_t>(mode - asked.modes.begin());
+      if (each.mode.empty() || each.mode.find('|') != each.mode.npos)
         found.masked += count;
-      else
-        found.by_mode[static_cast<std::size_t>(mode - asked.modes.begin())].observed += count;
+      else if (mode == asked.modes.end())
+        found.unfitted[each.mode] += count;
+      else if (k < found.by_mode.size())
+        found.by_mode[k].observed += count;
     }
   }
 }
@@ -99,7 +103,7 @@ ReturnsPeriod forecast_of(const AskedReturns& asked, const ReturnsForecast& fore
   found.until = forecast.count(until);
   for (std::size_t k = 0; k < forecast.modes(); ++k)
     found.by_mode.push_back({0, forecast.count(field, k), forecast.count(until, k)});
-  if (found.observed && forecast.modes() > 0) add_observed(asked, found);
+  if (found.observed && !asked.modes.empty()) add_observed(asked, found);
   return found;
 }
 
@@ -138,14 +142,14 @@ ReturnsResult returns_result(const AskedReturns& asked, const WeightedDraws& dra
   ReturnsResult result;
   const int begin = std::max(returns.triangle.first, returns.triangle.sales.front().at);
   for (int period = begin; period <= returns.last(); ++period)
-    result.fitted.push_back({period, claims_in(returns, period), {}, {}, {}, {}, {}, 0});
+    result.fitted.push_back({period, claims_in(returns, period), {}, {}, {}, {}, {}, 0, {}});
   tbb::parallel_for(std::size_t{0}, result.fitted.size(), [&](std::size_t i) {
     ReturnsPeriod& each = result.fitted[i];
     const std::vector<UnitsAtRisk> groups = in_fitted_period(returns, each.at);
     each.number = forecast.count(groups);
     for (std::size_t k = 0; k < forecast.modes(); ++k)
       each.by_mode.push_back({0, forecast.count(groups, k), {}});
-    if (forecast.modes() > 0) add_observed(asked, each);
+    if (!asked.modes.empty()) add_observed(asked, each);
   });
   result.forecast.resize(static_cast<std::size_t>(asked.ahead));
   tbb::parallel_for(0, asked.ahead, [&](int k) {

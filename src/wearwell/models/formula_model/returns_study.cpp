@@ -67,7 +67,7 @@ AskedReturns read_asked_returns(const TomlReader& root, const Source& source,
                                 const std::shared_ptr<const FormulaModel>& model) {
   require_single_life(root, *model);
   AskedReturns asked;
-  asked.returns = read_field_returns(root.required_table("data"), source);
+  asked.returns = read_field_returns(root, source);
   asked.ahead = asked.returns->held_out;
   if (const auto predict = root.table("predict")) read_predict(*predict, source, asked);
   for (const Measured& measured : model->measured)

@@ -1,6 +1,7 @@
 #include "wearwell/models/formula_model/returns_triangle.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/status_words.h"
-#include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/returns_period.h"
 
 // Longer than others: one table, with all that is wrong with its headings, rows and cells.
@@ -148,29 +148,34 @@ std::vector<int> read_returns(const Table& table, const std::string& quantity_co
   return own;
 }
 
-// A run-out is no mode of a return.
-std::string mode_of_return(const Table& table, const std::string& column, std::size_t row) {
+// The failure modes of a row; none if they are not known. A run-out is no mode of a return (`any`).
+std::vector<std::string> modes_of_row(const Table& table, const std::string& column,
+                                      std::size_t row, const ModeWords& words, bool any) {
   const std::string text = cell_word(table.column(column), row);
-  if (is_missing_mark(text)) return "";
-  if (censoring_by_word(text) == Censoring::right &&
-      folded_word(text).size() >= shortest_runout_word)
-    throw InputError(
-        fmt::format("{} is a run-out, but the row has returns: units that did not "
-                    "come back have no row of a mode",
-                    quoted_place(table, column, row)));
-  return text;
+  if (words.means_unknown(text)) return {};
+  if (!words.means_runout(text)) return modes_in(text, [&] { return place(table, column, row); });
+  if (!any) return {};
+  throw InputError(
+      fmt::format("{} is a run-out, but the row has returns: units that did not come back have no "
+                  "row of a mode; if it is a failure mode, give it another name",
+                  quoted_place(table, column, row)));
 }
 
-// Of a row with its period of sale.
+// Of a row with its period of sale; `named` are the modes of all rows.
 void read_row(const Table& table, const TriangleColumns& columns,
-              const std::vector<Heading>& headings, std::size_t row, SalesPeriod& sale) {
+              const std::vector<Heading>& headings, const ModeWords& words, std::size_t row,
+              SalesPeriod& sale, std::vector<std::string>& named) {
   ModeReturns own;
   own.row = row;
   own.returns = read_returns(table, columns.quantity, headings, row, sale);
+  if (columns.mode.empty()) return;
   const bool any =
       std::any_of(own.returns.begin(), own.returns.end(), [](int count) { return count > 0; });
-  if (columns.mode.empty() || !any) return;
-  own.mode = mode_of_return(table, columns.mode, row);
+  const std::vector<std::string> modes = modes_of_row(table, columns.mode, row, words, any);
+  for (const std::string& mode : modes)
+    if (!contains(named, mode)) named.push_back(mode);
+  if (!any) return;
+  own.mode = fmt::format("{}", fmt::join(modes, "|"));
   for (const ModeReturns& each : sale.by_mode)
     if (each.mode == own.mode)
       throw InputError(
@@ -280,7 +285,7 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
   return columns;
 }
 
-ReturnsTriangle read_triangle(const TomlReader& keys, Table table) {
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const ModeWords& words) {
   const TriangleColumns found = triangle_columns(table).value_or(TriangleColumns{});
   const TriangleColumns columns = {column_named(keys, "sold", table, found.period),
                                    column_named(keys, "quantity", table, found.quantity),
@@ -289,10 +294,11 @@ ReturnsTriangle read_triangle(const TomlReader& keys, Table table) {
     keys.fail("quantity", fmt::format("is the column of `sold`, '{}'", columns.period));
   if (columns.mode == columns.period || columns.mode == columns.quantity)
     keys.fail("mode", fmt::format("is the column of the units sold, '{}'", columns.mode));
-  return read_triangle(keys, std::move(table), columns);
+  return read_triangle(keys, std::move(table), columns, words);
 }
 
-ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const TriangleColumns& columns) {
+ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const TriangleColumns& columns,
+                              const ModeWords& words) {
   ReturnsTriangle triangle;
   const std::vector<Heading> headings = ordered_headings(keys, table, columns);
   triangle.names = {headings.front().period.calendar, headings.front().period.prefix};
@@ -301,7 +307,9 @@ ReturnsTriangle read_triangle(const TomlReader& keys, Table table, const Triangl
   triangle.last = headings.back().period.number;
   for (const auto& [at, rows] : rows_of_periods(table, columns, headings)) {
     SalesPeriod sale{at, sold_in(table, columns, rows)};
-    for (const std::size_t row : rows) read_row(table, columns, headings, row, sale);
+    sale.row = rows.front();
+    for (const std::size_t row : rows)
+      read_row(table, columns, headings, words, row, sale, triangle.modes);
     if (sale.sold > 0) triangle.sales.push_back(std::move(sale));
   }
   triangle.first = headings.front().period.number;

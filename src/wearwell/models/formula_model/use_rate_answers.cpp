@@ -50,6 +50,7 @@ void add_use_rate_answers(const AskedOfMixture& asked, PosteriorStudy& study) {
   AskedOfLife own = asked.part;
   own.life = life;
   own.survival.clear();
+  own.observed = {};  // lives in use
   own.survived.reset();
   if (const auto calendar = asked.predict.table("calendar")) {
     const std::string si = formula::si_text(in_time.powers);
