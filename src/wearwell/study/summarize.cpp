@@ -1,5 +1,4 @@
 #include "wearwell/study/summarize.h"
-#include "wearwell/study/mean_tail.h"
 
 #include <tbb/parallel_for.h>
 
@@ -12,6 +11,7 @@
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/predict/item_mixture.h"
 #include "wearwell/study/describe.h"
+#include "wearwell/study/mean_tail.h"
 
 namespace wearwell {
 namespace {
