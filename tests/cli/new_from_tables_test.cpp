@@ -272,6 +272,43 @@ TEST_F(NewFromTables, AMultipleOfCyclesIsNeverLost) {
               HasSubstr("in 1e6 rev"));
 }
 
+TEST_F(NewFromTables, AFactorInTheHeadingIsNeverLost) {
+  for (const auto& [heading, unit] : {std::pair{"khours", "1e3 h"},
+                                      {"thousand hours", "1e3 h"},
+                                      {"1000 hours", "1e3 h"},
+                                      {"1000 km", "1e3 km"},
+                                      {"kcycles", "1e3 cycles"},
+                                      {"Mcycles to failure", "1e6 cycles"},
+                                      {"hours", "h"},
+                                      {"km", "km"}}) {
+    write("f.csv",
+          std::string(heading) + ",status\n10,failure\n20,failure\n30,runout\n14,failure\n");
+    const CommandResult run = here("new --from f.csv f");
+    EXPECT_EQ(run.exit_code, 0) << heading << run.err;
+    EXPECT_THAT(run.out, HasSubstr(std::string("' in ") + unit + "\n")) << heading;
+    std::filesystem::remove_all(folder() / "f");
+  }
+}
+
+// Ages at which units fail and are repaired are no lives of parts.
+TEST_F(NewFromTables, FailuresOfRepairedUnits) {
+  fitted("engines.csv",
+         "engine,hours,event\nA,120,failure\nA,300,failure\nA,500,end\nB,80,failure\nB,410,end\n"
+         "C,390,end\n");
+  EXPECT_EQ(result_["model"], "repairable");
+  EXPECT_GT(middle("beta"), 0.2);
+  // In rising order without ends they can be either.
+  const std::string rising =
+      "unit,hours,event\np,0.7,failure\np,3.7,failure\np,13.2,failure\np,54,failure\n";
+  EXPECT_THAT(refused("p.csv", rising), AllOf(HasSubstr("wearwell new repairable refused"),
+                                              HasSubstr("wearwell new formula refused")));
+  write("p.csv", rising);
+  EXPECT_EQ(here("new repairable --from p.csv r").exit_code, 0);
+  EXPECT_THAT(content("r/study.toml"), HasSubstr("end = \"last failure\""));
+  const CommandResult lives = here("new formula --from p.csv l");
+  EXPECT_THAT(lives.out, HasSubstr("the model is \"repairable\""));
+}
+
 TEST_F(NewFromTables, OptionsThatFitNothing) {
   const std::string lives = "hours,event\n100,1\n200,0\n300,1\n";
   EXPECT_THAT(refused("l.csv", lives, "--column life=hors"), HasSubstr("nearest: 'hours'"));

@@ -7,6 +7,7 @@
 
 #include "prognosis/weibull_lives.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/prognosis/warranty.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -85,6 +86,47 @@ TEST(CostRate, IsAveragedOverPopulations) {
   EXPECT_LT(best.age, cheapest_age(lengthened, costs).age);
   for (double age = 0.05; age < 6; age += 0.05)
     EXPECT_LE(best.rate, cost_rate(both, costs, age) * (1 + 1e-9)) << age;
+}
+
+// A posterior of many lives: populations that are almost alike.
+PopulationLives alike(double shape, double scale) {
+  std::vector<WeightedLives> each;
+  for (int k = 0; k < 128; ++k) {
+    const double eta = scale * (1 + 1e-5 * (k - 63.5));
+    each.push_back(
+        represented_lives([&](double p) { return eta * std::pow(-std::log1p(-p), 1 / shape); }));
+  }
+  return {std::move(each), std::vector<double>(128, 1)};
+}
+
+TEST(PopulationLives, WhereTheyAreAlikeHaveTheQuantilesOfOne) {
+  for (const double shape : {1.2, 2.0, 3.0}) {
+    const PopulationLives lives = alike(shape, 600);
+    for (const double p : {0.001, 0.01, 0.02, 0.1, 0.103, 0.5, 0.9}) {
+      const double known = 600 * std::pow(-std::log1p(-p), 1 / shape);
+      EXPECT_NEAR(lives.quantile(p) / known, 1, 2e-3) << shape << " " << p;
+      EXPECT_NEAR(lives.mixture().quantile(p) / known, 1, 2e-3) << shape << " " << p;
+      EXPECT_NEAR(longest_warranty(lives, p).length / known, 1, 2e-3);
+    }
+  }
+}
+
+// Where some never fail the quantiles beyond the others are infinite.
+TEST(PopulationLives, OfWhichSomeNeverFail) {
+  const WeightedLives ends(std::vector<double>{1, 2, 3}, std::vector<double>{1, 1, 1});
+  const WeightedLives none(std::vector<double>{never}, std::vector<double>{1});
+  const PopulationLives lives({ends, none}, {1, 1});
+  EXPECT_NEAR(lives.quantile(0.25), 2, 1e-6);
+  EXPECT_EQ(lives.quantile(0.6), never);
+}
+
+// R 4.2: for shape 2, scale 1000, 800 at failure, 120 before: the root of the derivative of the cost rate, and where the
+// rate is 1 % above its least, by uniroot.
+TEST(CheapestAge, HasTheRangeOfASmoothMinimum) {
+  const AgeReplacement best = cheapest_age(alike(2, 1000), {800, 120, 0});
+  EXPECT_NEAR(best.age, 426.4, 2);
+  EXPECT_NEAR(best.from, 367.4, 1);
+  EXPECT_NEAR(best.to, 496.3, 1);
 }
 
 // A unit of the fleet of which nothing is known but that it is new is replaced at the fleet's age.

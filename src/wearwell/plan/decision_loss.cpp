@@ -46,8 +46,8 @@ std::vector<prognosis::WeightedLives> lives_at(const Goal& goal, const Points& n
   std::vector<prognosis::WeightedLives> lives(static_cast<std::size_t>(nodes.rows()));
   tbb::parallel_for(std::size_t{0}, lives.size(), [&](std::size_t j) {
     const auto x = nodes.row(static_cast<Index>(j));
-    lives[j] =
-        prognosis::represented_lives(goal.lives({x.data(), static_cast<std::size_t>(x.size())}));
+    lives[j] = prognosis::represented_lives(
+        goal.lives({x.data(), static_cast<std::size_t>(x.size())}).quantile);
   });
   return lives;
 }

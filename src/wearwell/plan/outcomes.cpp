@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
 #include "wearwell/plan/count_outcomes.h"
@@ -157,6 +158,7 @@ class Chunk {
       shift.push_back(0);
     }
     for (Index j = 0; j < nodes_.rows(); ++j) {
+      check_stop();
       for (std::size_t m = 0; m < shift.size(); ++m)
         outcomes.log_probability(j, static_cast<Index>(m)) =
             static_cast<float>(all(j, static_cast<Index>(grid.first + m)) + shift[m]);
@@ -219,6 +221,7 @@ void scale_to_one(Outcomes& outcomes, std::span<const double> weights) {
   const Index last = outcomes.runout ? p.cols() - 1 : p.cols();
   double defect = 0;
   for (Index j = 0; j < p.rows(); ++j) {
+    check_stop();
     double sum = 0;
     for (Index m = 0; m < last; ++m) sum += std::exp(static_cast<double>(p(j, m)));
     const double stopped = outcomes.runout_probability(j);

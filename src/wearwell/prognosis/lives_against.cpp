@@ -29,7 +29,7 @@ struct AtPoints {
     tbb::parallel_for(std::size_t{0}, weight.size(), [&](std::size_t k) {
       const auto x = few.values.row(static_cast<Eigen::Index>(k));
       exact[k] = distribution_at(result.life, {x.data(), static_cast<std::size_t>(x.size())});
-      lives[k] = represented_lives(exact[k]);
+      lives[k] = represented_lives(exact[k].quantile);
     });
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/math/root.h"
 #include "wearwell/prognosis/least.h"
 
 namespace wearwell::prognosis {
@@ -39,15 +40,34 @@ double rate_of(const WeightedLives& lives, const Costs& costs, double age) {
   return (costs.replacement * (1 - failed) + costs.failure * failed) / lived;
 }
 
+// The first and last age whose rate is at most 1 % above the least, to 1e-6 of the age.
+template <class Rate>
+void find_range(const Rate& rate, double age, std::vector<double> ages, AgeReplacement& best) {
+  const auto is_good = [&](double x) { return rate(x) <= as_good * best.rate; };
+  ages.insert(std::upper_bound(ages.begin(), ages.end(), age), age);
+  std::size_t first = ages.size(), last = 0;
+  for (std::size_t i = 0; i < ages.size(); ++i) {
+    if (ages[i] != age && !is_good(ages[i])) continue;
+    first = std::min(first, i);
+    last = i;
+  }
+  const auto end = [&](double good, double bad) {
+    while (std::abs(good - bad) > 1e-6 * good) {
+      const double middle = 0.5 * (good + bad);
+      (is_good(middle) ? good : bad) = middle;
+    }
+    return good;
+  };
+  best.from = first > 0 ? end(ages[first], ages[first - 1]) : ages[first];
+  best.to = last + 1 < ages.size() ? end(ages[last], ages[last + 1]) : ages[last];
+}
+
 }  // namespace
 
+// Points of all populations together would be a distribution in steps where populations are alike.
 WeightedLives PopulationLives::mixture() const {
-  std::vector<double> life, share;
-  for (std::size_t k = 0; k < lives.size(); ++k) {
-    life.insert(life.end(), lives[k].points().begin(), lives[k].points().end());
-    for (const double each : lives[k].weights()) share.push_back(weight[k] * each);
-  }
-  return WeightedLives(life, share);
+  if (lives.size() == 1) return lives.front();
+  return represented_lives([&](double p) { return quantile(p); });
 }
 
 double PopulationLives::survival(double x) const {
@@ -57,6 +77,24 @@ double PopulationLives::survival(double x) const {
     mass += weight[k];
   }
   return sum / mass;
+}
+
+double PopulationLives::quantile(double p) const {
+  double low = never, high = 0, last = 0;
+  for (std::size_t k = 0; k < lives.size(); ++k) {
+    if (!(weight[k] > 0) || lives[k].points().empty()) continue;
+    const double each = lives[k].quantile(p);
+    low = std::min(low, each);
+    high = std::max(high, each);
+    last = std::max(last, last_of(lives[k]));
+  }
+  if (!(low < high)) return high > 0 || low == 0 ? low : std::nan("");
+  const auto failed = [&](double x) { return 1 - survival(x) - p; };
+  if (!std::isfinite(high)) {
+    if (failed(last) < 0) return never;
+    high = last;
+  }
+  return solve_increasing(failed, 0.5 * (low + high), 0.5 * (high - low), {0, 1e-10}, low, high);
 }
 
 double cost_rate(const PopulationLives& lives, const Costs& costs, double age) {
@@ -85,12 +123,7 @@ AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs) {
   }
   best.beyond_known = some_never && best.age >= ages.back() * (1 - 1e-9);
   best.failing = 1 - lives.survival(best.age);
-  best.from = best.to = std::min(best.age, ages.back());
-  for (const double each : ages) {
-    if (rate(each) > as_good * best.rate) continue;
-    best.from = std::min(best.from, each);
-    best.to = std::max(best.to, each);
-  }
+  find_range(rate, std::min(best.age, ages.back()), ages, best);
   if (!some_never && best.at_failure <= as_good * best.rate) best.to = never;
   return best;
 }

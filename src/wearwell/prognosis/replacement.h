@@ -28,7 +28,9 @@ struct PopulationLives {
       : lives(std::move(each)), weight(std::move(weights)) {}
 
   double survival(double x) const;  ///< of a new unit
-  WeightedLives mixture() const;    ///< of a new unit: averaged over the populations
+  /// Its life with this probability of failure, 0 < p < 1; infinite if it is never reached.
+  double quantile(double p) const;
+  WeightedLives mixture() const;  ///< its life, averaged over the populations
 };
 
 /// Long-run cost per unit of the axis if each unit is replaced at failure or at this age, whichever
@@ -40,11 +42,12 @@ double cost_rate(const PopulationLives& lives, const Costs& costs, double age);
 
 /// The age replacement of least cost.
 struct AgeReplacement {
-  double age = 0;           ///< infinite: at failure only, which costs at most 0.1 % more
-  double rate = 0;          ///< cost per unit of the axis
-  double at_failure = 0;    ///< the same, replaced at failure only
-  double from = 0, to = 0;  ///< ages about it whose rate is at most 1 % above; `to` may be infinite
-  double failing = 0;       ///< the share of units that fail before that age
+  double age = 0;         ///< infinite: at failure only, which costs at most 0.1 % more
+  double rate = 0;        ///< cost per unit of the axis
+  double at_failure = 0;  ///< the same, replaced at failure only
+  double from = 0,
+         to = 0;  ///< the first and last age whose rate is at most 1 % above; `to` may be infinite
+  double failing = 0;  ///< the share of units that fail before that age
   /// The minimum is at the end of the computed lives: some never fail within this range, and their
   /// later behaviour is unknown.
   bool beyond_known = false;

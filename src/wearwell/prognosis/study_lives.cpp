@@ -21,30 +21,6 @@ namespace {
 
 constexpr std::size_t most_populations = 128;
 
-// Ends of cells of probability: a quarter longer from one to the next in the tails, where the cost
-// of a rare failure is decided, and equal between.
-std::vector<double> cell_ends() {
-  constexpr double first = 1e-7, tail = 0.01, ratio = 1.25;
-  constexpr int middle = 150;
-  std::vector<double> lower = {0};
-  for (double p = first; p < tail; p *= ratio) lower.push_back(p);
-  std::vector<double> ends = lower;
-  for (int i = 0; i <= middle; ++i) ends.push_back(tail + (1 - 2 * tail) * i / middle);
-  for (auto each = lower.rbegin(); each != lower.rend(); ++each) ends.push_back(1 - *each);
-  return ends;
-}
-
-template <class Quantile>
-WeightedLives represented(const Quantile& quantile) {
-  static const std::vector<double> ends = cell_ends();
-  std::vector<double> life, weight;
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    life.push_back(quantile(0.5 * (ends[i - 1] + ends[i])));
-    weight.push_back(ends[i] - ends[i - 1]);
-  }
-  return WeightedLives(life, weight);
-}
-
 Unit unit_of(const Table& table, const Column& age, const Unit& like) {
   const std::string text = heading_unit(age);
   if (text.empty())
@@ -72,7 +48,7 @@ bool in_study(const Table& table, const Column* column, std::size_t row) {
 WeightedLives remaining_at(const WeightedLives& fresh, double age) {
   const double before = fresh.cdf(age);
   if (!(before < 1)) return {};
-  return represented([&](double p) {
+  return represented_lives([&](double p) {
     return std::max(0.0, fresh.quantile(std::min(before + p * (1 - before), 1 - 1e-12)) - age);
   });
 }
@@ -90,18 +66,13 @@ KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, boo
     in.remaining.push_back(remaining_at(fresh, age));
     share.push_back(lives.populations[k] * (counted ? 1 : survival));
   }
-  const WeightedLives mixture = PopulationLives(in.remaining, share).mixture();
-  if (mixture.points().empty()) return unit;
-  unit.remaining = represented([&](double p) { return mixture.quantile(p); });
+  unit.remaining = PopulationLives(in.remaining, share).mixture();
+  if (unit.remaining.points().empty()) return unit;
   unit.in_populations = [in = std::move(in)] { return std::optional(in); };
   return unit;
 }
 
 }  // namespace
-
-WeightedLives represented_lives(const LifeDistribution& lives) {
-  return represented(lives.quantile);
-}
 
 KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
                           const std::string& title, bool trusted, const std::string& point) {
@@ -119,8 +90,8 @@ KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& post
   known.populations = few.weights;
   tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
     const auto x = few.values.row(static_cast<Eigen::Index>(k));
-    known.fresh.lives[k] =
-        represented_lives(distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}));
+    known.fresh.lives[k] = represented_lives(
+        distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}).quantile);
   });
   return known;
 }

@@ -14,9 +14,6 @@ namespace wearwell::prognosis {
 KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
                           const std::string& title, bool trusted, const std::string& point);
 
-/// A distribution of lives by 250 points, closer in the tails.
-WeightedLives represented_lives(const LifeDistribution& lives);
-
 /// Adds units in service, from a table with columns `unit` and `age [h]` and optionally `in_study`
 /// (yes or no; no where it is missing): whether a row of the study says that the unit has survived
 /// to this age. If none does, its survival counts as evidence on the population. Throws InputError

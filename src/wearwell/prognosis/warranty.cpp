@@ -11,7 +11,7 @@ Warranty longest_warranty(const PopulationLives& lives, double share) {
   // One population is known for sure.
   const double sure =
       length.size() > 1 ? WeightedLives(length, lives.weight).quantile(unsure) : length.front();
-  return {share, lives.mixture().quantile(share), sure};
+  return {share, lives.quantile(share), sure};
 }
 
 }  // namespace wearwell::prognosis

@@ -72,7 +72,30 @@ void sort(std::vector<Point>& points) {
   points = std::move(in_order);
 }
 
+// Ends of cells of probability: a quarter longer from one to the next in the tails, where the cost
+// of a rare failure is decided, and equal between.
+std::vector<double> cell_ends() {
+  constexpr double first = 1e-7, tail = 0.01, ratio = 1.25;
+  constexpr int middle = 150;
+  std::vector<double> lower = {0};
+  for (double p = first; p < tail; p *= ratio) lower.push_back(p);
+  std::vector<double> ends = lower;
+  for (int i = 0; i <= middle; ++i) ends.push_back(tail + (1 - 2 * tail) * i / middle);
+  for (auto each = lower.rbegin(); each != lower.rend(); ++each) ends.push_back(1 - *each);
+  return ends;
+}
+
 }  // namespace
+
+WeightedLives represented_lives(const std::function<double(double p)>& quantile) {
+  static const std::vector<double> ends = cell_ends();
+  std::vector<double> life, weight;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    life.push_back(quantile(0.5 * (ends[i - 1] + ends[i])));
+    weight.push_back(ends[i] - ends[i - 1]);
+  }
+  return WeightedLives(life, weight);
+}
 
 WeightedLives::WeightedLives(std::span<const double> life, std::span<const double> weight) {
   std::vector<Point> points;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,9 @@ class WeightedLives {
  private:
   std::vector<double> life_, weight_, cumulated_;
 };
+
+/// A distribution by 250 points, closer in the tails. `quantile` of 0 < p < 1 may be infinite.
+WeightedLives represented_lives(const std::function<double(double p)>& quantile);
 
 /// The largest relative change of the 5, 10, 50 and 95 % quantiles if their probability changes by
 /// this much; 0 without points. Infinite quantiles do not count.

@@ -146,8 +146,10 @@ std::optional<ColumnRoles::Match> ColumnRoles::match(const Column& column, const
       match.found.unit = form.usual;
       match.found.unit_guessed = !form.si.empty() && !may_be_plain(si);
     }
-    if (may_be_plain(match.found.si) && !form.si.empty() && form.name != "count")
-      match.found.unit = with_multiple(column.name, match.found.unit);
+    const bool states_unit = !column.unit.empty() || is_unit_of(bracketed(column.name), "");
+    const bool has_dimension = !form.si.empty() && form.name != "count";
+    if (has_dimension && (may_be_plain(match.found.si) || !states_unit))
+      match.found.unit = with_multiple(column.name, match.found.unit, word.text);
     match.word = i;
     match.whole = is_exactly(heading.name, word.text);
     match.letter = heading.letter;
@@ -169,7 +171,7 @@ std::optional<ColumnRoles::Match> ColumnRoles::match_by_unit(const Column& colum
   }
   Match found;
   found.found = {&column, &form, si, heading.unit, false};
-  if (may_be_plain(si)) found.found.unit = with_multiple(column.name, heading.unit);
+  if (may_be_plain(si)) found.found.unit = with_multiple(column.name, heading.unit, "");
   found.by_unit = true;
   return found;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <sstream>
 #include <utility>
 
 #include "wearwell/base/error.h"
@@ -117,7 +118,8 @@ NameAndUnit name_and_unit(const Column& column, std::string_view si) {
   return {found.name, found.unit};
 }
 
-std::string with_multiple(const std::string& heading, const std::string& unit) {
+std::string with_multiple(const std::string& heading, const std::string& unit,
+                          std::string_view word) {
   const std::string words = plain_words(heading);
   const bool has_own =
       !unit.empty() && std::isdigit(static_cast<unsigned char>(unit.front())) && unit != "1";
@@ -132,6 +134,24 @@ std::string with_multiple(const std::string& heading, const std::string& unit) {
     return "1e6 " + base;
   if (says({"thousand", "thousands", "tsd", "tausend", "milliers", "miles de"}))
     return "1e3 " + base;
+  const std::string counted = stripped(plain_words(word));
+  if (counted.empty()) return unit;
+  const auto is_named = [&](std::string_view each) {
+    return each.starts_with(counted) || (!unit.empty() && is_exactly(unit, each));
+  };
+  std::istringstream all(words);
+  std::string before, each;
+  for (; all >> each; before = each) {
+    if (each.size() > 1 && (each[0] == 'k' || each[0] == 'm') && counted.size() > 2 &&
+        each.substr(1).starts_with(counted))
+      return (each[0] == 'k' ? "1e3 " : "1e6 ") + base;
+    if (!is_named(each)) continue;
+    if (before == "k") return "1e3 " + base;
+    const bool power = before.starts_with('1') && before.size() > 2 &&
+                       before.find_first_not_of('0', 1) == before.npos;
+    if (power) return fmt::format("1e{} {}", before.size() - 1, base);
+    if (before.size() == 3 && before.starts_with("1e")) return before + " " + base;
+  }
   return unit;
 }
 

@@ -26,8 +26,10 @@ struct NameAndUnit {
 };
 NameAndUnit name_and_unit(const Column& column, std::string_view si);
 
-/// The unit of a count with the factor in its heading: "1e6 cycles" for "Mio. cycles".
-std::string with_multiple(const std::string& heading, const std::string& unit);
+/// The unit with the factor in words of its heading, of which `word` names quantity or unit: "1e6 cycles" for
+/// "Mio. cycles", "1e3 h" for "khours", "thousand hours" and "1000 hours".
+std::string with_multiple(const std::string& heading, const std::string& unit,
+                          std::string_view word);
 
 /// Whether a heading contains the word; long words also match inside compounds, as in German.
 /// Ignores accents and case.

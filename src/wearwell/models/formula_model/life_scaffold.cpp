@@ -212,6 +212,12 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
   const std::size_t differing = roles.other_numbers().size();
   const auto lives = take_lives(roles);
   if (!lives) return {};
+  if (has_units(roles))
+    roles.guesses.emplace_back(
+        "several rows are of one unit: each is taken for the life of a part of its own. If they "
+        "are "
+        "ages at which one unit failed and was repaired, the model is \"repairable\" "
+        "(docs/reference/repairable.md)");
   roles.pass_over("unit");
   const std::size_t more = roles.other_numbers().size();
   if (!lives->stated && (more > 0 || differing == 0)) return {};

@@ -1,6 +1,7 @@
 #include "wearwell/models/recurrence/model.h"
 
 #include "wearwell/models/recurrence/recurrence_keys.h"
+#include "wearwell/models/recurrence/recurrence_scaffold.h"
 #include "wearwell/models/recurrence/recurrence_study.h"
 
 namespace wearwell {
@@ -23,6 +24,7 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_recurrence_study);
               },
+          .scaffold = scaffold,
           .keys = study_keys};
 }
 

@@ -60,26 +60,11 @@ EventWords read_event_words(const TomlReader& columns, const Table& table) {
   return words;
 }
 
-// Nelson (1995) and SAS code a failure as 1 and the end as -1; R's Surv codes the end as 0.
 std::optional<bool> is_failure(const EventWords& words, const std::string& word) {
   const std::string folded = folded_word(word);
   if (contains(words.failures, folded)) return true;
   if (contains(words.ends, folded)) return false;
-  if (word == "-1") return false;
-  if (const auto truth = truth_in(word)) {
-    if (!words.failure_code) return {};
-    return *truth == (*words.failure_code == 1);
-  }
-  for (const char* each : {"end", "ende", "fin", "endofobservation", "endofhistory", "now"}) {
-    if (folded == each) return false;
-  }
-  for (const char* each : {"repair", "repaired", "reparatur", "replacement"}) {
-    if (folded == each) return true;
-  }
-  const auto seen = censoring_by_word(word);
-  if (seen == Censoring::none) return true;
-  if (seen == Censoring::right) return false;
-  return {};
+  return is_failure_word(word, words.failure_code);
 }
 
 bool read_event(const Table& table, const EventWords& words, std::size_t row) {
@@ -210,6 +195,26 @@ double RecurrenceData::longest() const {
   double most = 0;
   for (const UnitHistory& unit : units) most = std::max(most, unit.end);
   return most;
+}
+
+// Nelson (1995) and SAS code a failure as 1 and the end as -1; R's Surv codes the end as 0.
+std::optional<bool> is_failure_word(const std::string& word, std::optional<int> failure_code) {
+  if (word == "-1") return false;
+  if (const auto truth = truth_in(word)) {
+    if (!failure_code) return {};
+    return *truth == (*failure_code == 1);
+  }
+  const std::string folded = folded_word(word);
+  for (const char* each : {"end", "ende", "fin", "endofobservation", "endofhistory", "now"}) {
+    if (folded == each) return false;
+  }
+  for (const char* each : {"repair", "repaired", "reparatur", "replacement"}) {
+    if (folded == each) return true;
+  }
+  const auto seen = censoring_by_word(word);
+  if (seen == Censoring::none) return true;
+  if (seen == Censoring::right) return false;
+  return {};
 }
 
 RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source) {

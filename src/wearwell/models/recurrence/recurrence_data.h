@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct RecurrenceData {
   double first_start() const;  ///< the least age at which observation of a unit began
   double longest() const;      ///< the largest age at the end of observation
 };
+
+/// Whether a word of the event column is a failure, else an end of observation; empty if it is neither.
+/// `failure_code`: what a failure is among 0 and 1, if that is known.
+std::optional<bool> is_failure_word(const std::string& word, std::optional<int> failure_code);
 
 /// Reads [data]: one row an event of a unit, with its age, and whether it is a failure or the end of observation. Throws
 /// InputError that names file, row and column: a negative age, an age below that of the row before, rows after the end, a
