@@ -3,8 +3,9 @@
 import re
 
 from . import _core
-from ._data import columns_of_few_kinds, headings_of, no_column, table_of
+from ._data import columns_of_few_kinds, headings_of, no_column, table_of, values_of
 from ._errors import InputError
+from ._idle_columns import are_counts, are_units, may_be_counts, may_be_units, warn_of_counts, warn_of_units
 from ._toml import unit_text
 
 _bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
@@ -112,6 +113,33 @@ class Columns:
     def line(self, axis, measured, unit):
         """(whether a straight path begins at 0, whether it falls, its rate)"""
         return _core.straight_line(self._read(), axis, measured, unit)
+
+    def warn_of_idle(self, unused, counts=False, units=False, instead="", otherwise=None):
+        """Warns of columns that are neither used nor in ``unused`` and look like counts or units, where a study takes such and has none.
+
+        ``instead``: the argument that has no place beside unit; ``otherwise``: what says that all rows are independent, by default unused.
+        """
+        left = {h: _bracket.sub("", h).strip() for h in self.headings if h not in self._names and h not in unused}
+        of_counts = [h for h, name in left.items() if counts and may_be_counts(name) and h == name and not self._units.get(h)]
+        of_units = [h for h, name in left.items() if units and may_be_units(name)]
+        values = self._values_of(of_counts + of_units)
+        for heading in of_counts:
+            if heading in values and are_counts(values[heading]):
+                warn_of_counts(heading)
+        for heading in of_units:
+            if heading in values and are_units(values[heading]):
+                warn_of_units(heading, instead, otherwise or f'unused="{heading}"')
+
+    def _values_of(self, headings):
+        if self._whole is None:
+            return values_of(self.data, headings)
+        found = {}
+        for heading in headings:
+            try:
+                found[heading] = self._whole.numbers(heading)
+            except InputError:  # of texts
+                found[heading] = self._whole.words(heading)
+        return found
 
     def table(self, unused=()):
         """The table for the library, and the headings that it holds (None: all)."""

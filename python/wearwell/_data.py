@@ -250,25 +250,35 @@ def _is_series(data):
     return hasattr(data, "iloc") and not hasattr(data, "columns")
 
 
-def columns_of_few_kinds(data, headings):
-    """Those of ``headings`` whose column holds a few numbers or words again and again: it may say how each life ended."""
+def _held(data, headings):
+    """Columns of a table in memory, by heading."""
     if hasattr(data, "iloc"):
         names = list(data.columns)
-        columns = {h: data.iloc[:, names.index(h)] for h in headings}
-    elif isinstance(data, np.ndarray) or not hasattr(data, "fetchnumpy"):
-        columns = {h: data[h] for h in headings}
-    else:
-        found = data.fetchnumpy()
-        columns = {h: found[h] for h in headings}
-    return {h for h, column in columns.items() if _has_few_kinds(column)}
+        return {h: data.iloc[:, names.index(h)] for h in headings}
+    if isinstance(data, np.ndarray) or not hasattr(data, "fetchnumpy"):
+        return {h: data[h] for h in headings}
+    found = data.fetchnumpy() if headings else {}
+    return {h: found[h] for h in headings}
 
 
-def _has_few_kinds(column):
+def values_of(data, headings):
+    """By heading an array of numbers, or a list of texts; without columns that cannot be read, which a study need not use."""
+    found = {}
+    for heading, column in _held(data, headings).items():
+        try:
+            found[heading] = _values(column, f"data, column '{heading}'")
+        except InputError:
+            continue
+    return found
+
+
+def columns_of_few_kinds(data, headings):
+    """Those of ``headings`` whose column holds a few numbers or words again and again: it may say how each life ended."""
+    return {h for h, values in values_of(data, headings).items() if _has_few_kinds(values)}
+
+
+def _has_few_kinds(values):
     most = 6
-    try:
-        values = _values(column, "data, column 'x'")
-    except InputError:
-        return False  # a column that is not used may hold anything
     if isinstance(values, list):
         return len({each for each in values if each}) <= most
     return len(np.unique(values[values == values])) <= most

@@ -101,6 +101,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         rows[columns.name(unit)] = unit
     elif unit is None:
         _require_one_path(columns, x, y)
+        columns.warn_of_idle((), units=True, otherwise="unit=False")
     of, along = columns.unit(y), columns.unit(x)
     values, places = columns.numbers(y), columns.numbers(x)
     if not len(values) or not len(places):

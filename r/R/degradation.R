@@ -72,7 +72,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
     if (length(row)) stop_input("data, row ", row[1], ", column '", of_unit$heading, "': a value is missing")
     study[[label]] <- study_column(if (is.double(values)) number_text(values) else values, "")
   }
-  look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "")
+  look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "",
+                 units = if (is.null(sides$unit)) "| %s in the formula, or unit = \"%s\" of a frame")
   middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
   require_finite(readings, measured$heading)
   require_finite(along, axis$heading)

@@ -115,7 +115,10 @@ read_lives <- function(reader, columns, fitted = FALSE) {
   }
   effect <- with_random(random, reader$location, effects, columns, names(study), "the formula")
   used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), reader$weights)
-  look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
+  instead <- if (!is.null(by)) " in place of by" else if (!is.null(modes)) " in place of mode"
+  look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"),
+                 counts = if (is.null(reader$weights)) "weights = \"%s\"",
+                 units = if (!length(random)) paste0("+ (1 | %s) in the formula, or unit = \"%s\" of a frame", instead))
   list(columns = c(study, effect$columns), lives = lives, effects = effects, random = effect, by = by, modes = modes, used = unique(used))
 }
 
