@@ -21,7 +21,8 @@ class Columns:
     def __init__(self, data, units, taken=()):
         self.data = data
         self.headings = headings_of(data)
-        self._whole = self._part = None  # a table of the library: of everything, or of the columns in use
+        # A table of the library: of everything, or of the columns in use.
+        self._whole, self._part = data if isinstance(data, _core.Table) else None, None
         self._part_of = set()
         if self.headings is None:
             self._whole = table_of(data)
@@ -97,6 +98,19 @@ class Columns:
         """The cells of a column as texts, whole numbers without a point."""
         return self._read().words(heading)
 
+    def require_ends(self, heading, otherwise):
+        """That no cell is missing of a column that says how rows ended; of a file the library names the line. ``otherwise``: what 0 means."""
+        import numpy
+
+        if self._whole is not None:
+            return
+        values = values_of(self.data, [heading]).get(heading, [])
+        texts = isinstance(values, list)
+        missing = numpy.array([not each for each in values], dtype=bool) if texts else values != values
+        if missing.any():
+            raise InputError(f"data, row {int(missing.argmax()) + 1}, column '{heading}' is missing ({'no text' if texts else 'NaN'}): it says how each row ended; write 1 for "
+                             f"a failure and 0 for {otherwise}, or words of them, or leave out the row")
+
     def kinds(self, heading):
         """The distinct cells as texts, whole numbers without a point."""
         import numpy
@@ -135,9 +149,8 @@ class Columns:
             return values_of(self.data, headings)
         found = {}
         for heading in headings:
-            try:
-                found[heading] = self._whole.numbers(heading)
-            except InputError:  # of texts
+            found[heading] = self._whole.numbers(heading)
+            if any(found[heading] != found[heading]):  # of texts, or with cells that are missing
                 found[heading] = self._whole.words(heading)
         return found
 
@@ -174,8 +187,10 @@ def status_of(columns, event):
         if unknown or "column" not in event:
             raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'end', 'failure': 1}} "
                              "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
+        columns.require_ends(columns.take(event["column"], "event"), "one that still ran")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
+    columns.require_ends(heading, "one that still ran")
     cells = {cell.lower() for cell in columns.kinds(heading)}
     codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
     if not codes:
@@ -201,8 +216,10 @@ def repairs_of(columns, event):
         if unknown or "column" not in event:
             raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'event', 'failure': 1}} "
                              "or {'column': 'event', 'failure': 'repaired', 'end': ['today', 'retired']}")
+        columns.require_ends(columns.take(event["column"], "event"), "an end of observation")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
+    columns.require_ends(heading, "an end of observation")
     codes = {cell.lower() for cell in columns.kinds(heading)} & _truths
     if not codes:
         return heading

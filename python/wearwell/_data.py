@@ -68,9 +68,12 @@ def _texts(values, where):
 
 
 def _numbers_among_objects(values, kinds, where):
-    """A column of objects that are numbers, all of them, as numbers: such frames come from databases and from JSON."""
+    """A column of objects that are numbers, or truths, all of them, as numbers: such frames come from databases and from JSON."""
     numbers = (int, float, decimal.Decimal, np.integer, np.floating)
-    if not any(kinds) or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, numbers) for k, each in zip(kinds, values) if k):
+    present = [each for k, each in zip(kinds, values) if k]
+    if present and all(isinstance(each, (bool, np.bool_)) for each in present):
+        return [np.array([np.nan if not k else float(each) for k, each in zip(kinds, values)])]
+    if not present or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, numbers) for each in present):
         return None
     return [_numbers(np.array([np.nan if not k else _exactly(each, where) for k, each in zip(kinds, values)], dtype=float), where)]
 
@@ -251,7 +254,9 @@ def _is_series(data):
 
 
 def _held(data, headings):
-    """Columns of a table in memory, by heading."""
+    """Columns of a table in memory, by heading; none of the library's, which has them all."""
+    if isinstance(data, _core.Table):
+        return {}
     if hasattr(data, "iloc"):
         names = list(data.columns)
         return {h: data.iloc[:, names.index(h)] for h in headings}
