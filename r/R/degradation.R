@@ -103,7 +103,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                 item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
                 effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
                 units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "scale", if (family == "normal") "sigma")], unit_of_prior))
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit))
 }
 
 # Where a power of the axis is 1.
