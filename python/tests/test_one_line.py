@@ -443,3 +443,127 @@ def test_residuals_and_their_figure():
     assert plot.figures == ["residuals"] and "<svg" in plot.to_html() and len(plot.to_dict()["layer"]) == 3
     with pytest.raises(ww.InputError, match="kind is 'deviance'; it is 'score' or 'cox-snell'"):
         fit.residuals("deviance")
+
+
+# ---- Columns that are not used.
+
+fleet = pd.DataFrame({"hours": [310.0, 480, 520, 640, 700, 700, 150, 260, 420, 330], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1, 1]})
+in_hours = {"event": "failed", "units": {"hours": "h"}, "method": "exact", "draws": 50, "chains": 2, "report": False}
+
+
+def warned(function, *arguments, **options):
+    """What is said of columns before a fit, all of it at this file."""
+    with warnings.catch_warnings(record=True) as caught, pytest.MonkeyPatch.context() as patch:
+        warnings.simplefilter("always")
+        patch.setattr(ww.Study, "fit", lambda study, *_, **__: None)
+        function(*arguments, **options)
+    of_columns = [each for each in caught if str(each.message).startswith("column '")]
+    assert all(each.category is ww.CheckWarning and each.filename == __file__ for each in of_columns)
+    return [str(each.message) for each in of_columns]
+
+
+@pytest.mark.parametrize("name", ["count", "Counts", "weight", "weights", "n", "quantity", "qty", "freq", "frequency", "number"])
+def test_counts_that_are_not_used_are_named(name):
+    said = warned(ww.life, fleet.assign(**{name: [1, 20] * 5}), "hours", **in_hours)
+    assert said == [f"column '{name}' looks like a number of equal rows and is not used: write count=\"{name}\", or unused=\"{name}\" if it says "
+                    "something else"]
+
+
+@pytest.mark.parametrize("column", [[1] * 10, list(range(1, 11)), [1.5] * 10, [0, 2] * 5, ["a", "b"] * 5, [2, None] * 5], ids=str)
+def test_other_columns_are_no_counts(column):
+    assert not warned(ww.life, fleet.assign(n=column), "hours", **in_hours)
+
+
+@pytest.mark.parametrize("name", ["unit", "machine", "Serial", "id", "machine_id", "serial number"])
+def test_units_that_are_not_used_are_named(name):
+    repeated = fleet.assign(**{name: list("AABBCCDDEE")})
+    said = warned(ww.life, repeated, "hours", **in_hours)
+    assert len(said) == 1 and f'write unit="{name}", or unused="{name}" if that is so' in said[0]
+    assert not warned(ww.life, repeated, "hours", unused=name, **in_hours)
+    assert not warned(ww.life, fleet.assign(**{name: list("ABCDEFGHIJ")}), "hours", **in_hours)
+    assert not warned(ww.life, fleet.assign(**{name: "A"}), "hours", **in_hours)
+    assert not warned(ww.life, repeated, "hours", by=name, **in_hours)
+    groups = repeated.assign(maker=list("XY") * 5)
+    assert 'write unit="' + name + '" in place of by, or' in warned(ww.life, groups, "hours", by="maker", **in_hours)[0]
+
+
+@pytest.mark.parametrize("kind", ["dict", "array", "table", "file"])
+def test_unused_columns_of_every_table_are_seen(kind, tmp_path):
+    frame = fleet.assign(qty=[1, 20] * 5, machine=list("AABBCCDDEE"))
+    frame.to_csv(tmp_path / "fleet.csv", index=False)
+    data = {"dict": frame.to_dict("list"), "array": frame.to_records(index=False), "table": ww.table(frame),
+            "file": str(tmp_path / "fleet.csv")}[kind]
+    said = warned(ww.life, data, "hours", **in_hours)
+    assert [each.split("'")[1] for each in said] == ["qty", "machine"]
+
+
+def test_columns_in_use_are_not_warned_of():
+    frame = fleet.assign(count=[1, 2] * 5, machine=list("AABBCCDDEE"))
+    assert not warned(ww.life, frame, "hours", count="count", unused="machine", **in_hours)
+    assert not warned(ww.life, frame.assign(weight=2), "hours", count="count", unused="machine", **in_hours)
+    assert not warned(ww.life, frame, "hours", unused=["count", "machine"], **in_hours)
+    assert not warned(ww.life, fleet.assign(**{"weight [kg]": [1, 20] * 5}), "hours", **in_hours)
+    tests = {"S": [300, 320, 340, 360, 380, 400], "N": [9e5, 5e5, 3e5, 2e5, 1e5, 5e4], "n": [1, 2, 1, 1, 3, 1]}
+    of_sn = {"units": {"S": "MPa", "N": "cycles"}, "method": "exact", "draws": 50, "chains": 2, "report": False}
+    assert 'count="n"' in warned(ww.sn, tests, "S", "N", **of_sn)[0] and not warned(ww.sn, tests, "S", "N", count="n", **of_sn)
+    said = warned(ww.degradation, {"km": [1, 2, 3, 4], "wear": [11.0, 19, 32, 41], "machine": ["A", "A", "B", "B"]}, "wear", "km", method="exact",
+                  draws=50, chains=2, report=False)
+    assert 'unit="machine", or unit=False if that is so' in said[0]
+
+
+# ---- Questions and cells in the words of the call.
+
+@functools.lru_cache(maxsize=None)
+def of_fleet():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        return ww.life(fleet, "hours", **in_hours)
+
+
+@pytest.mark.parametrize("ask, said", [
+    (lambda f: f.survival_function("5 kg"), "times: '5 kg': unit 'kg' has the wrong dimension (expected one like 's'); hours is in h"),
+    (lambda f: f.survival_function([100, "x"]), "times: 'x' is not a number with a unit (like '1.5 s'); hours is in h"),
+    (lambda f: f.hazard("x"), "times: 'x' is not a number with a unit (like '1.5 s'); hours is in h"),
+    (lambda f: f.conditional("5 kg"), "survived: '5 kg': unit 'kg' has the wrong dimension (expected one like 's'); hours is in h"),
+    (lambda f: f.life(survived="5 kg"), "survived: '5 kg': unit 'kg' has the wrong dimension (expected one like 's')"),
+    (lambda f: f.ask({"survival_to": "5 kg"}), "predict.survival_to: '5 kg': unit 'kg' has the wrong dimension (expected one like 's')"),
+    (lambda f: f.survival_function(-5), "times is -5; lives of this study are 0 or more"),
+    (lambda f: f.survival_function([1, "-5 h"]), "times holds '-5 h'; lives of this study are 0 or more"),
+    (lambda f: f.hazard(np.array([-0.5])), "times is -0.5; lives of this study are 0 or more"),
+    (lambda f: f.conditional(-1), "survived is -1; lives of this study are 0 or more"),
+    (lambda f: f.life(survived="-1 h"), "survived is '-1 h'; lives of this study are 0 or more")])
+def test_questions_are_refused_in_the_words_of_arguments(ask, said):
+    with pytest.raises(ww.InputError) as refused:
+        ask(of_fleet())
+    assert str(refused.value) == said
+
+
+def test_lives_of_both_signs_are_asked_below_zero():
+    study = ww.Study("logs = mu", {"logs": [1.0, 2.0, 3.0, 2.5]}, priors={"mu": ww.normal(2, 2), "sigma": ww.half_normal(2)}, predict={"b_lives": [10]})
+    fit = study.fit(method="exact", draws=50, chains=2, report=False)
+    assert 0.9 < fit.survival_function(-1).iloc[0]["q50"] < 1
+
+
+def test_a_threshold_is_refused_with_its_argument():
+    path = {"km": [10, 20, 30, 40], "wear": [11, 19, 32, 41]}
+    in_um = {"y": "wear", "x": "km", "units": {"wear": "um", "km": "km"}}
+    said = "limit: '100 kg': unit 'kg' has the wrong dimension (expected one like 'm')"
+    assert refusal(ww.degradation, path, limit="100 kg", **in_um) == said
+    fit = ww.degradation(path, limit="100 um", method="exact", draws=50, chains=2, report=False, **in_um)
+    with pytest.raises(ww.InputError) as refused:
+        fit.life(limit="100 kg")
+    assert str(refused.value) == said
+
+
+def test_cells_of_events_and_lives():
+    truths = fleet.assign(failed=fleet["failed"].astype(bool).astype(object))
+    assert made(ww.life, truths, "hours", event="failed").description() == made(ww.life, fleet, "hours", event="failed").description()
+    assert "event=\"failed\"" in refusal(ww.life, truths, "hours")  # is not passed over either
+    for column, what in (([1, 1, 1, 1, np.nan, 0, 1, 1, 1, 1], "NaN"), ([True, True, True, True, None] + [True] * 5, "NaN"),
+                         (["failed"] * 4 + [None] + ["runout"] * 5, "no text")):
+        for event in ("failed", {"column": "failed", "failure": "failed" if what == "no text" else 1}):
+            said = refusal(ww.life, fleet.assign(failed=column), "hours", event=event)
+            assert said.startswith(f"data, row 5, column 'failed' is missing ({what}): it says how each row ended; write 1 for a failure and 0 for")
+    said = refusal(ww.life, fleet.assign(hours=[-5.0] + [100.0] * 9), "hours", event="failed")
+    assert said == "data, row 1, column 'hours': -5 must be positive for the weibull family"
+    assert "bool" in refusal(ww.life, fleet.assign(failed=[True, "x"] * 5), "hours", event="failed")

@@ -1,12 +1,18 @@
 """The stubs are those of the module: mypy's stubtest; and a program that uses them is checked."""
 
+import ast
+import glob
+import importlib.util
+import json
 import os
+import re
 import subprocess
 import sys
 
 import pytest
 
 import wearwell
+from conftest import source
 
 pytest.importorskip("mypy")
 config = os.path.join(os.path.dirname(__file__), "mypy.ini")
@@ -52,6 +58,37 @@ def test_use_is_checked(tmp_path):
     assert 'use.py:9: note: Revealed type is "Any"' in said or 'DataFrame"' in said
     assert "use.py:10: error" not in said
     assert "use.py:8: error" in said and "use.py:7: error" not in said
+
+
+def blocks_of(path):
+    """The blocks of Python of a page, or the cells of a notebook."""
+    with open(path) as file:
+        text = file.read()
+    if not path.endswith(".ipynb"):
+        return re.findall(r"```python\n(.*?)```", text, re.S)
+    return ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
+
+
+def imports_what_is_missing(block):
+    names = [name.name for node in ast.walk(ast.parse(block)) if isinstance(node, ast.Import) for name in node.names]
+    names += [node.module for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom) and node.module]
+    return any(importlib.util.find_spec(name.split(".")[0]) is None for name in names)
+
+
+def test_examples_are_typed(tmp_path):
+    """Pages and notebooks as a user's editor checks them; blocks with packages that are not installed are left out."""
+    pages = [os.path.join(source, *page.split("/")) for page in ("docs/how-to/coming-from-lifelines.md", "docs/how-to/coming-from-reliability.md",
+                                                                 "docs/how-to/failure-modes.md", "docs/reference/python.md", "README.md")]
+    names = []
+    for path in pages + sorted(glob.glob(os.path.join(source, "examples", "notebooks", "*.ipynb"))):
+        blocks = [block for block in blocks_of(path) if not imports_what_is_missing(block)]
+        assert blocks, path
+        names.append(re.sub(r"\W", "_", os.path.basename(path)) + ".py")
+        (tmp_path / names[-1]).write_text("\n".join(blocks))
+    done = mypy("mypy", "--strict", "--config-file", config, *names, folder=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (tmp_path / names[0]).write_text("import wearwell as ww\nww.life({}, 'hours', **{'method': 'exact'})\n")
+    assert mypy("mypy", "--strict", "--config-file", config, names[0], folder=tmp_path).returncode == 1
 
 
 def test_everything_public_is_documented():

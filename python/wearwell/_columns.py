@@ -3,8 +3,9 @@
 import re
 
 from . import _core
-from ._data import columns_of_few_kinds, headings_of, no_column, table_of
+from ._data import columns_of_few_kinds, headings_of, no_column, table_of, values_of
 from ._errors import InputError
+from ._idle_columns import are_counts, are_units, may_be_counts, may_be_units, warn_of_counts, warn_of_units
 from ._toml import unit_text
 
 _bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
@@ -20,7 +21,8 @@ class Columns:
     def __init__(self, data, units, taken=()):
         self.data = data
         self.headings = headings_of(data)
-        self._whole = self._part = None  # a table of the library: of everything, or of the columns in use
+        # A table of the library: of everything, or of the columns in use.
+        self._whole, self._part = data if isinstance(data, _core.Table) else None, None
         self._part_of = set()
         if self.headings is None:
             self._whole = table_of(data)
@@ -96,6 +98,19 @@ class Columns:
         """The cells of a column as texts, whole numbers without a point."""
         return self._read().words(heading)
 
+    def require_ends(self, heading, otherwise):
+        """That no cell is missing of a column that says how rows ended; of a file the library names the line. ``otherwise``: what 0 means."""
+        import numpy
+
+        if self._whole is not None:
+            return
+        values = values_of(self.data, [heading]).get(heading, [])
+        texts = isinstance(values, list)
+        missing = numpy.array([not each for each in values], dtype=bool) if texts else values != values
+        if missing.any():
+            raise InputError(f"data, row {int(missing.argmax()) + 1}, column '{heading}' is missing ({'no text' if texts else 'NaN'}): it says how each row ended; write 1 for "
+                             f"a failure and 0 for {otherwise}, or words of them, or leave out the row")
+
     def kinds(self, heading):
         """The distinct cells as texts, whole numbers without a point."""
         import numpy
@@ -112,6 +127,32 @@ class Columns:
     def line(self, axis, measured, unit):
         """(whether a straight path begins at 0, whether it falls, its rate)"""
         return _core.straight_line(self._read(), axis, measured, unit)
+
+    def warn_of_idle(self, unused, counts=False, units=False, instead="", otherwise=None):
+        """Warns of columns that are neither used nor in ``unused`` and look like counts or units, where a study takes such and has none.
+
+        ``instead``: the argument that has no place beside unit; ``otherwise``: what says that all rows are independent, by default unused.
+        """
+        left = {h: _bracket.sub("", h).strip() for h in self.headings if h not in self._names and h not in unused}
+        of_counts = [h for h, name in left.items() if counts and may_be_counts(name) and h == name and not self._units.get(h)]
+        of_units = [h for h, name in left.items() if units and may_be_units(name)]
+        values = self._values_of(of_counts + of_units)
+        for heading in of_counts:
+            if heading in values and are_counts(values[heading]):
+                warn_of_counts(heading)
+        for heading in of_units:
+            if heading in values and are_units(values[heading]):
+                warn_of_units(heading, instead, otherwise or f'unused="{heading}"')
+
+    def _values_of(self, headings):
+        if self._whole is None:
+            return values_of(self.data, headings)
+        found = {}
+        for heading in headings:
+            found[heading] = self._whole.numbers(heading)
+            if any(found[heading] != found[heading]):  # of texts, or with cells that are missing
+                found[heading] = self._whole.words(heading)
+        return found
 
     def table(self, unused=()):
         """The table for the library, and the headings that it holds (None: all)."""
@@ -146,8 +187,10 @@ def status_of(columns, event):
         if unknown or "column" not in event:
             raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'end', 'failure': 1}} "
                              "or {'column': 'end', 'failure': 'broke', 'runout': ['ran', 'stopped']}")
+        columns.require_ends(columns.take(event["column"], "event"), "one that still ran")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
+    columns.require_ends(heading, "one that still ran")
     cells = {cell.lower() for cell in columns.kinds(heading)}
     codes = {cell for cell in cells if cell in _truths or re.fullmatch(r"[+-]?\d+(\.\d*)?", cell)}
     if not codes:
@@ -173,8 +216,10 @@ def repairs_of(columns, event):
         if unknown or "column" not in event:
             raise InputError(f"event has {'no column' if not unknown else f'the key {unknown!r}'}; it is like {{'column': 'event', 'failure': 1}} "
                              "or {'column': 'event', 'failure': 'repaired', 'end': ['today', 'retired']}")
+        columns.require_ends(columns.take(event["column"], "event"), "an end of observation")
         return {**event, "column": columns.take(event["column"], "event")}
     heading = columns.take(event, "event")
+    columns.require_ends(heading, "an end of observation")
     codes = {cell.lower() for cell in columns.kinds(heading)} & _truths
     if not codes:
         return heading

@@ -68,9 +68,12 @@ def _texts(values, where):
 
 
 def _numbers_among_objects(values, kinds, where):
-    """A column of objects that are numbers, all of them, as numbers: such frames come from databases and from JSON."""
+    """A column of objects that are numbers, or truths, all of them, as numbers: such frames come from databases and from JSON."""
     numbers = (int, float, decimal.Decimal, np.integer, np.floating)
-    if not any(kinds) or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, numbers) for k, each in zip(kinds, values) if k):
+    present = [each for k, each in zip(kinds, values) if k]
+    if present and all(isinstance(each, (bool, np.bool_)) for each in present):
+        return [np.array([np.nan if not k else float(each) for k, each in zip(kinds, values)])]
+    if not present or any(isinstance(each, (bool, np.bool_)) or not isinstance(each, numbers) for each in present):
         return None
     return [_numbers(np.array([np.nan if not k else _exactly(each, where) for k, each in zip(kinds, values)], dtype=float), where)]
 
@@ -250,25 +253,37 @@ def _is_series(data):
     return hasattr(data, "iloc") and not hasattr(data, "columns")
 
 
-def columns_of_few_kinds(data, headings):
-    """Those of ``headings`` whose column holds a few numbers or words again and again: it may say how each life ended."""
+def _held(data, headings):
+    """Columns of a table in memory, by heading; none of the library's, which has them all."""
+    if isinstance(data, _core.Table):
+        return {}
     if hasattr(data, "iloc"):
         names = list(data.columns)
-        columns = {h: data.iloc[:, names.index(h)] for h in headings}
-    elif isinstance(data, np.ndarray) or not hasattr(data, "fetchnumpy"):
-        columns = {h: data[h] for h in headings}
-    else:
-        found = data.fetchnumpy()
-        columns = {h: found[h] for h in headings}
-    return {h for h, column in columns.items() if _has_few_kinds(column)}
+        return {h: data.iloc[:, names.index(h)] for h in headings}
+    if isinstance(data, np.ndarray) or not hasattr(data, "fetchnumpy"):
+        return {h: data[h] for h in headings}
+    found = data.fetchnumpy() if headings else {}
+    return {h: found[h] for h in headings}
 
 
-def _has_few_kinds(column):
+def values_of(data, headings):
+    """By heading an array of numbers, or a list of texts; without columns that cannot be read, which a study need not use."""
+    found = {}
+    for heading, column in _held(data, headings).items():
+        try:
+            found[heading] = _values(column, f"data, column '{heading}'")
+        except InputError:
+            continue
+    return found
+
+
+def columns_of_few_kinds(data, headings):
+    """Those of ``headings`` whose column holds a few numbers or words again and again: it may say how each life ended."""
+    return {h for h, values in values_of(data, headings).items() if _has_few_kinds(values)}
+
+
+def _has_few_kinds(values):
     most = 6
-    try:
-        values = _values(column, "data, column 'x'")
-    except InputError:
-        return False  # a column that is not used may hold anything
     if isinstance(values, list):
         return len({each for each in values if each}) <= most
     return len(np.unique(values[values == values])) <= most

@@ -101,6 +101,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         rows[columns.name(unit)] = unit
     elif unit is None:
         _require_one_path(columns, x, y)
+        columns.warn_of_idle((), units=True, otherwise="unit=False")
     of, along = columns.unit(y), columns.unit(x)
     values, places = columns.numbers(y), columns.numbers(x)
     if not len(values) or not len(places):
@@ -151,5 +152,5 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     table, only = columns.table()
     study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
         f"data.columns.{columns.name(y)}": "y", f"data.columns.{name}": "x", "predict.limit": "limit", "predict.b_lives": "b",
-        "predict.credible_level": "confidence"})
+        "predict.credible_level": "confidence"}, {"limit": limit, "confidence": confidence})
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -95,7 +95,7 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
     asked = {"types": "all", "b_lives": percentages(b), **level_of_bounds(confidence, predict), "survival_to": quantities(survival_to, "survival_to"),
              "required_life": quantities(required_life, "required_life"), "reliability": quantities(reliability, "reliability"), **(predict or {})}
     study.arguments.update({"law.mean_stress": "correction", "law.curve": "curve", "likelihood.family": "family"})
-    made = study.study(title or f"S-N curve: {stress} and {life}", {"law": law, "likelihood": {"family": family}}, priors, asked, unused)
+    made = study.study(title or f"S-N curve: {stress} and {life}", {"law": law, "likelihood": {"family": family}}, priors, asked, unused, may_have_counts=True)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)
 
 

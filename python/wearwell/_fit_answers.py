@@ -3,6 +3,7 @@
 import json
 
 from ._errors import InputError
+from ._messages import in_python
 
 
 class FitAnswers:
@@ -43,7 +44,10 @@ class FitAnswers:
         """
         if not 0 < level < 1:
             raise InputError(f"level is {level}; it lies between 0 and 1")
-        return json.loads(self._live().asked(self.study._asking(predict), float(level)))
+        try:
+            return json.loads(self._live().asked(self.study._asking(predict), float(level)))
+        except InputError as error:
+            raise InputError(in_python(str(error))) from None
 
     def predict(self, new, level=0.9, kind="mean", *, along=None):
         """Predictions under new conditions, of a study of a formula.

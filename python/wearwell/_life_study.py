@@ -175,8 +175,9 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     predict : dict, optional
         Further keys of ``[predict]`` of a formula study, such as ``{"survival_to": "1000 h"}``.
     unused : str or sequence of str, optional
-        Columns that look like an event and are none.
+        Columns that look like an event, a count or a unit and are none.
     <what all fits share>
+        For a column that is not used and looks like a number of equal items or a label of units with several lives.
 
     Examples
     --------
@@ -255,6 +256,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         slots = {slot: text.replace(name, name + own) for slot, text in slots.items()}
     known.require_used()
     unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
+    columns.warn_of_idle(unused, counts=count is None, units=unit is None, instead="by" if by else "mode" if mode is not None else "")
     asked = {**({"given": conditions} if (conditions := _conditions(columns, by, stress, given)) else {}),
              "b_lives": list(b) if hasattr(b, "__iter__") else [b], **level_of_bounds(confidence, predict), **(predict or {})}
     place = scale if stress else formula

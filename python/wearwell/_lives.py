@@ -5,6 +5,8 @@ import re
 from . import _toml
 from ._ask import _written, axis_of, columns_of, conditions_of, tables_of
 from ._errors import InputError
+from ._lives_of import require_lives
+from ._messages import in_python
 
 _inf, _nan = float("inf"), float("nan")
 _least = 0.1  # percent: of items that survive more rarely nothing is known from then on
@@ -35,6 +37,7 @@ def _of_formula(study, limit, unit, survived, along):
             raise InputError("unit needs a limit, fit.life(limit=..., unit=...): where the data are lives, the life of each item is "
                              "known, and fit.life predicts that of the next one: leave unit out")
         if survived is not None:  # a plain number is in the unit of the measured life
+            require_lives(study, [survived], "survived")
             measured = next(iter(study["likelihood"]))
             shown = columns_of(study)[measured]
             if not isinstance(table["survived"], str) and shown[:1].isdigit():  # "1e6 cycles": multiples, or cycles?
@@ -82,6 +85,14 @@ def _of_preset(study, limit, unit, survived, along):
     return table
 
 
+def _asked(fit, table, values):
+    try:
+        return fit.ask(table)
+    except InputError as error:
+        keys = {"predict.b_lives": "b", "predict.credible_level": "confidence", **{f"predict.{key}": key for key in values}}
+        raise InputError(in_python(str(error), keys, values)) from None
+
+
 def _number(value):  # null of a life: never
     return _inf if value is None else value
 
@@ -109,7 +120,7 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
     table = (_of_formula if formula else _of_preset)(study, limit, unit, survived, along)
     if given:
         table = {**table, **({"given": given} if formula else given)}
-    answers = fit.ask({**table, "b_lives": b, "credible_level": confidence})
+    answers = _asked(fit, {**table, "b_lives": b, "credible_level": confidence}, {"limit": limit, "survived": survived, "given": given})
     rows = [_row(each) for each in answers.get("quantities", [])]
     if "life" in answers:
         life = answers["life"]

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from . import _toml
 from ._ask import _written, columns_of, conditions_of, in_column, tables_of
 from ._errors import InputError
+from ._messages import in_python
 
 _of_life = ("status", "lower", "upper", "entry")
 _asked = ("b_lives", "survival_to", "hazard_at", "mean_life")
@@ -113,9 +114,39 @@ def _frame(rows, differ, name, columns, unit):
     return frame
 
 
-def _asked_of(fit, values, what):
+# Lives that may lie below 0.
+_of_both_signs = ("normal", "student-t", "smallest-extreme-value", "largest-extreme-value")
+
+
+def require_lives(study, values, what):
+    """Lives that an argument holds: none below 0 where the family has none."""
+    slots = next(iter(study["likelihood"].values()))
+    if slots.get("family") in _of_both_signs or "threshold" in slots:
+        return
+    for each in values:
+        each = each.item() if hasattr(each, "item") else each
+        number = getattr(each, "magnitude", each)
+        match = re.match(r"\s*([+-]?[0-9.]+(?:[eE][+-]?\d+)?)", number) if isinstance(number, str) else None
+        try:
+            number = float(match[1] if match else number)
+        except (TypeError, ValueError):
+            continue  # which is refused with its unit
+        if number < 0:
+            raise InputError(f"{what} is {each!r}; lives of this study are 0 or more" if len(values) == 1 else
+                             f"{what} holds {each!r}; lives of this study are 0 or more")
+
+
+def _asked_of(fit, values, what, arguments=None):
+    """``arguments``: of keys of ``what``, (name of the argument, its value, a unit that it may have)."""
     table = {"given": values} if values else {}
-    answers = fit.ask({**table, **what}).get("quantities", [])
+    try:
+        answers = fit.ask({**table, **what}).get("quantities", [])
+    except InputError as error:
+        asked = (arguments or {}).values()
+        said = in_python(str(error), {"predict.given": "given", **{f"predict.{key}": each[0] for key, each in (arguments or {}).items()}},
+                         {name: value for name, value, _ in asked})
+        unit = next((unit for name, _, unit in asked if unit and said.startswith(f"{name}: ")), None)
+        raise InputError(f"{said}; {unit}" if unit else said) from None
     # Of failure modes: those of the part, which come first; the others are of each mode alone, under the same names.
     return [each for each in answers if each["of"].removeprefix("new ") == answers[0]["of"].removeprefix("new ")]
 
@@ -126,15 +157,21 @@ def _life_row(each, keys):
     return {key: (inf if each[key] is None else each[key]) if key in each else nan for key in keys}
 
 
+def _units_of_lives(name, unit):
+    return f"{name} is in {unit}" if unit not in ("", "1") else f"{name} is a plain number"
+
+
 def survival_function(fit, times, given):
     study = _study_of_lives(fit, "survival_function")
     times = _list(times, "times")
+    require_lives(study, times, "times")
     name, unit = _measured(study)
     differ, found = conditions(fit, study, given)
     keys = (*_quantiles, "predictive")
     rows = []
     for labels, values in found:
-        answers = [each for each in _asked_of(fit, values, {"survival_to": [_written(each, unit) for each in times]})
+        answers = [each for each in _asked_of(fit, values, {"survival_to": [_written(each, unit) for each in times]},
+                                                       {"survival_to": ("times", times, _units_of_lives(name, unit))})
                    if each["name"].startswith("survival to ")]
         rows += [(labels, at, {key: each[key] / 100 for key in keys}) for at, each in zip(times, answers, strict=True)]
     return _frame(rows, differ, name, list(keys), "1")
@@ -143,11 +180,13 @@ def survival_function(fit, times, given):
 def hazard(fit, times, given):
     study = _study_of_lives(fit, "hazard")
     times = _list(times, "times")
+    require_lives(study, times, "times")
     name, unit = _measured(study)
     differ, found = conditions(fit, study, given)
     rows, of = [], None
     for labels, values in found:
-        answers = [each for each in _asked_of(fit, values, {"hazard_at": [_written(each, unit) for each in times]})
+        answers = [each for each in _asked_of(fit, values, {"hazard_at": [_written(each, unit) for each in times]},
+                                                       {"hazard_at": ("times", times, _units_of_lives(name, unit))})
                    if each["name"].startswith("hazard at ")]
         rows += [(labels, at, {key: each[key] for key in _quantiles}) for at, each in zip(times, answers, strict=True)]
         of = answers[0]["unit"]
@@ -181,7 +220,8 @@ def percentile(fit, p, given, confidence):
     keys = (*_quantiles, "predictive", "bound")
     rows, of = [], None
     for labels, values in found:
-        answers = {each["name"]: each for each in _asked_of(fit, values, {"b_lives": p, "credible_level": confidence})}
+        answers = {each["name"]: each for each in _asked_of(fit, values, {"b_lives": p, "credible_level": confidence},
+                                                               {"b_lives": ("p", p, ""), "credible_level": ("confidence", confidence, "")})}
         for each in p:
             answer = answers[f"B{each:.6g} life"]
             rows.append((labels, each, _life_row(answer, keys)))
@@ -192,12 +232,14 @@ def percentile(fit, p, given, confidence):
 def conditional(fit, survived, b, given, confidence):
     study = _study_of_lives(fit, "conditional")
     b = _percentages(b)
-    unit = _measured(study)[1]
+    require_lives(study, [survived], "survived")
+    name, unit = _measured(study)
     differ, found = conditions(fit, study, given)
     keys = (*_quantiles, "predictive", "bound")
     rows = []
     for labels, values in found:
-        answers = _asked_of(fit, values, {"survived": _written(survived, unit), "b_lives": b, "mean_life": True, "credible_level": confidence})
+        answers = _asked_of(fit, values, {"survived": _written(survived, unit), "b_lives": b, "mean_life": True, "credible_level": confidence},
+                            {"survived": ("survived", survived, _units_of_lives(name, unit)), "credible_level": ("confidence", confidence, "")})
         wanted = [each for each in answers if each["name"].startswith("survival to ")]
         wanted += [each for each in answers if each["name"] == "mean remaining useful life"]
         wanted += [each for each in answers if each["name"].startswith("B") and each["name"].endswith(" remaining useful life")]

@@ -4,13 +4,19 @@ import re
 
 _place = re.compile(r"\Astudy:\d+:\d+: ")
 _excerpt = re.compile(r"\n    \[[^\]\n]*\]\n    \^\Z")  # the head of a table alone: it shows nothing
+# A key of the study, which the caller did not write as such, and its value.
+_line = re.compile(r"\n    [\w.\"'\[\]-]+ = ([^\n]*)\n +\^(?:\n    right: [^\n]*)?\Z")
 
 
-def in_python(message, arguments=None):
-    """``arguments``: of keys, the arguments that they came from, as {"data.columns.status": "event"}."""
+def in_python(message, arguments=None, values=None):
+    """``arguments``: of keys, the arguments that they came from, as {"data.columns.status": "event"}. ``values``: of arguments, what the
+    caller wrote."""
     arguments = arguments or {}
     status = arguments.get("data.columns.status", "status")
     message = _excerpt.sub("", _place.sub("", message))
+    message = re.sub(r"(?<=\d) 1 (?=must be )", " ", message)  # the unit of a plain number
+    line = _line.search(message)
+    message = message[:line.start()] if line else message
     message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d|"[^"]*") \}', rf'{status}={{"column": \1, "failure": \2}}', message)
     message = re.sub(r'status = ("[^"]*")', rf"{status}=\1", message)
     message = re.sub(r'mode = ("[^"]*") and \[failure_modes\] column = "mode" in a formula study', r"mode=\1 in wearwell.life", message)
@@ -20,7 +26,21 @@ def in_python(message, arguments=None):
                      lambda m: f"name a column as {status}" + (f", or write mode={{'column': ..., 'runout': {m[2]}}}" if m[1] else ""), message)
     for key, argument in sorted(arguments.items(), key=lambda each: -len(each[0])):
         message = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w])", argument, message)
-    return re.sub(r"(?<![\w.])prior\.(?=[A-Za-z])", "priors: ", message)
+    return _with_value(re.sub(r"(?<![\w.])prior\.(?=[A-Za-z])", "priors: ", message), values or {}, line[1] if line else "")
+
+
+def _with_value(message, values, written):
+    """The value behind the argument that a message begins with: "times: '5 kg': unit ...". ``written``: that of the study's key."""
+    match = re.match(r"(predict\.\w+|\w+)(?:\.\w+)?: (?:entry (\d+): )?", message)
+    value = values.get(match[1]) if match else None
+    if match and value is None and re.fullmatch(r'"[^"]*"', written):
+        value = written[1:-1]
+    if value is None or isinstance(value, dict):
+        return message
+    if match[2] and isinstance(value, (list, tuple)):
+        value = value[int(match[2]) - 1]
+    rest = message[match.end():]
+    return f"{match[1]}: {rest}" if f"'{value}" in rest or f'"{value}' in rest else f"{match[1]}: {value!r}: {rest}"
 
 
 _option = re.compile(r"(?:(?<=[\s(])|\A)--([a-z][a-z-]*[a-z])(?![\w=-])")  # a quoted one is the user's text

@@ -42,9 +42,10 @@ class Preset:
         self.rows["status"] = entry
         self.arguments["data.columns.status"] = "event"
 
-    def study(self, title, tables, priors, predict, unused=None):
-        """``tables``: further tables of the study by name, such as [law]."""
+    def study(self, title, tables, priors, predict, unused=None, may_have_counts=False):
+        """``tables``: further tables of the study by name, such as [law]. ``may_have_counts``: the caller has an argument count."""
         unused = [self.columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
+        self.columns.warn_of_idle(unused, counts=may_have_counts and "count" not in self.rows)
         for name, prior in (priors or {}).items():
             if not isinstance(prior, dict):
                 raise InputError(f"priors: {name} is {type(prior).__name__}; wearwell.lognormal(...) and its like make one")

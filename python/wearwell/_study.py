@@ -94,14 +94,15 @@ class Study:
             raise InputError(in_python(str(error))) from None
 
     @classmethod
-    def _made(cls, text, given, arguments=None):
-        """A study that a function made of its arguments; ``given``: by name (table, data, headings that it holds)."""
+    def _made(cls, text, given, arguments=None, values=None):
+        """A study that a function made of its arguments; ``given``: by name (table, data, headings that it holds); ``values``: of arguments,
+        for messages."""
         self = cls.__new__(cls)
         try:
             return self._set(text, "study", {k: table for k, (table, _, _) in given.items()},
                              {k: (data, {}, only) for k, (_, data, only) in given.items()})
         except InputError as error:
-            raise InputError(in_python(str(error), arguments or {})) from None
+            raise InputError(in_python(str(error), arguments or {}, values)) from None
 
     @classmethod
     def from_toml(cls, text, data=None, *, units=None, folder="", name="study"):

@@ -6,7 +6,11 @@ ww_ask <- function(fit, predict, level = 0.9) {
   }
   run <- run_again(fit)
   text <- paste0(without_table(fit$study$text, "predict"), "\n", toml_table("predict", predict))
-  core(C_asked, run, read_again(fit$study, text), as.double(level))
+  # An answer's `predict.units` is read by predict().
+  tryCatch(core(C_asked, run, read_again(fit$study, text), as.double(level)), wearwell_input_error = function(error) {
+    if (grepl("predict.units: ", conditionMessage(error), fixed = TRUE)) stop(error)
+    stop_input(in_words_of_caller(conditionMessage(error), predict))
+  })
 }
 
 # The study's tables and keys; of a study of these models alone.

@@ -72,7 +72,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
     if (length(row)) stop_input("data, row ", row[1], ", column '", of_unit$heading, "': a value is missing")
     study[[label]] <- study_column(if (is.double(values)) number_text(values) else values, "")
   }
-  look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "")
+  look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "",
+                 units = if (is.null(sides$unit)) "| %s in the formula, or unit = \"%s\" of a frame")
   middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
   require_finite(readings, measured$heading)
   require_finite(along, axis$heading)
@@ -102,7 +103,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                 item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
                 effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
                 units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "scale", if (family == "normal") "sigma")], unit_of_prior))
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit))
 }
 
 # Where a power of the axis is 1.

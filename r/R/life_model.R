@@ -81,7 +81,7 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   text <- study_text(
     title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study, constants = effects$constants,
     likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
-    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10), credible_level = 0.9))))
+    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(family, parameters, lives, study, effects, effect, by)
   known$modes <- !is.null(modes)
@@ -115,7 +115,10 @@ read_lives <- function(reader, columns, fitted = FALSE) {
   }
   effect <- with_random(random, reader$location, effects, columns, names(study), "the formula")
   used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), reader$weights)
-  look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"))
+  instead <- if (!is.null(by)) " in place of by" else if (!is.null(modes)) " in place of mode"
+  look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"),
+                 counts = if (is.null(reader$weights)) "weights = \"%s\"",
+                 units = if (!length(random)) paste0("+ (1 | %s) in the formula, or unit = \"%s\" of a frame", instead))
   list(columns = c(study, effect$columns), lives = lives, effects = effects, random = effect, by = by, modes = modes, used = unique(used))
 }
 
@@ -243,8 +246,15 @@ predict_of <- function(own, proposed) {
   proposed
 }
 
+# A prior of no knowledge of the parameter of a default: of its unit, above 0 where the default is.
+flat_of <- function(default) {
+  size <- c(default$median, default$scale, default$mean)[[1]]
+  unit <- if (is.character(size)) sub("^[^ ]+ ", "", size) else "1"
+  ww_flat(unit, lower = if (default$distribution != "normal") if (unit == "1") 0 else paste("0", unit))
+}
+
 checked_priors <- function(own, known) {
-  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(shape = ww_lognormal(2, log_sd = 0.5))")
+  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(shape = ww_lognormal(2, log_sd = 0.5)), or \"flat\"")
   for (name in names(own)) {
     if (!is.list(own[[name]])) stop_input("priors: ", name, " is ", kind_of(own[[name]]), "; ww_lognormal(...) and its like make one")
     if (!is.null(known) && !sub("[[].*", "", name) %in% known) {
@@ -256,6 +266,7 @@ checked_priors <- function(own, known) {
 
 # A study file of a formula model. `columns`: study_column() by name. The data frame has the same names.
 study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL, modes = NULL) {
+  if (identical(own_priors, "flat")) own_priors <- lapply(priors, flat_of)
   own_priors <- checked_priors(own_priors, names(priors))
   proposed <- priors[setdiff(names(priors), names(own_priors))]
   data <- list(file = "data")
@@ -264,7 +275,7 @@ study_text <- function(title, columns, constants, likelihood, priors, own_priors
              if (length(constants)) toml_table("constants", constants), if (length(formula)) toml_table("formula", formula))
   if (length(modes)) parts <- c(parts, toml_table("failure_modes", modes))
   for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
-  parts <- c(parts, toml_table("prior", c(proposed, own_priors)))
+  parts <- c(parts, toml_table("prior", c(proposed, own_priors), stats::setNames(rep("default", length(proposed)), names(proposed))))
   for (label in names(random$entries)) parts <- c(parts, toml_table(paste0("random_effects.", toml_key(label)), random$entries[[label]]))
   if (length(predict)) parts <- c(parts, toml_table("predict", predict))
   list(text = paste(parts, collapse = "\n"), proposed = names(proposed))
@@ -279,12 +290,12 @@ columns_table <- function(columns, entries = list()) {
   }, columns, names(columns)))
 }
 
-# The fit of a study's text with a frame, or the study.
-one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL, reader = NULL) {
+# The fit of a study's text with a frame, or the study. `values`: by argument what the caller wrote, for messages.
+one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL, reader = NULL, values = list()) {
   if (is.null(tables)) {
     tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
   }
-  study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
+  study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error), values)))
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
   study$replicates <- replicates
@@ -293,7 +304,7 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
     study$columns <- columns
     return(study)
   }
-  found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error))))
+  found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error), values)))
   with_call(found, call)
 }
 
@@ -305,9 +316,22 @@ with_call <- function(fit, call) {
 }
 
 # Messages of the study file that the caller never wrote.
-in_words_of_caller <- function(message) {
+# `values`: by argument or key, what the caller wrote; it stands behind the name.
+in_words_of_caller <- function(message, values = list()) {
+  message <- words_of_caller(message)
+  match <- regmatches(message, regexec("^([A-Za-z_]+)([.][A-Za-z_0-9]+)?: (entry ([0-9]+): )?", message))[[1]]
+  value <- if (length(match)) values[[match[2]]]
+  if (is.list(value) && match[3] != "") value <- value[[substring(match[3], 2)]]
+  if (length(match) && match[5] != "" && length(value)) value <- value[[as.integer(match[5])]]
+  if (length(value) != 1 || is.list(value)) return(message)
+  rest <- substring(message, nchar(match[1]) + 1)
+  paste0(match[2], ": ", if (!grepl(paste0("'", value), rest, fixed = TRUE)) paste0(shown_value(value), ": "), rest)
+}
+
+words_of_caller <- function(message) {
   message <- gsub("(^|\n)study(:[0-9]+)*: ", "\\1", message)
-  message <- sub("\n +[^\n]* = [^\n]*\n *\\^ *$", "", message)
+  message <- sub("\n +[^\n]* = [^\n]*\n *\\^ *(\n +right: [^\n]*)?$", "", message)
+  message <- sub("([0-9]) 1 must be ", "\\1 must be ", message)  # the unit of a plain number
   message <- sub("; or define your own word in the study: .*$", paste0("; or a condition in place of the column, like ", "Surv(hours, end == \"broke\")"), message)
   message <- gsub("give the study a status column", "state the event, Surv(..., EVENT)", message, fixed = TRUE)
   message <- gsub("write \\[failure_modes\\] runout = (\"[^\"]*\")", "write mode = list(column = ..., runout = \\1)", message)

@@ -16,6 +16,16 @@ require_levels <- function(b, confidence) {
   }
 }
 
+# Families of lives that may lie below 0.
+of_both_signs <- c("normal", "student-t", "smallest-extreme-value", "largest-extreme-value")
+
+require_lives <- function(study, survived) {
+  slots <- study$likelihood[[1]]
+  if (isTRUE(slots$family %in% of_both_signs) || !is.null(slots$threshold)) return()
+  number <- if (is.character(survived)) suppressWarnings(as.double(sub("^\\s*([^ ]+).*$", "\\1", survived))) else as.double(survived)
+  if (isTRUE(number < 0)) stop_input("survived is ", shown_value(survived), "; lives of this study are 0 or more")
+}
+
 # The keys of [predict] for a study of a formula.
 asked_of_formula <- function(study, limit, unit, survived, along) {
   question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
@@ -31,6 +41,7 @@ asked_of_formula <- function(study, limit, unit, survived, along) {
       if (is.double(question$survived) && grepl("^[0-9]", units[[measured]])) {  # "1e6 cycles": multiples, or cycles?
         stop_input("survived is ", survived, " without a unit, and ", measured, " is in '", units[[measured]], "': write the number with its unit")
       }
+      require_lives(study, survived)
       question$survived <- in_unit(question$survived, units[[measured]])
     }
     return(question)

@@ -69,7 +69,8 @@ ww_sn <- function(data, life, stress, event = NULL, stress_ratio = NULL, mean_st
   if (is.null(stress_ratio) && is.null(mean_stress)) {
     stop_input("stress_ratio or mean_stress is missing: -1 for fully reversed tests, or a column of data")
   }
-  look_at_unused(columns, c(life, stress, event, type, count, stress_ratio, mean_stress), !is.null(event), unused, "event = \"COLUMN\"")
+  look_at_unused(columns, c(life, stress, event, type, count, stress_ratio, mean_stress), !is.null(event), unused, "event = \"COLUMN\"",
+                 counts = if (is.null(count)) "count = \"%s\"")
   if (is.null(correction)) correction <- "none"
   law <- list(mean_stress = correction)
   if (!identical(curve, "basquin")) law$curve <- one_text(curve, "curve")
@@ -95,7 +96,7 @@ ww_staircase <- function(data, stress, event, count = NULL, reliability = c("50 
   require_options("ww_staircase", ..., own = names(formals(ww_staircase)))
   columns <- frame_columns(data, units)
   study <- with_status(preset_study(columns, list(alternating_stress = stress, count = count)), event, columns)
-  look_at_unused(columns, c(stress, event, count), TRUE, unused, "")
+  look_at_unused(columns, c(stress, event, count), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
   asked <- predict_of(predict, list(reliability = I(reliability), credible_level = confidence))
   one_line(preset_text("staircase", one_text(title, "title"), study, list(predict = asked), priors), study, NULL, NULL, fit, call, ...)
 }

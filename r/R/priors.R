@@ -7,7 +7,14 @@ prior <- function(distribution, ..., unit = NULL) {
   c(list(distribution = distribution), if (!is.null(unit)) list(unit = one_text(unit, "unit")), keys)
 }
 
-ww_flat <- function(unit, lower = NULL, upper = NULL) prior("flat", lower = lower, upper = upper, unit = unit)
+stop_without_unit <- function(name) {
+  stop_input("unit is missing: ", name, "(unit = \"h\"), that of the parameter, or ", name, "(unit = \"1\") of a plain number")
+}
+
+ww_flat <- function(unit, lower = NULL, upper = NULL) {
+  if (missing(unit)) stop_without_unit("ww_flat")
+  prior("flat", lower = lower, upper = upper, unit = unit)
+}
 
 ww_uniform <- function(lower, upper) prior("uniform", lower = lower, upper = upper)
 
@@ -37,7 +44,10 @@ ww_student_t <- function(df, location, scale, lower = NULL, upper = NULL) {
 
 ww_beta <- function(alpha, beta, lower = NULL, upper = NULL) prior("beta", alpha = alpha, beta = beta, lower = lower, upper = upper)
 
-ww_jeffreys <- function(unit, lower = NULL, upper = NULL) prior("jeffreys", lower = lower, upper = upper, unit = unit)
+ww_jeffreys <- function(unit, lower = NULL, upper = NULL) {
+  if (missing(unit)) stop_without_unit("ww_jeffreys")
+  prior("jeffreys", lower = lower, upper = upper, unit = unit)
+}
 
 ww_prior <- function(distribution, ..., lower = NULL, upper = NULL, unit = NULL) prior(distribution, ..., lower = lower, upper = upper, unit = unit)
 

@@ -247,12 +247,31 @@ looks_like_ending <- function(each) {
   is.character(values) && (named && length(unique(values)) <= 6 || all(grepl(word, values[!is.na(values)], ignore.case = TRUE)) && !all(is.na(values)))
 }
 
+# The words of both are those of the Python package (python/wearwell/_idle_columns.py).
+of_counts <- "^(counts?|weights?|n|quantity|qty|freq|frequency|number)$"
+of_units <- "^(units?|machines?|serial|id|(unit|machine|serial)[ ._-]?(id|no|nr|number))$"
+
+# The heading without its unit.
+bare_heading <- function(each) trimws(sub("[[(][^])]*[])]\\s*$", "", each$heading))
+
+# Whole positive numbers, neither all 1, which changes nothing, nor those of the rows: 1, 2, 3, ...
 looks_like_counts <- function(each) {
-  grepl("^(weights?|counts?|freq|frequency|number|n)$", each$heading, ignore.case = TRUE) && is.numeric(each$values) &&
-    isTRUE(all(each$values == round(each$values)))
+  values <- each$values
+  grepl(of_counts, each$heading, ignore.case = TRUE) && each$unit == "" && is.numeric(values) && !is.object(values) && length(values) > 0 &&
+    all(is.finite(values)) && all(values > 0 & values == round(values)) && any(values != 1) && !isTRUE(all(values == seq_along(values)))
 }
 
-look_at_unused <- function(columns, used, known, unused, call) {
+# Several labels, one of which stands in several rows.
+looks_like_units <- function(each) {
+  values <- if (is.factor(each$values)) as.character(each$values) else each$values
+  if (!grepl(of_units, bare_heading(each), ignore.case = TRUE) || !is.atomic(values)) return(FALSE)
+  values <- values[!is.na(values) & values != ""]
+  length(unique(values)) > 1 && anyDuplicated(values) > 0
+}
+
+# `counts` and `units`: what to write for a column of them, such as "weights = \"%s\""; none where the model has no such argument, or has
+# one in use.
+look_at_unused <- function(columns, used, known, unused, call, counts = NULL, units = NULL) {
   unknown <- setdiff(unused, c(names(columns), vapply(columns, `[[`, "", "heading")))
   if (length(unknown)) stop_input("unused: ", table_name(columns), " has no column '", unknown[1], "' (columns: ", words(names(columns)), ")")
   left <- columns[!names(columns) %in% c(used, unused)]
@@ -264,10 +283,19 @@ look_at_unused <- function(columns, used, known, unused, call) {
                "or unused = \"", ends[1], "\" if it says something else")
   }
   for (name in ends) warn_of_column(name, "looks like how a life ended")
-  for (name in names(left)[vapply(left, looks_like_counts, NA)]) warn_of_column(name, "looks like a number of equal rows (weights = ...)")
+  if (!is.null(counts)) {
+    for (name in names(left)[vapply(left, looks_like_counts, NA)]) warn_of_column(name, "looks like a number of equal rows", counts)
+  }
+  if (!is.null(units)) {
+    for (name in names(left)[vapply(left, looks_like_units, NA)]) {
+      warn_of_column(name, "looks like a label of units with several rows each", units, ", so all rows count as independent")
+    }
+  }
 }
 
-warn_of_column <- function(name, why) {
-  warning(condition(paste0("column '", name, "' ", why, " and is not used; unused = \"", name, "\" confirms that"),
-                    "wearwell_column_warning", "warning"))
+# `cure`: what to write, with %s for the name.
+warn_of_column <- function(name, why, cure = NULL, so = "") {
+  otherwise <- if (is.null(cure)) paste0("; unused = \"", name, "\" confirms that") else
+    paste0(so, ": write ", gsub("%s", name, cure, fixed = TRUE), ", or unused = \"", name, "\" if ", if (so == "") "it says something else" else "that is so")
+  warning(condition(paste0("column '", name, "' ", why, " and is not used", otherwise), "wearwell_column_warning", "warning"))
 }

@@ -57,10 +57,11 @@ toml_value <- function(item, what) {
   paste0("[", paste(each, collapse = ", "), "]")
 }
 
-# A table with its keys, one a line.
-toml_table <- function(name, entries) {
+# A table with its keys, one a line. `comments`: by key.
+toml_table <- function(name, entries, comments = NULL) {
   lines <- vapply(names(entries), function(key) {
-    paste(toml_key(key), "=", toml_value(entries[[key]], if (name == "") key else paste0(name, ".", key)))
+    line <- paste(toml_key(key), "=", toml_value(entries[[key]], if (name == "") key else paste0(name, ".", key)))
+    if (key %in% names(comments)) paste0(line, "  # ", comments[[key]]) else line
   }, "")
   paste0(paste(c(if (name != "") paste0("[", name, "]"), lines), collapse = "\n"), "\n")
 }

@@ -120,7 +120,70 @@ test_that("what can be read in two ways is refused with both readings", {
   expect_identical(data_of(study_of(Surv(hours, event + 1 == 2) ~ 1, pumps)), data_of(study_of(Surv(hours, event) ~ 1, pumps)))
   expect_warning(study_of(Surv(hours, event) ~ 1, transform(pumps, failed = event == 1)), "column 'failed' looks like how a life ended",
                  class = "wearwell_column_warning")
-  expect_warning(study_of(Surv(hours, event) ~ 1, transform(pumps, weight = 1)), "a number of equal rows (weights = ...)", fixed = TRUE)
+})
+
+test_that("columns of counts and units that are not used are named", {
+  said <- function(...) {
+    caught <- character()
+    withCallingHandlers(study_of(...), wearwell_column_warning = function(w) {
+      caught <<- c(caught, conditionMessage(w))
+      invokeRestart("muffleWarning")
+    })
+    caught
+  }
+  rows <- nrow(pumps)
+  with <- function(name, values) stats::setNames(data.frame(pumps, values), c(names(pumps), name))
+  for (name in c("count", "Counts", "weight", "weights", "n", "quantity", "qty", "freq", "frequency", "number")) {
+    frame <- with(name, rep_len(c(1, 20), rows))
+    expect_identical(said(Surv(hours, event) ~ 1, frame),
+                     paste0("column '", name, "' looks like a number of equal rows and is not used: write weights = \"", name, "\", or unused = \"",
+                            name, "\" if it says something else"))
+    expect_length(said(Surv(hours, event) ~ 1, frame, weights = name), 0)
+    expect_length(said(Surv(hours, event) ~ 1, frame, unused = name), 0)
+  }
+  for (values in list(1, seq_len(rows), 1.5, rep_len(c(0, 2), rows), "a", rep_len(c(2, NA), rows))) {
+    expect_length(said(Surv(hours, event) ~ 1, with("n", values)), 0)
+  }
+  expect_length(said(Surv(hours, event) ~ 1, with("weight [kg]", rep_len(c(1, 20), rows))), 0)
+  for (name in c("unit", "machine", "Serial", "id", "machine_id")) {
+    frame <- with(name, rep_len(LETTERS[1:4], rows))
+    expect_match(said(Surv(hours, event) ~ 1, frame), paste0("write + (1 | ", name, ") in the formula, or unit = \"", name, "\" of a frame, or unused = "),
+                 fixed = TRUE)
+    expect_length(said(Surv(hours, event) ~ 1, frame, unused = name), 0)
+    expect_length(said(Surv(hours, event) ~ 1, frame, by = name), 0)
+    expect_length(said(frame, "hours", event = "event", unit = name), 0)
+    expect_length(said(Surv(hours, event) ~ 1, with(name, as.character(seq_len(rows)))), 0)
+    expect_match(said(Surv(hours, event) ~ 1, frame, by = "site"), "of a frame in place of by, or unused", fixed = TRUE)
+  }
+})
+
+test_that("priors = \"flat\", B-lives and marks of defaults are those of Python", {
+  study <- study_of(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), priors = "flat")
+  expect_match(study$text, "eta = { distribution = \"flat\", unit = \"h\", lower = \"0 h\" }\nshape = { distribution = \"flat\", unit = \"1\", lower = 0 }\n",
+               fixed = TRUE)
+  expect_match(study$text, "b_lives = [1, 10, 50]", fixed = TRUE)
+  expect_false(grepl("# default", study$text, fixed = TRUE))
+  mixed <- study_of(Surv(hours, event) ~ 1, pumps, priors = list(shape = ww_lognormal(2, log_sd = 0.5)))$text
+  expect_match(mixed, "\neta = [^\n]*  # default\nshape = [^\n#]*\n")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = "flatt"), "or \"flat\"")
+  fit <- quick(Surv(hours, event) ~ 1, pumps, priors = "flat")
+  stated <- quick(Surv(hours, event) ~ 1, pumps, priors = list(eta = ww_flat("1", lower = 0), shape = ww_flat("1", lower = 0)))
+  expect_identical(mode_of(fit), mode_of(stated))
+})
+
+test_that("questions are refused in the words of arguments", {
+  fit <- quick(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"))
+  refused_as <- function(code, message) expect_identical(conditionMessage(tryCatch(code, wearwell_input_error = identity)), message)
+  refused_as(ww_ask(fit, list(survival_to = "5 kg")), "survival_to: \"5 kg\": unit 'kg' has the wrong dimension (expected one like 's')")
+  refused_as(ww_life(fit, survived = "5 kg"), "survived: \"5 kg\": unit 'kg' has the wrong dimension (expected one like 's')")
+  refused_as(ww_life(fit, survived = -1), "survived is -1; lives of this study are 0 or more")
+  refused_as(ww_life(fit, survived = "-1 h"), "survived is \"-1 h\"; lives of this study are 0 or more")
+  wear <- data.frame(km = c(10, 20, 30, 40), wear = c(11, 19, 32, 41))
+  refused_as(ww_degradation(wear ~ km, wear, units = c(wear = "um", km = "km"), limit = "100 kg", fit = FALSE),
+             "limit: \"100 kg\": unit 'kg' has the wrong dimension (expected one like 'm')")
+  refused_as(study_of(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), priors = list(eta = ww_flat(lower = 0, unit = "day"))),
+             "priors: eta.lower: 0 has no unit (write one like \"0 s\")")
+  refused_as(ww_flat(), "unit is missing: ww_flat(unit = \"h\"), that of the parameter, or ww_flat(unit = \"1\") of a plain number")
 })
 
 test_that("errors name arguments and columns", {
