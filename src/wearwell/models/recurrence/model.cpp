@@ -24,8 +24,8 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_recurrence_study);
               },
-          .scaffold = scaffold,
-          .keys = study_keys};
+          .keys = study_keys,
+          .scaffold = scaffold};
 }
 
 }  // namespace recurrence

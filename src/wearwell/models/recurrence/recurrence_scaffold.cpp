@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "wearwell/input/cell_text.h"
+#include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
 #include "wearwell/input/toml_text.h"
 #include "wearwell/models/recurrence/recurrence_data.h"
@@ -47,9 +47,9 @@ std::optional<Histories> histories_of(const Table& table, const Column& unit, co
   Histories all;
   const std::vector<double> ages = numbers_of(table, age);
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const auto failed = is_failure_word(cell_text(&event, row), failure_code);
+    const auto failed = is_failure_word(cell_word(event, row), failure_code);
     if (!failed || !(ages[row] >= 0)) return {};
-    History& history = of_unit[cell_text(&unit, row)];
+    History& history = of_unit[cell_word(unit, row)];
     if (history.rows++ > 0 && !(ages[row] >= history.last)) all.rises = false;
     history.last = ages[row];
     all.most_rows = std::max(all.most_rows, history.rows);
