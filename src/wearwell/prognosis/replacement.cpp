@@ -86,7 +86,7 @@ double PopulationLives::quantile(double p) const {
     const double each = lives[k].quantile(p);
     low = std::min(low, each);
     high = std::max(high, each);
-    last = std::max(last, last_of(lives[k]));
+    if (infinite_share(lives[k]) < 1) last = std::max(last, last_of(lives[k]));
   }
   if (!(low < high)) return high > 0 || low == 0 ? low : std::nan("");
   const auto failed = [&](double x) { return 1 - survival(x) - p; };
