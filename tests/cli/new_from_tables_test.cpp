@@ -301,11 +301,11 @@ TEST_F(NewFromTables, FailuresOfRepairedUnits) {
   const std::string rising =
       "unit,hours,event\np,0.7,failure\np,3.7,failure\np,13.2,failure\np,54,failure\n";
   EXPECT_THAT(refused("p.csv", rising), AllOf(HasSubstr("wearwell new repairable refused"),
-                                              HasSubstr("wearwell new formula refused")));
+                                              HasSubstr("wearwell new life refused")));
   write("p.csv", rising);
-  EXPECT_EQ(here("new repairable --from p.csv r").exit_code, 0);
-  EXPECT_THAT(content("r/study.toml"), HasSubstr("end = \"last failure\""));
-  const CommandResult lives = here("new formula --from p.csv l");
+  EXPECT_EQ(here("new repairable --from p.csv rising").exit_code, 0);
+  EXPECT_THAT(content("rising/study.toml"), HasSubstr("end = \"last failure\""));
+  const CommandResult lives = here("new life --from p.csv lives");
   EXPECT_THAT(lives.out, HasSubstr("the model is \"repairable\""));
 }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
@@ -134,16 +135,22 @@ std::string with_multiple(const std::string& heading, const std::string& unit,
     return "1e6 " + base;
   if (says({"thousand", "thousands", "tsd", "tausend", "milliers", "miles de"}))
     return "1e3 " + base;
-  const std::string counted = stripped(plain_words(word));
-  if (counted.empty()) return unit;
+  // "cycles to failure" counts cycles.
+  std::vector<std::string> counted;
+  std::istringstream parts(plain_words(word));
+  for (std::string each; parts >> each;) counted.push_back(each);
+  const auto begins = [&](std::string_view each, std::size_t least) {
+    return std::any_of(counted.begin(), counted.end(), [&](const std::string& part) {
+      return part.size() >= least && each.starts_with(part);
+    });
+  };
   const auto is_named = [&](std::string_view each) {
-    return each.starts_with(counted) || (!unit.empty() && is_exactly(unit, each));
+    return begins(each, 1) || (!unit.empty() && !counted.empty() && is_exactly(unit, each));
   };
   std::istringstream all(words);
   std::string before, each;
   for (; all >> each; before = each) {
-    if (each.size() > 1 && (each[0] == 'k' || each[0] == 'm') && counted.size() > 2 &&
-        each.substr(1).starts_with(counted))
+    if ((each[0] == 'k' || each[0] == 'm') && begins(each.substr(1), 3))
       return (each[0] == 'k' ? "1e3 " : "1e6 ") + base;
     if (!is_named(each)) continue;
     if (before == "k") return "1e3 " + base;

@@ -26,8 +26,8 @@ struct NameAndUnit {
 };
 NameAndUnit name_and_unit(const Column& column, std::string_view si);
 
-/// The unit with the factor in words of its heading, of which `word` names quantity or unit: "1e6 cycles" for
-/// "Mio. cycles", "1e3 h" for "khours", "thousand hours" and "1000 hours".
+/// The unit with the factor that its heading states; `word` of the heading names the quantity or the
+/// unit: "1e6 cycles" for "Mio. cycles", "1e3 h" for "khours", "thousand hours" and "1000 hours".
 std::string with_multiple(const std::string& heading, const std::string& unit,
                           std::string_view word);
 

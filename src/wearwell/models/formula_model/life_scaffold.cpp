@@ -212,7 +212,8 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
   const std::size_t differing = roles.other_numbers().size();
   const auto lives = take_lives(roles);
   if (!lives) return {};
-  if (has_units(roles))
+  const auto unit = roles.find({"unit"});
+  if (unit && kinds_of(roles.table(), *unit->column).size() < roles.table().rows)
     roles.guesses.emplace_back(
         "several rows are of one unit: each is taken for the life of a part of its own. If they "
         "are "
