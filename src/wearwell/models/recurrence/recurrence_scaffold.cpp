@@ -79,7 +79,7 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
   std::optional<int> code = roles.choices().failure;
   if (!code) code = failure_code_of(event->column->name);
   const auto all = histories_of(roles.table(), *unit, *age->column, *event->column, code);
-  // Rows in rising order can be lives that somebody has sorted; with an end of each unit they are not.
+  // Rows in rising order can be lives in sorted order; with an end of each unit they are not.
   if (!all || all->most_rows < 2 || all->failures == 0 || !all->ends_come_last) return {};
   const bool each_ends = all->ended == all->units;
   if (!each_ends && !all->rises) return {};
