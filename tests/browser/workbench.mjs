@@ -114,9 +114,36 @@ async function walk(browser, {name, ...options}) {
   const asked = spawnSync('sh', ['-c', command.replace(/^wearwell/, '"$0"'), wearwell], {cwd: inside, encoding: 'utf8'});
   check(asked.stdout === answer, `${name}: ${command} prints ${asked.stdout}${asked.stderr}, the page ${answer}`);
 
+  // When to replace, and two results side by side.
+  await page.fill('#decide-failure_cost', '800 EUR');
+  await page.fill('#decide-replacement_cost', '120 EUR');
+  await page.click('#decide-form button');
+  await page.waitForFunction(() => document.querySelectorAll('.card .command').length === 2, null, {timeout: 60000});
+  await looks(page, `${name} decide`, complaints);
+  await shot('decide');
+  const decide = await page.textContent('.card .command'), decided = await page.textContent('.card .answer');
+  const by = spawnSync('sh', ['-c', decide.replace(/^wearwell/, '"$0"'), wearwell], {cwd: inside, encoding: 'utf8'});
+  check(by.stdout === decided, `${name}: ${decide} prints ${by.stdout}${by.stderr}, the page ${decided}`);
+  await page.click('#step-compare');
+  await page.waitForSelector('#panel-compare input', {timeout: 60000});
+  for (const each of await page.$$('#panel-compare input')) await each.check();
+  await page.click('#panel-compare form button');
+  await page.waitForSelector('#table-ranking', {timeout: 60000});
+  check((await page.$$('#table-ranking tbody tr')).length === 2, `${name}: two results are not compared`);
+  await looks(page, `${name} compare`, complaints);
+  await page.click('#comparison summary:has-text("overlaid")');
+  await page.frameLocator('#comparison iframe').locator('section').first().waitFor({timeout: 60000});
+  await shot('compare');
+
+  await page.click('#step-data');
+  await page.selectOption('#plot-by', {label: 'Status'});
+  await page.waitForSelector('.legend .runouts', {timeout: 60000});
+  await looks(page, `${name} colours`, complaints);
+  await shot('colours');
+
   await page.click('#step-fit');
   await page.click('#panel-fit summary:has-text("Report")');
-  await page.frameLocator('iframe').locator('section').first().waitFor({timeout: 60000});
+  await page.frameLocator('#result iframe').locator('section').first().waitFor({timeout: 60000});
   // A page that is opened again stands as it was left.
   await page.reload();
   await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});

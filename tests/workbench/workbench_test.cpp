@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <limits>
@@ -283,6 +284,80 @@ TEST_F(WorkbenchTest, FromATableToALifeAndTheProgramAgreesToTheLastDigit) {
   EXPECT_EQ(report.body, content(folder() / "pumps-results" / "report.html"));
   EXPECT_THAT(report.field("Content-Security-Policy"), HasSubstr("sandbox allow-scripts"));
   EXPECT_EQ(report.field("Content-Security-Policy").find("allow-same-origin"), std::string::npos);
+}
+
+TEST_F(WorkbenchTest, ResultsAreComparedAndDecideAsTheProgramDoes) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  const std::string weibull = done("/api/guess", named())["readings"][0]["text"];
+  std::string gamma = weibull;
+  const std::string family = "family = \"weibull\"";
+  ASSERT_NE(gamma.find(family), std::string::npos);
+  gamma.replace(gamma.find(family), family.size(), "family = \"gamma\"");
+  for (const auto& [name, text] :
+       {std::pair("gamma.toml", gamma), std::pair("wei.toml", weibull)}) {
+    done("/api/save", {{"file", name}, {"text", text}, {"before", nullptr}});
+    ASSERT_EQ(fitted(name, text)["state"], "done");
+  }
+  const std::string with_program =
+      " && PATH=" + std::filesystem::path(WEARWELL_BINARY).parent_path().string() + ":$PATH ";
+  const auto printed = [&](std::string command) {
+    const std::string in = "cd " + folder().string();
+    if (command.starts_with("cd ")) command = command.substr(command.find("&& ") + 3);
+    return run_command(in + with_program + command).out;
+  };
+
+  const json names = {"wei-results", "gamma-results"};
+  const std::string page = got("/api/session")["comparison"];
+  EXPECT_EQ(send("GET " + page, host(), "").status, 404);
+  const json compared = done("/api/compare", {{"results", names}});
+  EXPECT_EQ(compared["text"], printed(compared["command"])) << compared["command"];
+  EXPECT_TRUE(compared["answer"]["comparable"]);
+  EXPECT_EQ(compared["answer"]["studies"].size(), 2u);
+  const HttpReply overlaid = send("GET " + page, host(), "");
+  EXPECT_EQ(overlaid.status, 200);
+  EXPECT_THAT(overlaid.body, HasSubstr("gamma-results"));
+  EXPECT_THAT(overlaid.field("Content-Security-Policy"), HasSubstr("sandbox allow-scripts"));
+  for (const json& wrong :
+       {json::array(), json{"wei-results"}, json{"wei-results", "wei-results"},
+        json{"wei-results", "../wei-results"}, json{"wei-results", "none"}, json{"wei-results", 1}})
+    EXPECT_EQ(post("/api/compare", {{"results", wrong}}).status, 400) << wrong;
+
+  const json decided =
+      done("/api/decide",
+           {{"failure_cost", "800 EUR"}, {"replacement_cost", "120 EUR"}, {"claims", "2 %"}});
+  EXPECT_EQ(decided["text"], printed(decided["command"])) << decided["command"];
+  EXPECT_EQ(decided["answer"]["currency"], "EUR");
+  const std::vector<double> cost = decided["curve"]["cost"];
+  EXPECT_NEAR(*std::min_element(cost.begin(), cost.end()), decided["answer"]["age"]["cost"],
+              0.01 * decided["answer"]["age"]["cost"].get<double>());
+  const HttpReply missing = post("/api/decide", {{"failure_cost", "800 EUR"}});
+  EXPECT_EQ(missing.status, 400);
+  EXPECT_THAT(missing.body, HasSubstr("replacement cost: "));
+}
+
+TEST_F(WorkbenchTest, ColoursPointsByALabelAndMarksRunOuts) {
+  std::string text = "stress,cycles,status,batch\n";
+  for (int i = 0; i < 40; ++i)
+    text += std::to_string(300 + i) + "," + std::to_string(100000 - 100 * i) +
+            (i % 4 ? ",failure," : ",running,") + std::to_string(i % 10) + "\n";
+  write("sn.csv", text);
+  done("/api/open", {{"file", "sn.csv"}});
+  const json plain = got("/api/plot?" + named_query() + "&x=0&y=1");
+  EXPECT_EQ(plain["points"][0].size(), 3u);
+  EXPECT_TRUE(plain["labels"].empty());
+  const json status = got("/api/plot?" + named_query() + "&x=0&y=1&by=2");
+  EXPECT_EQ(status["labels"], (json::parse(R"([{"text":"failure","runout":false},
+                                               {"text":"running","runout":true}])")));
+  for (const json& each : status["points"])
+    EXPECT_EQ(each[3], (each[2].get<int>() - 1) % 4 ? 0 : 1);
+  // Two of ten labels share the index behind the eight.
+  const json batch = got("/api/plot?" + named_query() + "&x=0&y=1&by=3");
+  EXPECT_EQ(batch["labels"].size(), 8u);
+  EXPECT_EQ(std::count_if(batch["points"].begin(), batch["points"].end(),
+                          [](const json& each) { return each[3] == 8; }),
+            8);
+  EXPECT_EQ(get("/api/plot?" + named_query() + "&x=0&y=1&by=9").status, 400);
 }
 
 TEST_F(WorkbenchTest, AFitStopsAndWritesNothing) {

@@ -106,35 +106,43 @@ Table months_table(const DecisionsReport& report) {
   return table;
 }
 
-html::Figure cost_figure(const DecisionsReport& report) {
+CostCurve cost_curve(const DecisionsReport& report) {
   const Shown shown{report};
   const PopulationLives& fresh = report.lives.fresh;
   const AgeReplacement& age = *report.decisions.age;
-  const std::vector<double> ages = ages_of(fresh.lives, 150);
-  std::vector<double> x, y;
+  CostCurve curve;
   const double reach = std::max(age.rate * 6, age.at_failure * 1.5);
-  double last = 0;  // beyond it the curve is that of replacement at failure
-  for (const double each : ages) {
+  double last = 0;
+  for (const double each : ages_of(fresh.lives, 150)) {
     const double rate = cost_rate(fresh, report.question.costs, each);
     if (rate > reach) continue;
-    x.push_back(shown.at(each));
-    y.push_back(shown.rate(rate));
-    if (std::abs(rate - age.at_failure) > 0.01 * age.at_failure) last = x.back();
+    curve.age.push_back(shown.at(each));
+    curve.cost.push_back(shown.rate(rate));
+    if (std::abs(rate - age.at_failure) > 0.01 * age.at_failure) last = curve.age.back();
   }
-  const std::optional<double> end = last > 0 ? std::optional(1.3 * last) : std::nullopt;
-  std::vector<plot::Json> marks = {plot::line({{"x", x}, {"y", y}}, {colour::posterior})};
+  if (last > 0) curve.end = 1.3 * last;
+  return curve;
+}
+
+html::Figure cost_figure(const DecisionsReport& report) {
+  const Shown shown{report};
+  const AgeReplacement& age = *report.decisions.age;
+  const CostCurve curve = cost_curve(report);
+  std::vector<plot::Json> marks = {
+      plot::line({{"x", curve.age}, {"y", curve.cost}}, {colour::posterior})};
   if (std::isfinite(age.age))
     marks.push_back(plot::vertical_line(shown.at(age.age), {colour::limit, "least", 1, 1.5, true}));
   if (age.at_failure > 0)
     marks.push_back(plot::horizontal_line(
         shown.rate(age.at_failure), {colour::prior, "replaced at failure only", 1, 1.5, true}));
-  return {"cost", "Cost of replacement by age",
-          "Long-run cost against the age of replacement, averaged over the uncertainty of the "
-          "population.",
-          plot::plot("Cost per unit of use against the age of replacement",
-                     {fmt::format("Replaced at [{}]", html::unit(shown.unit())), false, 0.0, end},
-                     {fmt::format("Cost [{}]", html::unit(shown.rate_unit())), false, 0.0},
-                     std::move(marks), 300, true)};
+  return {
+      "cost", "Cost of replacement by age",
+      "Long-run cost against the age of replacement, averaged over the uncertainty of the "
+      "population.",
+      plot::plot("Cost per unit of use against the age of replacement",
+                 {fmt::format("Replaced at [{}]", html::unit(shown.unit())), false, 0.0, curve.end},
+                 {fmt::format("Cost [{}]", html::unit(shown.rate_unit())), false, 0.0},
+                 std::move(marks), 300, true)};
 }
 
 // Whole months, a dozen ticks at most.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "wearwell/present/html.h"
 #include "wearwell/present/plain.h"
@@ -34,6 +36,14 @@ struct Shown {
 present::Table policies_table(const DecisionsReport& report);
 present::Table units_table(const DecisionsReport& report);
 present::Table months_table(const DecisionsReport& report);
+
+/// Long-run cost against the age of replacement, in the user's units, up to a few times the least.
+struct CostCurve {
+  std::vector<double> age, cost;
+  std::optional<double> end =
+      {};  ///< of a picture: beyond it the cost is that of replacement at failure
+};
+CostCurve cost_curve(const DecisionsReport& report);
 
 html::Figure cost_figure(const DecisionsReport& report);
 html::Figure months_figure(const DecisionsReport& report);

@@ -64,10 +64,36 @@ void find_range(const Rate& rate, double age, std::vector<double> ages, AgeRepla
 
 }  // namespace
 
-// Points of all populations together would be a distribution in steps where populations are alike.
+// Points of all populations together are a distribution in steps where populations are alike: they
+// only say where its survival is to be known.
 WeightedLives PopulationLives::mixture() const {
   if (lives.size() == 1) return lives.front();
-  return represented_lives([&](double p) { return quantile(p); });
+  std::vector<double> all, share;
+  for (std::size_t k = 0; k < lives.size(); ++k) {
+    const auto points = lives[k].points(), weights = lives[k].weights();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      all.push_back(points[i]);
+      share.push_back(weight[k] * weights[i]);
+    }
+  }
+  const WeightedLives together(all, share);
+  if (together.points().empty()) return together;
+  const WeightedLives places = represented_lives([&](double p) { return together.quantile(p); });
+  std::vector<double> life, failed;
+  for (const double x : places.points()) {
+    if (!std::isfinite(x)) break;
+    life.push_back(x);
+    failed.push_back(1 - survival(x));
+  }
+  if (life.empty()) return together;
+  const double last = infinite_share(together) > 0 ? never : life.back();
+  return represented_lives([&](double p) {
+    const auto above = std::lower_bound(failed.begin(), failed.end(), p);
+    if (above == failed.begin()) return life.front();
+    if (above == failed.end()) return last;
+    const auto i = static_cast<std::size_t>(above - failed.begin());
+    return std::lerp(life[i - 1], life[i], (p - failed[i - 1]) / (failed[i] - failed[i - 1]));
+  });
 }
 
 double PopulationLives::survival(double x) const {

@@ -72,10 +72,10 @@ void sort(std::vector<Point>& points) {
   points = std::move(in_order);
 }
 
-// Ends of cells of probability: a quarter longer from one to the next in the tails, where the cost
-// of a rare failure is decided, and equal between.
+// Ends of cells of probability: 15 % longer from one to the next in the tails, where the cost of a
+// rare failure is decided, and equal between.
 std::vector<double> cell_ends() {
-  constexpr double first = 1e-7, tail = 0.01, ratio = 1.25;
+  constexpr double first = 1e-7, tail = 0.03, ratio = 1.15;
   constexpr int middle = 150;
   std::vector<double> lower = {0};
   for (double p = first; p < tail; p *= ratio) lower.push_back(p);

@@ -29,7 +29,7 @@ class WeightedLives {
   std::vector<double> life_, weight_, cumulated_;
 };
 
-/// A distribution by 250 points, closer in the tails. `quantile` of 0 < p < 1 may be infinite.
+/// A distribution by 330 points, closer in the tails. `quantile` of 0 < p < 1 may be infinite.
 WeightedLives represented_lives(const std::function<double(double p)>& quantile);
 
 /// The largest relative change of the 5, 10, 50 and 95 % quantiles if their probability changes by

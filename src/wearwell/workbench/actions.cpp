@@ -15,9 +15,11 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/input/workbook.h"
+#include "wearwell/workbench/comparison_view.h"
 #include "wearwell/workbench/fit_run.h"
 #include "wearwell/workbench/folder_files.h"
 #include "wearwell/workbench/guess_view.h"
+#include "wearwell/workbench/question_view.h"
 #include "wearwell/workbench/result_view.h"
 #include "wearwell/workbench/study_form.h"
 #include "wearwell/workbench/table_view.h"
@@ -204,13 +206,35 @@ std::string open_result(Session& session) {
   return session.result;
 }
 
-Json life_action(Session& session, const json& wish) {
+// The open result, if it is the one that the question means.
+fs::path result_of_wish(Session& session, const json& wish) {
   const std::string result = open_result(session);
   if (wish.contains("result") && text_of_wish(wish, "result") != result)
     throw Conflict(fmt::format("the question is for {}; since then {} has been opened",
                                printable(shortened(text_of_wish(wish, "result"))),
                                printable(result)));
-  return life_answer(path_in(session.folder, result), session.models, wish);
+  return path_in(session.folder, result);
+}
+
+Json life_action(Session& session, const json& wish) {
+  return life_answer(result_of_wish(session, wish), session.models, wish);
+}
+
+Json decide_action(Session& session, const json& wish) {
+  return decision_answer(result_of_wish(session, wish), session.models, wish);
+}
+
+Json compare_action(Session& session, const json& wish) {
+  const json given = wish.value("results", json::array());
+  std::vector<std::string> names;
+  for (const json& each : given) {
+    if (!each.is_string()) throw InputError("\"results\" must be a list of names");
+    names.push_back(each.get<std::string>());
+  }
+  Json answer = comparison_answer(session.folder, names);
+  const std::lock_guard lock(session.mutex);
+  session.compared = names;
+  return answer;
 }
 
 Json session_look(Session& session, const HttpTarget&) {
@@ -238,7 +262,8 @@ Json plot_look(Session& session, const HttpTarget& target) {
     if (target.query.contains(column)) wanted.column = target.number(column, 0, most);
     return wanted;
   };
-  return plot_json(*table_of_target(session, target), axis("x", "log_x"), axis("y", "log_y"));
+  return plot_json(*table_of_target(session, target), axis("x", "log_x"), axis("y", "log_y"),
+                   axis("by", "").column);
 }
 
 Json study_look(Session& session, const HttpTarget&) {
@@ -349,9 +374,10 @@ Look look_of(std::string_view path) {
 
 Action action_of(std::string_view path) {
   static constexpr std::pair<std::string_view, Action> actions[] = {
-      {"/api/open", open_file},     {"/api/table", table_action}, {"/api/guess", guess_action},
-      {"/api/check", check_action}, {"/api/set", set_action},     {"/api/save", save_action},
-      {"/api/fit", fit_action},     {"/api/stop", stop_action},   {"/api/life", life_action}};
+      {"/api/open", open_file},       {"/api/table", table_action},    {"/api/guess", guess_action},
+      {"/api/check", check_action},   {"/api/set", set_action},        {"/api/save", save_action},
+      {"/api/fit", fit_action},       {"/api/stop", stop_action},      {"/api/life", life_action},
+      {"/api/decide", decide_action}, {"/api/compare", compare_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;
   return nullptr;

@@ -108,19 +108,23 @@
     });
   }
 
+  // The axis on which a run-out would have gone on.
+  const isLife = (column) => column && /^(ms|s|min|k?h|hours?|d|days?|weeks?|months?|years?|m?cycles?|rev|revolutions?|km|miles?)$/i.test(column.unit);
+  const labelled = ({text, runout}) => ({runout, text: text || strings.emptyLabel});
+
   async function plot() {
-    const x = place.x.value, y = Number(place.y.value);
+    const x = place.x.value, y = Number(place.y.value), by = place.by.value;
     const log = [place.logX.checked, place.logY.checked], asked = table;
-    const found = await wearwell.get('/api/plot', {...named(), ...(x === '' ? {} : {x}), y, log_x: Number(log[0]), log_y: Number(log[1])});
+    const found = await wearwell.get('/api/plot', {...named(), ...(x === '' ? {} : {x}), ...(by === '' ? {} : {by}), y, log_x: Number(log[0]), log_y: Number(log[1])});
     if (asked !== table) return;
     const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
     const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
     if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
     if (found.left_out.not_positive) notes.push(strings.leftNegative(wearwell.count(found.left_out.not_positive)));
     place.plot.replaceChildren(wearwell.scatter({
-      points: found.points, x: {name: names[0], log: log[0]}, y: {name: names[1], log: log[1]},
+      points: found.points, labels: found.labels.map(labelled), others: strings.otherLabels, lifeUp: !isLife(table.columns[x]) && isLife(table.columns[y]), x: {name: names[0], log: log[0]}, y: {name: names[1], log: log[1]},
       description: strings.plotDescription(names[1], names[0]), hint: strings.plotHint,
-      read: ([a, b, row]) => strings.point(wearwell.count(row), wearwell.given(a), wearwell.given(b)),
+      read: ([a, b, row, label]) => [strings.point(wearwell.count(row), wearwell.given(a), wearwell.given(b)), by === '' ? '' : found.labels[label]?.text ?? strings.otherLabels].filter(Boolean).join(', '),
     }, Math.min(760, Math.max(280, place.plot.clientWidth || 600))), element('p', {class: 'note'}, notes.join(' ')));
   }
 
@@ -131,6 +135,7 @@
     const options = () => numbers.slice(0, 1000).map(([each, i]) => element('option', {value: i}, each.name));
     place.x.replaceChildren(...options(), element('option', {value: ''}, strings.rowNumber));
     place.y.replaceChildren(...options());
+    place.by.replaceChildren(element('option', {value: ''}, strings.noColour), ...table.columns.slice(0, 1000).map((each, i) => element('option', {value: i}, each.name)));
     place.x.selectedIndex = numbers.length > 1 ? 0 : 1;
     place.y.selectedIndex = Math.min(1, numbers.length - 1);
     wearwell.quietly(() => ofTable(plot));
@@ -177,13 +182,15 @@
     place.columnPager = element('div', {class: 'pager'}, place.earlierColumns, place.columnsShown, place.laterColumns);
     place.x = element('select', {id: 'plot-x'});
     place.y = element('select', {id: 'plot-y'});
+    place.by = element('select', {id: 'plot-by'});
     place.logX = element('input', {type: 'checkbox', id: 'log-x'});
     place.logY = element('input', {type: 'checkbox', id: 'log-y'});
-    for (const each of [place.x, place.y, place.logX, place.logY]) each.addEventListener('change', () => wearwell.attempt(() => ofTable(plot)));
+    for (const each of [place.x, place.y, place.by, place.logX, place.logY]) each.addEventListener('change', () => wearwell.attempt(() => ofTable(plot)));
     const axis = (label, select, log) => element('div', {class: 'field'}, element('label', {for: select.id}, label), select,
         element('label', {class: 'tick', for: log.id}, log, strings.log));
     place.plot = element('div', {class: 'picture'});
-    place.plotting = element('div', {hidden: true}, element('h3', {}, strings.plotTitle), element('div', {class: 'fields'}, axis(strings.up, place.y, place.logY), axis(strings.across, place.x, place.logX)), place.plot);
+    place.plotting = element('div', {hidden: true}, element('h3', {}, strings.plotTitle), element('div', {class: 'fields'}, axis(strings.up, place.y, place.logY), axis(strings.across, place.x, place.logX),
+        element('div', {class: 'field'}, element('label', {for: 'plot-by'}, strings.colourBy), place.by)), place.plot);
     place.moved = element('p', {class: 'note', role: 'status'});
     place.wide = element('p', {class: 'note', hidden: true});
     place.table = element('div', {hidden: true}, place.wide, place.settings, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),

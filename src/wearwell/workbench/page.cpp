@@ -18,6 +18,7 @@ ServedPage workbench_page() {
                       {of::workbench_data_js(), of::workbench_data_js_sha256()},
                       {of::workbench_model_js(), of::workbench_model_js_sha256()},
                       {of::workbench_fit_js(), of::workbench_fit_js_sha256()},
+                      {of::workbench_compare_js(), of::workbench_compare_js_sha256()},
                       {of::workbench_ask_js(), of::workbench_ask_js_sha256()},
                       {of::workbench_page_js(), of::workbench_page_js_sha256()}},
                      frames);

@@ -51,6 +51,8 @@
       if (chosen && focus) tab.focus();
     }
     if (name === 'data') wearwell.data.redraw();
+    // Other programs write into the folder, too.
+    if (name === 'compare' && wearwell.hasToken()) wearwell.quietly(async () => session(await wearwell.get('/api/session')));
   };
 
   function tabs() {
@@ -77,10 +79,11 @@
     part('folder').textContent = now.folder;
     wearwell.data.files(now.files);
     wearwell.fit.session(now);
+    wearwell.compare.session(now);
   }
 
   async function start() {
-    for (const [name, built] of [['data', wearwell.data], ['model', wearwell.model], ['fit', wearwell.fit], ['ask', wearwell.askPanel]]) built.build(part(`panel-${name}`));
+    for (const [name, built] of [['data', wearwell.data], ['model', wearwell.model], ['fit', wearwell.fit], ['compare', wearwell.compare], ['ask', wearwell.askPanel]]) built.build(part(`panel-${name}`));
     tabs();
     connection('wait');
     wearwell.step('data');

@@ -21,6 +21,8 @@ std::string_view workbench_model_js();
 std::string_view workbench_model_js_sha256();
 std::string_view workbench_fit_js();
 std::string_view workbench_fit_js_sha256();
+std::string_view workbench_compare_js();
+std::string_view workbench_compare_js_sha256();
 std::string_view workbench_ask_js();
 std::string_view workbench_ask_js_sha256();
 std::string_view workbench_page_js();

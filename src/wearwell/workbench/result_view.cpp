@@ -1,7 +1,6 @@
 #include "wearwell/workbench/result_view.h"
 
-#include <fmt/format.h>
-
+#include <string>
 #include <system_error>
 #include <variant>
 
@@ -9,8 +8,6 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/present/section.h"
 #include "wearwell/prognosis/asked_life.h"
-#include "wearwell/prognosis/life_bounds.h"
-#include "wearwell/prognosis/life_text.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/saved_result.h"
 
@@ -66,41 +63,6 @@ void add_lives(const std::filesystem::path& folder, ordered_json& json) {
   }
 }
 
-std::string option_text(const nlohmann::json& question, const char* name) {
-  return printable(question.value(name, ""));
-}
-
-// A word for a shell, quoted where needed.
-std::string quoted_word(const std::string& text) {
-  static constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/=:,";
-  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
-  std::string out = "'";
-  for (const char each : text) out += each == '\'' ? std::string("'\\''") : std::string(1, each);
-  return out + "'";
-}
-
-constexpr const char* life_options[] = {"unit", "survived", "horizon", "risk", "level", "sides"};
-
-std::string life_command(const std::filesystem::path& folder, const nlohmann::json& question) {
-  // Another shell stands in another folder; a unit may be named "-1".
-  std::string command = "wearwell life " + quoted_word(folder.string());
-  for (const char* name : life_options) {
-    const std::string text = option_text(question, name);
-    if (!text.empty()) command += fmt::format(" --{}={}", name, quoted_word(text));
-  }
-  return command;
-}
-
-// "--survived: ..." -> "survived: ...": a page has fields, not options.
-std::string without_dashes(std::string message) {
-  for (const char* name : life_options) {
-    const std::string option = std::string("--") + name;
-    for (std::size_t at = 0; (at = message.find(option, at)) != message.npos;) message.erase(at, 2);
-  }
-  return message;
-}
-
 }  // namespace
 
 ordered_json result_json(const std::filesystem::path& folder) {
@@ -125,32 +87,6 @@ ordered_json result_json(const std::filesystem::path& folder) {
 std::string report_page(const std::filesystem::path& folder) {
   const SavedReport saved = read_saved_report(folder);
   return report_html(saved.header, saved.sections);
-}
-
-ordered_json life_answer(const std::filesystem::path& folder, Models models,
-                         const nlohmann::json& question) {
-  try {
-    prognosis::LifeQuestion asked;
-    asked.unit = option_text(question, "unit");
-    const std::string survived = option_text(question, "survived");
-    const std::string horizon = option_text(question, "horizon");
-    const std::string risk = option_text(question, "risk");
-    if (!survived.empty()) asked.survived = survived;
-    if (!horizon.empty()) asked.horizon = horizon;
-    if (!risk.empty()) asked.risk = prognosis::tolerated_risk(risk);
-    const prognosis::LifeBounds bounds =
-        prognosis::read_life_bounds(option_text(question, "level"), option_text(question, "sides"));
-    if (bounds.asked) asked.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
-    const prognosis::CarriedState state = prognosis::read_state(folder);
-    prognosis::require_posterior(state, folder.filename().string());
-    const prognosis::UnitLife life =
-        prognosis::asked_life(state, folder.filename().string(), models, asked);
-    return {{"text", prognosis::life_text(life, bounds, {}, state.trusted)},
-            {"answer", prognosis::life_json(life, bounds, {}, state.trusted)},
-            {"command", life_command(folder, question)}};
-  } catch (const InputError& error) {
-    throw InputError(without_dashes(error.what()));
-  }
 }
 
 }  // namespace wearwell::workbench

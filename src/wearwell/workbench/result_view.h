@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "wearwell/study/model.h"
-
 namespace wearwell::workbench {
 
 /// A result folder: {title, model, equation, trusted, checks: [{name, verdict, detail, advice}],
@@ -16,10 +14,5 @@ nlohmann::ordered_json result_json(const std::filesystem::path& folder);
 
 /// The report as a page.
 std::string report_page(const std::filesystem::path& folder);
-
-/// The answer of `wearwell life` to {"unit", "survived", "horizon", "risk", "level", "sides"}, texts,
-/// all optional: {text, answer, command}. `answer` is what --json prints. Throws InputError.
-nlohmann::ordered_json life_answer(const std::filesystem::path& folder, Models models,
-                                   const nlohmann::json& question);
 
 }  // namespace wearwell::workbench

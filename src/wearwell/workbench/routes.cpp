@@ -12,6 +12,7 @@
 #include "wearwell/http/secret.h"
 #include "wearwell/http/target.h"
 #include "wearwell/workbench/actions.h"
+#include "wearwell/workbench/comparison_view.h"
 #include "wearwell/workbench/folder_files.h"
 #include "wearwell/workbench/page.h"
 #include "wearwell/workbench/result_view.h"
@@ -42,12 +43,25 @@ HttpResponse json_refusal(unsigned status, const std::string& problem) {
   return answer;
 }
 
+// In a frame of the page; its scripts have no origin, and so no way to the session.
+HttpResponse framed(std::string html) {
+  return {200,
+          "text/html; charset=utf-8",
+          std::move(html),
+          {{"Content-Security-Policy",
+            "sandbox allow-scripts allow-downloads allow-popups; connect-src 'none'; form-action "
+            "'none'; frame-ancestors 'self'"},
+           {"X-Frame-Options", "SAMEORIGIN"},
+           {"Cross-Origin-Opener-Policy", "unsafe-none"}}};
+}
+
 }  // namespace
 
 Routes::Routes(Session& session, std::string token)
     : session_(session),
       token_(std::move(token)),
       report_path_("/report/" + random_token()),
+      comparison_path_("/comparison/" + random_token()),
       page_(workbench_page()) {}
 
 double Routes::idle_seconds() const {
@@ -81,7 +95,7 @@ std::optional<HttpResponse> Routes::refuse(const HttpRequest& question) const {
   if (!is_ours(question))
     return refusal(403, "the request comes from another site, or names another host");
   const std::string_view path = path_of(question);
-  const bool shown = path == "/" || path == report_path_;
+  const bool shown = path == "/" || path == report_path_ || path == comparison_path_;
   // Pages of other sites may lead here, but not ask.
   if (!shown && !question.fetch_site.empty() && question.fetch_site != "same-origin" &&
       question.fetch_site != "none")
@@ -123,9 +137,13 @@ HttpResponse Routes::answer(const HttpRequest& question, const HttpCounts&) cons
     if (target.path == "/") return page(question);
     note_use();
     if (target.path == report_path_) return report();
+    if (target.path == comparison_path_) return comparison();
     if (question.method == "GET") {
       Json json = look_of(target.path)(session_, target);
-      if (target.path == "/api/session") json["report"] = report_path_;
+      if (target.path == "/api/session") {
+        json["report"] = report_path_;
+        json["comparison"] = comparison_path_;
+      }
       return json_response(json);
     }
     if (target.path == upload_path) {
@@ -158,7 +176,6 @@ HttpResponse Routes::page(const HttpRequest& question) const {
            {"Cache-Control", "no-cache"}}};
 }
 
-// In a frame of the page; its scripts have no origin, and so no way to the session.
 HttpResponse Routes::report() const {
   std::string name;
   {
@@ -166,14 +183,17 @@ HttpResponse Routes::report() const {
     name = session_.result;
   }
   if (name.empty()) return refusal(404, "no result is open");
-  return {200,
-          "text/html; charset=utf-8",
-          report_page(path_in(session_.folder, name)),
-          {{"Content-Security-Policy",
-            "sandbox allow-scripts allow-downloads allow-popups; connect-src 'none'; form-action "
-            "'none'; frame-ancestors 'self'"},
-           {"X-Frame-Options", "SAMEORIGIN"},
-           {"Cross-Origin-Opener-Policy", "unsafe-none"}}};
+  return framed(report_page(path_in(session_.folder, name)));
+}
+
+HttpResponse Routes::comparison() const {
+  std::vector<std::string> names;
+  {
+    const std::lock_guard lock(session_.mutex);
+    names = session_.compared;
+  }
+  if (names.empty()) return refusal(404, "no results are compared");
+  return framed(comparison_page_of(session_.folder, names));
 }
 
 std::uint64_t Routes::version() const {

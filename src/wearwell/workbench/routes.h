@@ -12,8 +12,8 @@
 namespace wearwell::workbench {
 
 /// The routes of one session (docs/how-to/workbench.md). A request needs the token, `Authorization:
-/// Bearer TOKEN`; without it there are only the page, which holds no data, and the report under an
-/// address that only the page learns. Names in `Host` and `Origin` must be those of loopback with our port.
+/// Bearer TOKEN`; without it there are only the page, which holds no data, and the report and
+/// the page of a comparison under addresses that only the page learns. Names in `Host` and `Origin` must be those of loopback with our port.
 class Routes final : public HttpHandler {
  public:
   Routes(Session& session, std::string token);
@@ -41,9 +41,10 @@ class Routes final : public HttpHandler {
   void note_use() const;
   HttpResponse page(const HttpRequest& question) const;
   HttpResponse report() const;
+  HttpResponse comparison() const;
 
   Session& session_;
-  const std::string token_, report_path_;
+  const std::string token_, report_path_, comparison_path_;
   const ServedPage page_;
   std::atomic<unsigned short> port_ = 0;             ///< set while requests already come
   mutable std::atomic<std::int64_t> last_used_ = 0;  ///< steady clock, ms

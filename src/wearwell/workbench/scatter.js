@@ -40,7 +40,25 @@
     };
   }
 
-  // {points: [[x, y, row]], x: {name, log}, y: {name, log}, line, description, read: (point) -> text, hint}
+  // Dots are lines without length, with round ends; a run-out is an arrow: its life would have been longer.
+  const dots = (places) => places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
+  const arrows = (places, up) => places.map(([a, b]) => (up ? `M${a.toFixed(1)} ${(b + 4).toFixed(1)}v-12m-4 5l4 -5l4 5` : `M${(a - 4).toFixed(1)} ${b.toFixed(1)}h12m-5 -4l5 4l-5 4`)).join('');
+
+  // One path for each label, and a legend of them.
+  function marks(plot, places) {
+    const labels = plot.labels?.length ? [...plot.labels, {text: plot.others}] : [{text: ''}];
+    const parts = labels.map(() => []);
+    places.forEach((each, i) => parts[plot.labels?.length ? plot.points[i][3] : 0].push(each));
+    const many = places.length > 300 ? ' many' : '';
+    const look = (i) => (plot.labels?.length ? ` label label-${i}` : '');
+    const paths = parts.map((each, i) => (each.length ? element('path', labels[i].runout ? {class: `runouts${look(i)}`, d: arrows(each, plot.lifeUp)} : {class: `dots${many}${look(i)}`, d: dots(each)}) : null)).filter(Boolean);
+    const legend = plot.labels?.length ? element('ul', {class: 'legend'}, ...labels.flatMap(({text, runout}, i) => (parts[i].length ? [element('li', {},
+        element('svg', {width: 18, height: 14, 'aria-hidden': 'true'}, element('path', runout ? {class: `runouts${look(i)}`, d: arrows([[8, 7]], false)} : {class: `dots${look(i)}`, d: dots([[8, 7]])})), text)] : []))) : null;
+    return {paths, legend};
+  }
+
+  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, description,
+  // read: (point) -> text, hint}
   wearwell.scatter = (plot, width) => {
     const height = Math.min(360, Math.max(240, Math.round(width * 0.55)));
     const box = {left: margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
@@ -60,9 +78,8 @@
                  element('text', {x: box.left - 8, y: at + 4, 'text-anchor': 'end'}, text));
     }
     const places = plot.points.map(([a, b]) => [x(a), y(b)]);
-    const path = plot.line ? `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`
-                           : places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
-    if (places.length) svg.append(element('path', {class: plot.line ? 'curve' : `dots${places.length > 300 ? ' many' : ''}`, d: path}));
+    const {paths, legend} = plot.line ? {paths: [element('path', {class: 'curve', d: `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`})], legend: null} : marks(plot, places);
+    if (places.length) svg.append(...paths);
     svg.append(element('text', {class: 'name', x: (box.left + box.right) / 2, y: height - 6, 'text-anchor': 'middle'}, plot.x.name));
     const readout = element('p', {class: 'readout'}, plot.hint);
     const mark = element('circle', {class: 'mark', r: 6, visibility: 'hidden'});
@@ -79,6 +96,6 @@
       readout.textContent = plot.read(plot.points[best]);
     });
     svg.addEventListener('pointerleave', () => { mark.setAttribute('visibility', 'hidden'); readout.textContent = plot.hint; });
-    return element('figure', {}, element('figcaption', {}, plot.y.name), svg, readout);
+    return element('figure', {}, element('figcaption', {}, plot.y.name), svg, legend, readout);
   };
 })();

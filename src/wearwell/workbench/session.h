@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "wearwell/input/table.h"
 #include "wearwell/study/model.h"
@@ -52,8 +53,9 @@ struct Session {
   std::uint64_t version = 1;  ///< increases with each change of them
   std::uint64_t tables = 0;   ///< opened so far
   std::shared_ptr<const OpenTable> table = {};
-  std::string workbook = {};            ///< the file whose sheet is still to be chosen; "" none
-  std::string study = {}, result = {};  ///< open: a file, a folder; "" none
+  std::string workbook = {};               ///< the file whose sheet is still to be chosen; "" none
+  std::string study = {}, result = {};     ///< open: a file, a folder; "" none
+  std::vector<std::string> compared = {};  ///< results that were compared last
   FitProgress fit = {};
   std::jthread fitting = {};  ///< last, so that it ends first
 };

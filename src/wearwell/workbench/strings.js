@@ -1,7 +1,7 @@
 'use strict';
 // All sentences of the workbench, in one table.
 wearwell.strings = {
-  steps: {data: 'Data', model: 'Model', fit: 'Fit', ask: 'Ask'},
+  steps: {data: 'Data', model: 'Model', fit: 'Fit', compare: 'Compare', ask: 'Ask'},
   connected: 'Connected', connecting: 'Connecting', lost: 'The program has ended or cannot be reached',
   noToken: 'This address lacks its token. Open the address that wearwell open printed.',
   unsaved: 'not saved',
@@ -22,7 +22,7 @@ wearwell.strings = {
   empty: (n) => `${n} empty`, refused: (n) => `${n}${n === 1000 ? ' or more' : ''} refused`,
   refusedCell: 'Refused', earlier: 'Earlier rows', later: 'Later rows', rowsShown: (from, to, all) => `Rows ${from} to ${to} of ${all}`,
   goRow: 'Go to row', columnsShown: (from, to, all) => `Columns ${from} to ${to} of ${all}`, earlierColumns: 'Earlier columns', laterColumns: 'Later columns',
-  plotTitle: 'Plot', rowNumber: 'number of the row', across: 'Across', up: 'Up', log: 'logarithmic',
+  plotTitle: 'Plot', colourBy: 'Colour by', noColour: 'no column', otherLabels: 'others', emptyLabel: '(empty)', rowNumber: 'number of the row', across: 'Across', up: 'Up', log: 'logarithmic',
   plotNote: (all, kept, shown) => (shown < kept ? `${shown} of ${kept} points are drawn: one for each place of the picture.` : `${kept} of ${all} rows are drawn.`),
   leftEmpty: (n) => `${n} without a number in one of the columns.`, leftNegative: (n) => `${n} not positive, which a logarithmic axis cannot show.`,
   plotHint: 'Point at the plot for the nearest row.', point: (row, x, y) => `Row ${row}: ${x}, ${y}`,
@@ -50,10 +50,20 @@ wearwell.strings = {
   tablesTitle: 'Tables', ofRows: (shown, all) => `${shown} of ${all} rows; the file in tables/ has all`,
   report: 'Report', reportTab: 'Open the report in a tab of its own', filesIn: (folder) => `Files are in ${folder}.`, noResult: 'No result yet.',
 
-  askTitle: 'Ask', askLead: 'The life of a new unit, or the remaining useful life of one of the data.',
+  compareTitle: 'Compare', compareLead: 'Results of the same data, ranked by how well they predict each observation that they leave out.',
+  oneResult: 'Two results are needed. Fit another study of the same data: change the family or the formula in the step Model, and save it under another name.',
+  compare: 'Compare', result: 'Result', elpd: 'elpd (leave-one-out)', behind: 'behind the best', weight: 'weight', trustedHead: 'trusted', yes: 'yes', no: 'no',
+  ranked: 'Best first', notRanked: 'Not ranked', wholeAnswer: 'Parameters and lives side by side', comparisonPage: 'Page with the posteriors overlaid', comparisonTab: 'Open this page in a tab of its own',
+
+  askTitle: 'Ask', lifeTitle: 'What life? The life of a new unit, or the remaining useful life of one of the data',
   fields: {unit: ['Unit', 'J7, or empty'], survived: ['Has survived', '1e4 cycles'], horizon: ['Does it end within', '500 cycles'],
            risk: ['Tolerated risk until the next inspection', '1 %'], level: ['Bound with probability', '95 %']},
   sides: 'Which bound', sideNames: {lower: 'lower', upper: 'upper', both: 'both'}, ask: 'Answer',
   noLives: 'This result has no posterior to ask. Fit a study first.', sameCommand: 'The same on the command line',
+  decideTitle: 'When to replace, when to inspect?', decideLead: 'The least cost in the long run, from the cost of a failure in service and of a preventive replacement.',
+  costs: {failure_cost: ['Cost of a failure, with the replacement', '12000 EUR'], replacement_cost: ['Cost of a preventive replacement', '900 EUR'], inspection_cost: ['Cost of an inspection', '60 EUR, or empty'],
+          downtime_cost: ['Cost of an undetected failure per use', '5 EUR/h, or empty'], claims: ['Share that may fail under warranty', '2 %, or empty'],
+          month: ['Use per month', '600 h, or empty'], at: ['Which life of [predict]', 'a name, or empty']},
+  replacedAt: (unit) => `replaced at [${unit}]`, costName: (unit) => `long-run cost [${unit}]`, costDescription: 'Long-run cost against the age of replacement',
   survivalTitle: 'Survival', probability: 'probability of survival', askedFor: (n) => `Question ${n}`,
 };

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "wearwell/base/error.h"
@@ -13,6 +15,8 @@
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/source.h"
+#include "wearwell/input/status_words.h"
+#include "wearwell/prognosis/unit_table.h"
 #include "wearwell/study/guessed_studies.h"
 #include "wearwell/study/role_words.h"
 #include "wearwell/workbench/folder_files.h"
@@ -89,6 +93,43 @@ const Column& column_at(const Table& table, std::size_t index) {
   return table.columns[index];
 }
 
+// Which label each row has: an index of `names`, or the one behind them for rarer labels.
+struct Labels {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of_row;  // empty without a column
+};
+
+Labels labels_in(const Table& table, const Column* column) {
+  constexpr std::size_t most = 8;
+  Labels labels;
+  if (!column) return labels;
+  std::map<std::string, std::size_t> count;
+  for (std::size_t row = 0; row < table.rows; ++row) ++count[prognosis::cell_text(column, row)];
+  std::vector<std::pair<std::string, std::size_t>> by_count(count.begin(), count.end());
+  std::stable_sort(by_count.begin(), by_count.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  if (by_count.size() > most) by_count.resize(most);
+  std::sort(by_count.begin(), by_count.end());
+  std::map<std::string, std::size_t> index;
+  for (const auto& [name, _] : by_count) {
+    index[name] = labels.names.size();
+    labels.names.push_back(name);
+  }
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const auto found = index.find(prognosis::cell_text(column, row));
+    labels.of_row.push_back(found == index.end() ? labels.names.size() : found->second);
+  }
+  return labels;
+}
+
+ordered_json labels_json(const Labels& labels) {
+  ordered_json json = ordered_json::array();
+  for (const std::string& each : labels.names)
+    json.push_back({{"text", printable(shortened(each, 60))},
+                    {"runout", censoring_by_word(each) == Censoring::right}});
+  return json;
+}
+
 }  // namespace
 
 OpenTable open_table(const std::filesystem::path& folder, const std::string& file,
@@ -162,7 +203,8 @@ ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t coun
   return json;
 }
 
-ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y) {
+ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y,
+                       std::optional<std::size_t> by) {
   constexpr double across = 160, up = 90;
   const Table& table = open.table;
   const PlotAxis* const axes[] = {&x, &y};
@@ -199,17 +241,21 @@ ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis&
     const double width = high[a] - low[a];
     return width > 0 ? std::floor((placed(a, row) - low[a]) / width * cells) : 0;
   };
+  const Labels labels = labels_in(table, by ? &column_at(table, *by) : nullptr);
   ordered_json points = ordered_json::array();
-  std::set<std::pair<double, double>> taken;
+  std::set<std::tuple<double, double, std::size_t>> taken;
   for (const std::size_t row : kept) {
-    if (!taken.emplace(cell(0, row, across), cell(1, row, up)).second) continue;
+    const std::size_t label = labels.of_row.empty() ? 0 : labels.of_row[row];
+    if (!taken.emplace(cell(0, row, across), cell(1, row, up), label).second) continue;
     points.push_back({values[0][row], values[1][row], row + 1});
+    if (by) points.back().push_back(label);
   }
   ordered_json json = {{"rows", table.rows},
                        {"shown", points.size()},
                        {"kept", kept.size()},
                        {"left_out", {{"empty", empty}, {"not_positive", not_positive}}}};
   json["points"] = std::move(points);
+  json["labels"] = labels_json(labels);
   return json;
 }
 

@@ -30,8 +30,12 @@ struct PlotAxis {
   bool log = false;
 };
 
-/// {points: [[x, y, row]], rows, shown, left_out: {empty, not_positive}}: of many points in one
-/// place only the first is kept (a grid of 160 by 90), so that 10^6 rows stay a picture.
-nlohmann::ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y);
+/// {points: [[x, y, row, label]], labels: [{text, runout}], rows, shown, left_out: {empty,
+/// not_positive}}: of many points of one label in one place only the first is kept (a grid of 160 by
+/// 90), so that 10^6 rows stay a picture. `by`: the column of the labels, if any; the eight most
+/// frequent, and an index behind them for all others. `runout`: whether the word means that the test
+/// ended without a failure.
+nlohmann::ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y,
+                                 std::optional<std::size_t> by = {});
 
 }  // namespace wearwell::workbench

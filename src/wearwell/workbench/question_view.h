@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "wearwell/study/model.h"
+
+namespace wearwell::workbench {
+
+/// Questions on a result folder. Each field of a question is a text and optional, named as the option
+/// of the command with "_" for "-". Each answer is {text, answer, command}: what the command prints,
+/// what it prints with --json, and the command. Throws InputError.
+
+/// The answer of `wearwell life` to {"unit", "survived", "horizon", "risk", "level", "sides"}.
+nlohmann::ordered_json life_answer(const std::filesystem::path& folder, Models models,
+                                   const nlohmann::json& question);
+
+/// The answer of `wearwell decide` to {"failure_cost", "replacement_cost", "inspection_cost",
+/// "downtime_cost", "claims", "month", "at"}, with `curve`: {age, cost, age_unit, cost_unit}, the
+/// long-run cost against the age of replacement.
+nlohmann::ordered_json decision_answer(const std::filesystem::path& folder, Models models,
+                                       const nlohmann::json& question);
+
+}  // namespace wearwell::workbench
