@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -334,6 +335,39 @@ TEST_F(WorkbenchTest, ResultsAreComparedAndDecideAsTheProgramDoes) {
   const HttpReply missing = post("/api/decide", {{"failure_cost", "800 EUR"}});
   EXPECT_EQ(missing.status, 400);
   EXPECT_THAT(missing.body, HasSubstr("replacement cost: "));
+}
+
+// A Weibull life of shape 1 and a lognormal scale: B10 and the median are fixed multiples of the scale.
+TEST_F(WorkbenchTest, ShowsWhatThePriorsImplyBeforeAnyData) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  std::string text = done("/api/guess", named())["readings"][0]["text"];
+  const auto put = [&](const std::string& key, const std::string& line) {
+    const std::size_t at = text.find("\n" + key + " = {") + 1;
+    ASSERT_NE(at, 0u);
+    text.replace(at, text.find('\n', at) - at, line);
+  };
+  put("characteristic",
+      "characteristic = { distribution = \"lognormal\", median = \"1000 h\", log_sd = 0.5 }");
+  put("slope", "slope = { distribution = \"uniform\", lower = 0.999999, upper = 1.000001 }");
+  const json found = done("/api/priors", {{"file", "p.toml"}, {"text", text}});
+  ASSERT_EQ(found["priors"].size(), 2u) << found;
+  EXPECT_NEAR(found["priors"][0]["q50"], 1000, 1e-6);
+  EXPECT_NEAR(found["priors"][0]["q95"], 1000 * std::exp(0.5 * 1.6448536), 1e-2);
+  const auto b10 = std::find_if(
+      found["quantities"].begin(), found["quantities"].end(),
+      [](const json& each) { return each["name"].get<std::string>().starts_with("B10"); });
+  ASSERT_NE(b10, found["quantities"].end()) << found;
+  const double share = -std::log(0.9);
+  EXPECT_NEAR((*b10)["q50"], 1000 * share, 2);
+  EXPECT_NEAR((*b10)["q05"], 1000 * share * std::exp(-0.5 * 1.6448536), 1);
+  EXPECT_NEAR((*b10)["q95"], 1000 * share * std::exp(0.5 * 1.6448536), 4);
+
+  put("slope", "slope = { distribution = \"flat\" }");
+  const json improper = done("/api/priors", {{"file", "p.toml"}, {"text", text}});
+  EXPECT_TRUE(improper["quantities"].empty());
+  EXPECT_THAT(improper["obstacle"].get<std::string>(), HasSubstr("slope"));
+  EXPECT_EQ(post("/api/priors", {{"text", "model = 1"}}).status, 400);
 }
 
 TEST_F(WorkbenchTest, ColoursPointsByALabelAndMarksRunOuts) {

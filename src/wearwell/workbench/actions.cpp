@@ -19,6 +19,7 @@
 #include "wearwell/workbench/fit_run.h"
 #include "wearwell/workbench/folder_files.h"
 #include "wearwell/workbench/guess_view.h"
+#include "wearwell/workbench/priors.h"
 #include "wearwell/workbench/question_view.h"
 #include "wearwell/workbench/result_view.h"
 #include "wearwell/workbench/study_form.h"
@@ -154,6 +155,11 @@ Json guess_action(Session& session, const json& wish) {
 Json check_action(Session& session, const json& wish) {
   const std::string name = wish.value("file", "study.toml");
   return checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+}
+
+Json priors_action(Session& session, const json& wish) {
+  return priors_json(path_in(session.folder, wish.value("file", "study.toml")),
+                     text_of_wish(wish, "text"), session.models);
 }
 
 Json set_action(Session&, const json& wish) {
@@ -374,9 +380,11 @@ Look look_of(std::string_view path) {
 
 Action action_of(std::string_view path) {
   static constexpr std::pair<std::string_view, Action> actions[] = {
-      {"/api/open", open_file},       {"/api/table", table_action},    {"/api/guess", guess_action},
-      {"/api/check", check_action},   {"/api/set", set_action},        {"/api/save", save_action},
-      {"/api/fit", fit_action},       {"/api/stop", stop_action},      {"/api/life", life_action},
+      {"/api/open", open_file},       {"/api/table", table_action},
+      {"/api/guess", guess_action},   {"/api/check", check_action},
+      {"/api/set", set_action},       {"/api/save", save_action},
+      {"/api/fit", fit_action},       {"/api/stop", stop_action},
+      {"/api/life", life_action},     {"/api/priors", priors_action},
       {"/api/decide", decide_action}, {"/api/compare", compare_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;

@@ -82,8 +82,19 @@
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0}, found.description))]));
     form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
+    if (place.priors.open) priors();
     if (table === null && saved !== null) openItsTable();
     compare();
+  }
+
+  // Of a study that can be fitted; the last text that is asked for is shown.
+  function priors() {
+    const asked = text();
+    if (place.check.dataset.state !== 'good') { place.implied.replaceChildren(element('p', {class: 'note'}, strings.checkBad)); return; }
+    wearwell.quietly(async () => {
+      const parts = await wearwell.priors({file: place.name.value || 'study.toml', text: asked}, Math.min(420, Math.max(260, place.form.clientWidth)));
+      if (asked === text()) place.implied.replaceChildren(...parts);
+    });
   }
 
   const valueOf = (path) => keys.find((each) => each.path === path)?.value;
@@ -280,6 +291,9 @@
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
         wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
     place.form = element('div', {class: 'form'});
+    place.implied = element('div', {'aria-live': 'polite'});
+    place.priors = element('details', {id: 'priors'}, element('summary', {}, strings.priorsTitle), place.implied);
+    place.priors.addEventListener('toggle', () => { if (place.priors.open) priors(); });
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
     place.text.addEventListener('input', changed);
@@ -292,7 +306,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form),
+        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, place.priors),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));

@@ -17,6 +17,8 @@ std::string_view workbench_scatter_js();
 std::string_view workbench_scatter_js_sha256();
 std::string_view workbench_data_js();
 std::string_view workbench_data_js_sha256();
+std::string_view workbench_priors_js();
+std::string_view workbench_priors_js_sha256();
 std::string_view workbench_model_js();
 std::string_view workbench_model_js_sha256();
 std::string_view workbench_fit_js();

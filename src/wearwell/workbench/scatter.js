@@ -57,13 +57,14 @@
     return {paths, legend};
   }
 
-  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, description,
+  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, bare (a small picture without the axis up), description,
   // read: (point) -> text, hint}
   wearwell.scatter = (plot, width) => {
-    const height = Math.min(360, Math.max(240, Math.round(width * 0.55)));
-    const box = {left: margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
+    const height = plot.bare ? 140 : Math.min(360, Math.max(240, Math.round(width * 0.55)));
+    const box = {left: plot.bare ? margin.right : margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
     const across = axisOf({...plot.x, values: plot.points.map((each) => each[0])}, Math.max(3, Math.floor((box.right - box.left) / 80)));
     const up = axisOf({...plot.y, values: plot.points.map((each) => each[1])}, 5);
+    if (plot.bare) up.ticks = [];
     const x = (value) => box.left + across.place(value) * (box.right - box.left);
     const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);
     const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', 'aria-label': plot.description, class: 'plot'});

@@ -42,6 +42,9 @@ wearwell.strings = {
   undo: 'Undo last replacement', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
   description: 'What will be fitted', checking: 'Checking',
 
+  priorsTitle: 'Priors as curves, and what they imply before any data', improper: 'no density (improper)', implied: 'Before any data, 5 to 95 % of the draws of the priors',
+  quantity: 'Quantity', unit: 'Unit', never: 'never', priorRange: (low, high, middle, unit) => `${low} to ${high} (90 %), median ${middle} ${unit}`,
+
   fitTitle: 'Fit', fit: 'Save and fit', stop: 'Stop', noStudy: 'There is no study yet: open a table and choose how to read it.',
   running: (study) => `Fitting ${study}`, stopped: 'Stopped. Nothing was written.', failed: 'The fit failed', steps_of: (done, total, what) => `${done} of ${total} ${what}`,
   steps_: (done, what) => `${done} ${what}`, seconds: (s) => `${s} s`,
