@@ -127,6 +127,12 @@ bool are_above(Since part) {
   return sum > 0;
 }
 
+}  // namespace
+
+std::span<const double> unit_factors() {
+  return factors;
+}
+
 std::string unit_change(double factor) {
   const bool small = factor > 1;
   const double size = small ? factor : 1 / factor;
@@ -135,7 +141,9 @@ std::string unit_change(double factor) {
   return small ? "inches in place of mm" : "mm in place of inches";
 }
 
-}  // namespace
+std::string factor_text(double factor) {
+  return factor < 1 ? fmt::format("1/{:g}", 1 / factor) : fmt::format("{:g}", factor);
+}
 
 ChangeCause cause_of(Since since, double before, const std::optional<AsNew>& as_new) {
   Best best;
@@ -185,11 +193,9 @@ std::string description(const ChangeCause& cause, Since since, std::uint64_t dro
   const std::string unit = words.measured.text == "1" ? "" : " " + words.measured.text;
   switch (cause.kind) {
     case ChangeKind::factor:
-      return fmt::format(
-          "{} {} the forecast after multiplication by {}: the unit has changed ({})", last,
-          one ? "fits" : "fit",
-          cause.size < 1 ? fmt::format("1/{:g}", 1 / cause.size) : fmt::format("{:g}", cause.size),
-          unit_change(cause.size));
+      return fmt::format("{} {} the forecast after multiplication by {}: the unit has changed ({})",
+                         last, one ? "fits" : "fit", factor_text(cause.size),
+                         unit_change(cause.size));
     case ChangeKind::replaced:
       return fmt::format(
           "{} {} below the forecast and {} a new {}: the part was replaced, or the "

@@ -45,6 +45,12 @@ struct AsNew {
 ChangeCause cause_of(std::span<const ReadingSince> since, double before,
                      const std::optional<AsNew>& as_new);
 
+/// Factors by which readings in a wrong unit fit again: 1000, 25.4, 10 and their inverses.
+std::span<const double> unit_factors();
+/// "such as mm in place of um"; "1/25.4".
+std::string unit_change(double factor);
+std::string factor_text(double factor);
+
 /// A value of a reading, SI, in its unit: up to six digits, "100.6 um".
 std::string reading_text(double si, const Unit& unit);
 

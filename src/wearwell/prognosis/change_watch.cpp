@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/math/root.h"
+#include "wearwell/prognosis/predicted_reading.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t most_since = 12;             // readings from which a cause is found
 constexpr std::uint64_t longest_history = 20'000;  // that is taken again for a reference
 constexpr double stuck = 20;                       // evidence of repeats
+constexpr double agrees = 0.01;                    // two-sided p-value of a reading that does
+constexpr std::uint64_t agreeing_enough = 3;       // readings in a row
 
 /// The coarsest step of a decimal scale that a value can come from: 2 for 6, 0.5 for 6.5.
 double decimal_step(double value) {
@@ -40,43 +42,6 @@ bool is_of_kind(const Unit& unit, const std::string& like) {
   } catch (const InputError&) {
     return false;
   }
-}
-
-/// The reading without its other measured values.
-Reading alone(const WatchedUnit& of, Reading reading) {
-  const auto columns = of.tracker.columns();
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (columns[i].measured && i != of.columns.measured) reading.numbers[i] = std::nan("");
-  return reading;
-}
-
-/// Where `target` of the predictive distribution of a reading's measured value lies, near `guess`,
-/// to a twentieth of `scale`; NaN if nothing predicts it.
-double predicted_value(const TrackedUnit& unit, Reading reading, std::size_t column, double target,
-                       double guess, double scale) {
-  const auto share = [&](double value) {
-    reading.numbers[column] = value;
-    const std::vector<PredictiveTails> tails = unit.predictive(reading);
-    // A family of positive values refuses the others.
-    if (tails.empty()) return value > 0 ? std::nan("") : -target;
-    return tails.front().below / (tails.front().below + tails.front().above) - target;
-  };
-  constexpr double close = 0.05, far = 1e6;
-  return solve_increasing(share, guess, scale, {close * scale, 1e-9}, guess - far * scale,
-                          guess + far * scale);
-}
-
-/// Fills the median and half the range from 16 to 84 %; false if nothing predicts it.
-bool predict(const TrackedUnit& unit, const Reading& reading, const WatchedColumns& columns,
-             double scale, ReadingSince& values) {
-  constexpr double one_sd = 0.158655;
-  const auto at = [&](double target, double guess) {
-    return predicted_value(unit, reading, *columns.measured, target, guess, scale);
-  };
-  values.expected = at(0.5, values.measured);
-  if (!std::isfinite(values.expected)) return false;
-  values.spread = (at(1 - one_sd, values.expected) - at(one_sd, values.expected)) / 2;
-  return std::isfinite(values.spread) && values.spread > 0;
 }
 
 }  // namespace
@@ -112,7 +77,7 @@ double ChangeWatch::repeat_evidence(const WatchedUnit& of, const Reading& readin
   if (value != last_value_) return evidence_of_difference();
   // The first repeat is no surprise to a coarse sensor, and its probability costs a prediction.
   if (equal_ < 2 || !std::isfinite(coarsest_)) return evidence_of_repeat(1);
-  Reading at = alone(of, reading);
+  Reading at = alone(of.tracker, of.columns, reading);
   double probability = 0;
   for (const double side : {1.0, -1.0}) {
     at.numbers[*of.columns.measured] = value + side * coarsest_ / 2;
@@ -129,8 +94,11 @@ UpdateResult ChangeWatch::update(const WatchedUnit& of, const Reading& reading, 
   ++taken_;
   UpdateResult taken = of.unit.update(reading, history);
   if (!taken.counted && !taken.impossible) return taken;
+  const bool doubted = test_.in_doubt() || held_;
   test_.add(taken.tails, repeat);
   if (!late) {
+    if (doubted) hold(of, reading, history);
+    if (taken.counted) population_.add(of.tracker, of.columns, of.name, reading);
     const double before_at = last_at_;
     repeats_ = repeat > 1 ? repeats_ * repeat : repeat == 1 ? repeats_ : 1;
     note_values(of, reading);
@@ -138,6 +106,16 @@ UpdateResult ChangeWatch::update(const WatchedUnit& of, const Reading& reading, 
   }
   reason_ = in_doubt() ? described(of, history) : std::string();
   return taken;
+}
+
+// The forecast of a unit that has changed follows the readings in time, and the test falls silent:
+// doubt ends only where readings agree again with what the unit showed before.
+void ChangeWatch::hold(const WatchedUnit& of, const Reading& reading, const History& history) {
+  held_ = false;
+  if (since_.empty() || !find_reference(of, history)) return;
+  const double p = two_sided(reference_->predictive(alone(of.tracker, of.columns, reading)));
+  if (!std::isnan(p)) agreeing_ = p >= agrees ? agreeing_ + 1 : 0;
+  held_ = agreeing_ < agreeing_enough;
 }
 
 void ChangeWatch::note_values(const WatchedUnit& of, const Reading& reading) {
@@ -164,10 +142,11 @@ void ChangeWatch::note_values(const WatchedUnit& of, const Reading& reading) {
 }
 
 void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, double before_at) {
-  if (!in_doubt() && test_.evidence() < ChangeTest::some) {
+  if (!is_changed() && test_.evidence() < ChangeTest::some) {
     since_.clear();
     reference_.reset();
     new_unit_.reset();
+    agreeing_ = 0;
     return;
   }
   if (since_.empty()) {
@@ -177,7 +156,8 @@ void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, d
   }
   const double measured =
       of.columns.measured ? reading.numbers[*of.columns.measured] : std::nan("");
-  since_.push_back({alone(of, reading), {reading.numbers[of.columns.axis], measured, 0, 0}});
+  since_.push_back(
+      {alone(of.tracker, of.columns, reading), {reading.numbers[of.columns.axis], measured, 0, 0}});
   if (since_.size() <= most_since) return;
   since_.pop_front();
   ++dropped_;
@@ -195,6 +175,7 @@ std::string ChangeWatch::described(const WatchedUnit& of, const History& history
         "the last {} readings are all {}: the sensor is stuck, or an old value is "
         "sent again",
         equal_, reading_text(last_value_, of.tracker.columns()[*of.columns.measured].unit));
+  if (population_.is_outside() && (!is_changed() || before_ == 0)) return population_.reason();
   // A cause costs some predictions: later it is found again ever more rarely.
   const std::uint64_t count = since_.size() + dropped_;
   const bool again = count <= most_since || count % (std::bit_floor(count) / 8) == 0;
@@ -220,8 +201,17 @@ std::string ChangeWatch::described_change(const WatchedUnit& of, const History& 
     if (!new_values.empty()) as_new = AsNew{first, new_values};
     break;
   }
-  return description(cause_of(*since, before_at_, as_new), *since, dropped_,
-                     {of.tracker.noun(), of.tracker.columns()[*of.columns.measured].unit});
+  const ChangeCause cause = cause_of(*since, before_at_, as_new);
+  const ReadingColumn& measured = of.tracker.columns()[*of.columns.measured];
+  const bool is_clear = cause.kind == ChangeKind::factor || cause.kind == ChangeKind::replaced ||
+                        cause.kind == ChangeKind::step || cause.kind == ChangeKind::rate;
+  if (test_.in_doubt() && test_.is_quiet() && (before_ == 0 || !is_clear))
+    return fmt::format(
+        "the readings scatter far less than the forecast allows: {} is in a larger unit than in "
+        "the "
+        "study (such as mm in place of um), or its sensor smooths or is stuck",
+        measured.name);
+  return description(cause, *since, dropped_, {of.tracker.noun(), measured.unit});
 }
 
 // The readings from `first` on, one after the other, of a new unit whose use begins at `start`;
@@ -299,7 +289,9 @@ void ChangeWatch::save(ByteWriter& to) const {
   for (const double each : {last_at_, farthest_at_, last_value_, coarsest_, repeats_, before_at_})
     to.number(each);
   to.byte(beyond_);
-  for (const std::uint64_t each : {equal_, dropped_, before_}) to.u64(each);
+  to.byte(held_);
+  population_.save(to);
+  for (const std::uint64_t each : {agreeing_, equal_, dropped_, before_}) to.u64(each);
   to.u64(since_.size());
   for (const Since& each : since_) {
     to.u64(each.reading.numbers.size());
@@ -320,7 +312,9 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   for (double* each : {&last_at_, &farthest_at_, &last_value_, &coarsest_, &repeats_, &before_at_})
     *each = from.number();
   beyond_ = from.flag();
-  for (std::uint64_t* each : {&equal_, &dropped_, &before_}) *each = from.u64();
+  held_ = from.flag();
+  population_.load(from);
+  for (std::uint64_t* each : {&agreeing_, &equal_, &dropped_, &before_}) *each = from.u64();
   since_.clear();
   reference_.reset();
   new_unit_.reset();

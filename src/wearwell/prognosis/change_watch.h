@@ -9,17 +9,11 @@
 
 #include "wearwell/prognosis/change_cause.h"
 #include "wearwell/prognosis/change_test.h"
+#include "wearwell/prognosis/population_test.h"
+#include "wearwell/prognosis/predicted_reading.h"
 #include "wearwell/prognosis/tracker.h"
 
 namespace wearwell::prognosis {
-
-/// The columns of a reading that tell of a change.
-struct WatchedColumns {
-  std::size_t axis = 0;
-  std::optional<std::size_t> level;     ///< measures the quantity with the threshold
-  std::optional<std::size_t> measured;  ///< `level`, or the only measured one
-};
-WatchedColumns watched_columns(const Tracker& tracker);
 
 /// A unit under watch, and what it belongs to.
 struct WatchedUnit {
@@ -39,7 +33,7 @@ class ChangeWatch {
                       const History& history);
 
   /// Whether the forecast is in doubt.
-  bool in_doubt() const { return test_.in_doubt() || is_back(); }
+  bool in_doubt() const { return is_changed() || is_back() || population_.is_outside(); }
   /// Why, without a capital and a full stop; empty if it is not in doubt.
   const std::string& reason() const { return reason_; }
   /// Whether the last reading in order measures a level beyond the threshold.
@@ -57,8 +51,10 @@ class ChangeWatch {
     bool predicted = false;  ///< `values.expected` and `spread` are known
   };
 
+  bool is_changed() const { return test_.in_doubt() || held_; }
   bool is_back() const { return last_at_ < farthest_at_; }
   double repeat_evidence(const WatchedUnit& of, const Reading& reading) const;
+  void hold(const WatchedUnit& of, const Reading& reading, const History& history);
   void note_values(const WatchedUnit& of, const Reading& reading);
   void note_evidence(const WatchedUnit& of, const Reading& reading, double before_at);
   std::string described(const WatchedUnit& of, const History& history);
@@ -70,6 +66,9 @@ class ChangeWatch {
 
   static constexpr double none = -std::numeric_limits<double>::infinity();
   ChangeTest test_;
+  PopulationTest population_;
+  bool held_ = false;           // the test has ended, but readings do not agree with those before
+  std::uint64_t agreeing_ = 0;  // readings in a row that do
   std::string reason_;
   std::uint64_t taken_ = 0;  // all readings: those of `history`
   double last_at_ = none, farthest_at_ = none;

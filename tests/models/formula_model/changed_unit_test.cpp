@@ -84,6 +84,50 @@ TEST(ChangedUnit, ReportsMillimetres) {
   }
 }
 
+// From the first reading on, where no earlier reading contradicts; and a new part on the counter of an earlier one.
+TEST(ChangedUnit, IsNoneOfItsPopulation) {
+  WatchedGuide guide(guides(), "M1");
+  int doubted_at = 0;
+  for (int i = 1; i <= 20; ++i) {
+    guide.read(300 * i, (6.0 * i + deviations[i % 10]) / 1000);
+    if (!doubted_at && guide.watch.in_doubt()) doubted_at = i;
+    EXPECT_EQ(guide.watch.in_doubt(), doubted_at > 0) << i;
+  }
+  EXPECT_GT(doubted_at, 0);
+  EXPECT_LE(doubted_at, 14);
+  EXPECT_THAT(guide.watch.reason(), HasSubstr("such as mm in place of um"));
+
+  WatchedGuide metres(guides(), "M1");
+  metres.read(300, 6.4 * 1000);
+  EXPECT_THAT(metres.watch.reason(), HasSubstr("400 um at 300 h is outside what such a machine "
+                                               "can have there, about 7.16 um; after"));
+  EXPECT_THAT(metres.watch.reason(),
+              HasSubstr("after multiplication by 1/1000 it fits: the unit is "
+                        "not that of the study (such as um in place of mm)"));
+
+  WatchedGuide later(guides(), "M1");
+  later.read(20'300, 6.4);
+  EXPECT_THAT(later.watch.reason(), HasSubstr("the counter of use is not that of the study"));
+}
+
+// Doubt lasts as long as what caused it, although the forecast follows the readings.
+TEST(ChangedUnit, StaysInDoubtUntilItsReadingsAreAsBefore) {
+  const auto last = [](const std::function<double(int)>& off) {
+    WatchedGuide guide(guides(), "M1");
+    bool doubted = false, ended = false;
+    for (int i = 1; i <= 45; ++i) {
+      guide.read(100 * i, 2.0 * i + deviations[i % 10] + off(i));
+      doubted |= guide.watch.in_doubt();
+      ended |= doubted && !guide.watch.in_doubt();
+    }
+    EXPECT_TRUE(doubted);
+    return !ended;
+  };
+  EXPECT_TRUE(last([](int i) { return i > 12 ? -24.0 : 0.0; }));   // reset to zero
+  EXPECT_TRUE(last([](int i) { return i > 12 ? -15.0 : 0.0; }));   // a step
+  EXPECT_FALSE(last([](int i) { return i == 12 ? 30.0 : 0.0; }));  // one wrong reading
+}
+
 TEST(ChangedUnit, IsReplaced) {
   for (const auto& [rate, step] : {std::pair(0.02, 300.0), {0.027, 250.0}, {0.014, 500.0}}) {
     const WatchedGuide guide =
