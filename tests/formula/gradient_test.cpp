@@ -265,7 +265,8 @@ TEST(Gradient, OfPathsAndLabelsIsTheDifferenceQuotient) {
         "log10_normal_cdf(x, b, a) + log10_normal_pdf(x, b, a)",
         "birnbaum_saunders_cdf(x, b, a) + birnbaum_saunders_quantile(0.1*a, b, a)",
         "frechet_cdf(x, b, a) + frechet_pdf(x, b, a) + frechet_quantile(0.1*a, b, a)",
-        "exponentiated_weibull_survival(x, b, a, a) + exponentiated_weibull_quantile(0.1*a, b, a, b)",
+        "exponentiated_weibull_survival(x, b, a, a) + exponentiated_weibull_quantile(0.1*a, b, a, "
+        "b)",
         "gamma_cdf(x, a, b) + gamma_survival(b, x, a)",
         "gamma_pdf(x, a, b) + gamma_quantile(0.1*a, a, b)",
         "inverse_gaussian_cdf(x, a, b) + inverse_gaussian_pdf(x, a, b)",

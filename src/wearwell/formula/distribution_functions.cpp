@@ -164,15 +164,15 @@ double survival_slope(Standard family, double x, double parameter) {
 
 double pdf_slope(Standard family, double x, double parameter) {
   return of(family, x, parameter, 0, 0, [&]<class S>(S) {
-    return slope_of(log_pdf<S, double, Slope>(
-        x, typename S::template Parameters<Slope>(Slope(parameter, 0))));
+    return slope_of(
+        log_pdf<S, double, Slope>(x, typename S::template Parameters<Slope>(Slope(parameter, 0))));
   });
 }
 
 double pdf_slope_by_x(Standard family, double x, double parameter) {
   return of(family, x, parameter, 0, 0, [&]<class S>(S) {
-    return slope_of(log_pdf<S, Slope, double>(
-        Slope(x, 0), typename S::template Parameters<double>(parameter)));
+    return slope_of(
+        log_pdf<S, Slope, double>(Slope(x, 0), typename S::template Parameters<double>(parameter)));
   });
 }
 

@@ -22,7 +22,9 @@ struct Frechet : OnPositive {
     return log(s[1]) - log_y;
   }
   static double inverse(double z, const double* s) { return s[0] * std::exp(z / s[1]); }
-  // None for a shape of 1 or less; the median is the convention there.
+  static double mean(const double* s) {
+    return s[1] > 1 ? s[0] * std::tgamma(1 - 1 / s[1]) : inverse(quantile(standard, 0.5), s);
+  }
 };
 
 }  // namespace wearwell::families
