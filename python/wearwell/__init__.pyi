@@ -493,7 +493,7 @@ def returns(
     delay_to_use: Any = ...,
     delay_of_report: Any = ...,
     hold_out: _Quantity | None = ...,
-    family: Literal["weibull", "exponential", "lognormal", "loglogistic", "gamma", "inverse-gaussian", "birnbaum-saunders"] = ...,
+    family: Literal["weibull", "exponential", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian", "birnbaum-saunders"] = ...,
     ahead: _Quantity | None = ...,
     cost_per_return: str | None = ...,
     planned_sales: Any = ...,

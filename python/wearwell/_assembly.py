@@ -18,6 +18,7 @@ _slots = {
     "log10-normal": ("median", "log10_sd", "sigma"),
     "weibull": ("scale", "shape", "shape"),
     "loglogistic": ("scale", "shape", "shape"),
+    "frechet": ("scale", "shape", "shape"),
     "inverse-gaussian": ("mean", "shape", "shape"),
     "birnbaum-saunders": ("scale", "shape", "shape"),
     "smallest-extreme-value": ("location", "scale", "sigma"),

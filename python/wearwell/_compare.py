@@ -113,8 +113,8 @@ def compare(*fits, names=None, families=None, threads=0, progress=None):
     names : sequence of str, optional
         Names in the order of the fits; by default "a", "b", ..., and of a folder its path.
     families : str or sequence of str, optional
-        Two or more families of lives: "weibull", "lognormal", "loglogistic", "gamma", "inverse-gaussian",
-        "birnbaum-saunders", "exponentiated-weibull" and "generalized-gamma"; or "all".
+        Two or more families of lives: "weibull", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian",
+        "birnbaum-saunders", "exponentiated-weibull" and "generalized-gamma"; "log-location-scale" for the first four; or "all".
     threads : int
         Threads of the fits of ``families``, 0 for all. No number depends on it.
     progress : bool or callable, optional

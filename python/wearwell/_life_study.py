@@ -26,6 +26,7 @@ _families = {
     "exponential": ("mean_life", {"mean": "{}"}, []),
     "lognormal": ("median_life", {"median": "{}", "log_sd": "sigma"}, [_spread_of("sigma")]),
     "loglogistic": ("median_life", {"scale": "{}", "shape": "shape"}, [_spread_of("shape", 1.8138 / spread)]),
+    "frechet": ("characteristic", {"scale": "{}", "shape": "slope"}, [_spread_of("slope", 1.2825 / spread)]),
     "gamma": ("mean_life", {"scale": "{}/shape", "shape": "shape"}, [_spread_of("shape", 1.8, 1.2)]),
     "inverse-gaussian": ("mean_life", {"mean": "{}", "shape": "{}/variation^2"}, [_spread_of("variation")]),
     "birnbaum-saunders": ("median_life", {"scale": "{}", "shape": "alpha"}, [_spread_of("alpha")]),
@@ -138,7 +139,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Column of the age at which observation began (left truncation).
     count : str, optional
         Column of the number of equal items in a row.
-    family : {"weibull", "exponential", "lognormal", "loglogistic", "gamma", "inverse-gaussian", "birnbaum-saunders"}
+    family : {"weibull", "exponential", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian", "birnbaum-saunders"}
         Distribution of the lives.
     by : str, optional
         Column of groups, such as suppliers. Each group has its own scale.

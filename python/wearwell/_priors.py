@@ -214,7 +214,7 @@ def prior(distribution, *, unit=None, lower=None, upper=None, **parameters):
 
     Names and parameters are: "flat"; "uniform"; "normal" (mean, sd); "lognormal" (median, log_sd; or mean, sd);
     "log10-normal" (median, log10_sd); "student-t" (df, location, scale); "half-normal", "half-cauchy" (scale);
-    "exponential" (mean); "gamma", "inverse-gamma", "weibull", "loglogistic", "birnbaum-saunders" (scale, shape);
+    "exponential" (mean); "gamma", "inverse-gamma", "weibull", "loglogistic", "frechet", "birnbaum-saunders" (scale, shape);
     "inverse-gaussian" (mean, shape); "smallest-extreme-value", "largest-extreme-value" (location, scale);
     "generalized-gamma" (scale, sigma, lambda); "exponentiated-weibull" (scale, shape, exponent); "beta" (alpha,
     beta); "jeffreys".

@@ -99,7 +99,7 @@ def returns(data, *, sold=None, quantity=None, returned=None, until=None, period
         ``{"distribution": "lognormal", "median": "1 month", "log_sd": 0.6}``; or a table of delays and shares.
     hold_out : str, optional
         Last months that are forecast and compared, not fitted: "6 month".
-    family : {"weibull", "exponential", "lognormal", "loglogistic", "gamma", "inverse-gaussian", "birnbaum-saunders"}
+    family : {"weibull", "exponential", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian", "birnbaum-saunders"}
         Distribution of the lives.
     ahead : str or None
         Time of the forecast.

@@ -39,7 +39,7 @@ class Study:
         parameter k_scatter; without a prior it has a half-normal one of scale 1.
     family : str
         Distribution of a measurement about the formula: "normal" (default), "lognormal", "log10-normal", "weibull",
-        "loglogistic", "inverse-gaussian", "birnbaum-saunders", "smallest-extreme-value", "largest-extreme-value",
+        "loglogistic", "frechet", "inverse-gaussian", "birnbaum-saunders", "smallest-extreme-value", "largest-extreme-value",
         "exponential" or "poisson". The formula gives its mean, median, scale or location.
     scatter : str, float or dict, optional
         Second parameter of the distribution, an expression or a number, or a dict by measured column. By default the

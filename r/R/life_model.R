@@ -5,6 +5,7 @@ life_families <- list(
   weibull = c(scale = "eta", shape = "shape"),
   lognormal = c(median = "median", log_sd = "sigma"),
   loglogistic = c(scale = "median", shape = "shape"),
+  frechet = c(scale = "eta", shape = "shape"),
   exponential = c(mean = "mean"),
   gamma = c(scale = "scale", shape = "shape"),
   `inverse-gaussian` = c(mean = "mean", shape = "shape"),

@@ -57,6 +57,7 @@ random_life <- function(family, u, location, other) {
     weibull = location * (-log1p(-u))^(1 / other[[1]]),
     lognormal = location * exp(other[[1]] * stats::qnorm(u)),
     loglogistic = location * (u / (1 - u))^(1 / other[[1]]),
+    frechet = location * (-log(u))^(-1 / other[[1]]),
     exponential = -location * log1p(-u),
     gamma = stats::qgamma(u, other[[1]]) * location,
     `birnbaum-saunders` = {

@@ -8,6 +8,7 @@ slots <- list(
   `log10-normal` = c("median", "log10_sd", "sigma"),
   weibull = c("scale", "shape", "shape"),
   loglogistic = c("scale", "shape", "shape"),
+  frechet = c("scale", "shape", "shape"),
   `inverse-gaussian` = c("mean", "shape", "shape"),
   `birnbaum-saunders` = c("scale", "shape", "shape"),
   `smallest-extreme-value` = c("location", "scale", "sigma"),

@@ -21,6 +21,8 @@ const std::vector<std::string> expressions = {
     "x^2 + x^-3 + y^7 + x^b + 2^y + b^a",
     "erf(y) + tanh(y) + sin(phi) * cos(phi) + log1p(x) + expm1(y)",
     "erfc(y) + gamma(x) + lgamma(x) + weibull_cdf(x, b, a) + lognormal_pdf(x, b, a)",
+    "birnbaum_saunders_cdf(x, b, a) + exponentiated_weibull_pdf(x, b, a, 1.4) + frechet_cdf(x, b, "
+    "a)",
     "min(x, y) + max(a, y) + min(x, 2)",
     "where(x < 2, a, b) + where(x <= 2 and not (y == 4), 1, 0) + where(x != 2 or y > 1, 3, 4)",
     "where(material == \"PEEK\", q[material], a) + q[\"PTFE\"]",
@@ -91,6 +93,19 @@ TEST_F(CText, RefusesPaths) {
                 c_function(laboratory.lines, {"output", "cum(x)"}, laboratory.symbols, "f");
               }),
               testing::HasSubstr("depends on previous rows"));
+}
+
+TEST_F(CText, RefusesFunctionsThatCLacks) {
+  const Laboratory laboratory;
+  const auto message = [&](const char* text) {
+    return message_of<InputError>([&] {
+      c_function(laboratory.lines, {"output", text}, laboratory.symbols, "f");
+    });
+  };
+  EXPECT_THAT(message("gamma_cdf(x, a, b)"),
+              testing::HasSubstr("uses standard_gamma_cdf, which C does not have"));
+  EXPECT_THAT(message("student_t_quantile(0.1*a, a, x, b)"),
+              testing::HasSubstr("uses standard_student_t_quantile, which C does not have"));
 }
 
 TEST(CNumber, ReadsBackToTheSame) {

@@ -143,6 +143,54 @@ constexpr OfDistribution by_r[] = {
     {"largest_extreme_value", "1.5, 2", 1, 0.276920334099909, 0.723079665900091, 0.177786373690972},
     {"largest_extreme_value", "1.5, 2", 20, 0.999903892966515, 9.61070334845312e-05,
      4.80512075278159e-05},
+    {"log10_normal", "3, 0.3", 0.050000000000000003, 1.54099152834656e-09, 0.999999998459008,
+     2.71597960115325e-07},
+    {"log10_normal", "3, 0.3", 2, 0.278611637633296, 0.721388362366704, 0.243068312926076},
+    {"log10_normal", "3, 0.3", 60, 0.999992770300673, 7.22969932737646e-06, 7.93259655703825e-07},
+    {"birnbaum_saunders", "3, 0.7", 0.29999999999999999, 2.39354688226751e-05, 0.999976064531177,
+     0.000850112927308329},
+    {"birnbaum_saunders", "3, 0.7", 2, 0.279875349629308, 0.720124650370692, 0.245350421185244},
+    {"birnbaum_saunders", "3, 0.7", 40, 0.999999300597737, 6.9940226277869e-07,
+     2.45985697678546e-07},
+    {"frechet", "3, 1.8", 0.5, 1.18608711084534e-11, 0.999999999988139, 1.07421531041627e-09},
+    {"frechet", "3, 1.8", 2, 0.125588724654872, 0.874411275345128, 0.234507872109245},
+    {"frechet", "3, 1.8", 900, 0.999965232441689, 3.47675583114564e-05, 6.95339078257929e-08},
+    {"exponentiated_weibull", "3, 1.8, 1.4", 0.01, 5.72326517421931e-07, 0.999999427673483,
+     0.000144223775163428},
+    {"exponentiated_weibull", "3, 1.8, 1.4", 2, 0.260373562362039, 0.739626437637961,
+     0.255334482016022},
+    {"exponentiated_weibull", "3, 1.8, 1.4", 9, 0.998980402695396, 0.00101959730460436,
+     0.00147303692462724},
+    {"gamma", "2.3, 3", 0.01, 7.46312645264265e-07, 0.999999253687355, 0.000171478563384366},
+    {"gamma", "2.3, 3", 2, 0.0931961821658509, 0.906803817834149, 0.0865898175279948},
+    {"gamma", "2.3, 3", 90, 0.999999999993033, 6.96721126941364e-12, 2.22504239298043e-12},
+    {"inverse_gaussian", "3, 7", 0.40000000000000002, 0.000257222814277652, 0.999742777185722,
+     0.005835650231185},
+    {"inverse_gaussian", "3, 7", 2, 0.363242168056027, 0.636757831943973, 0.307233057649684},
+    {"inverse_gaussian", "3, 7", 15, 0.999065790450795, 0.000934209549204573, 0.000434466336068263},
+    {"generalized_gamma", "3, 0.7, 0.6", 0.40000000000000002, 0.0215514028975657, 0.978448597102434,
+     0.111987860336012},
+    {"generalized_gamma", "3, 0.7, 0.6", 2, 0.366554510391573, 0.633445489608427, 0.23807104687875},
+    {"generalized_gamma", "3, 0.7, 0.6", 30, 0.999999716512088, 2.83487911975069e-07,
+     1.48232888659611e-07},
+    {"generalized_gamma", "3, 0.7, -0.4", 0.40000000000000002, 0.00011951694769125,
+     0.999880483052309, 0.00253125190099314},
+    {"generalized_gamma", "3, 0.7, -0.4", 2, 0.231577859002523, 0.768422140997477,
+     0.234515720256325},
+    {"generalized_gamma", "3, 0.7, -0.4", 30, 0.994727951776369, 0.00527204822363078,
+     0.000487126814461317},
+    {"generalized_gamma", "3, 0.7, 2", 0.40000000000000002, 0.184948804419307, 0.815051195580693,
+     0.330056986621824},
+    {"generalized_gamma", "3, 0.7, 2", 2, 0.574990922377526, 0.425009077622473, 0.19281376300192},
+    {"generalized_gamma", "3, 0.7, 2", 30, 1, 4.06098079627713e-81, 6.98749033255978e-80},
+    {"generalized_gamma", "3, 0.7, 0", 0.40000000000000002, 0.00199828154378382, 0.998001718456216,
+     0.0226258821884335},
+    {"generalized_gamma", "3, 0.7, 0", 2, 0.281215015716661, 0.718784984283339, 0.240949510934778},
+    {"generalized_gamma", "3, 0.7, 0", 30, 0.999498006845662, 0.00050199315433809,
+     8.49403694403677e-05},
+    {"student_t", "3.5, 1.5, 2", -90, 2.74128567751668e-06, 0.999997258714322, 1.0471468797043e-07},
+    {"student_t", "3.5, 1.5, 2", 1, 0.408280399747538, 0.591719600252462, 0.1786288980757},
+    {"student_t", "3.5, 1.5, 2", 40, 0.999943894227901, 5.61057720990893e-05, 5.06145985112686e-06},
 };
 
 TEST(Expression, FunctionsOfDistributionsAreThoseOfR) {
@@ -160,6 +208,48 @@ TEST(Expression, FunctionsOfDistributionsAreThoseOfR) {
       EXPECT_NEAR(value("quantile", each.cdf), each.x, 1e-11 * std::abs(each.x)) << what;
     }
   }
+}
+
+// The form of R's pgamma loses all digits as lambda approaches 0: values beside those of the lognormal
+// distribution, to the first order in lambda.
+TEST(Expression, GeneralizedGammaKeepsItsDigitsNearTheLognormal) {
+  const Laboratory laboratory;
+  const auto value = [&](const char* function, double x, double lambda) {
+    return laboratory.value(
+        fmt::format("generalized_gamma_{}({:.17g}, 3, 0.7, {:.17g})", function, x, lambda));
+  };
+  for (const double x : {0.3, 2.0, 20.0})
+    for (const char* function : {"cdf", "survival", "pdf"}) {
+      const double middle = value(function, x, 0);
+      EXPECT_NEAR(0.5 * (value(function, x, 1e-7) + value(function, x, -1e-7)), middle,
+                  1e-12 * middle)
+          << function << x;
+    }
+}
+
+TEST(Expression, FunctionsOfDistributionsAtTheEnds) {
+  const Laboratory laboratory;
+  const auto value = [&](const char* text) { return laboratory.value(text); };
+  for (const std::string family : {"gamma", "inverse_gaussian"}) {
+    EXPECT_EQ(value((family + "_cdf(-1, 2, 3)").c_str()), 0);
+    EXPECT_EQ(value((family + "_cdf(0, 2, 3)").c_str()), 0);
+    EXPECT_EQ(value((family + "_survival(0, 2, 3)").c_str()), 1);
+    EXPECT_EQ(value((family + "_quantile(0, 2, 3)").c_str()), 0);
+    EXPECT_THROW(value((family + "_quantile(1, 2, 3)").c_str()), InputError);
+  }
+  Laboratory below;
+  below.columns[0] = {-1, 0, 1e300};
+  for (const std::string family : {"gamma", "inverse_gaussian", "birnbaum_saunders", "frechet"}) {
+    EXPECT_THAT(below.values(family + "_cdf(x, 2, 3)"), ::testing::ElementsAre(0, 0, 1));
+    EXPECT_THAT(below.values(family + "_survival(x, 2, 3)")[1], 1);
+  }
+  for (const std::string family : {"generalized_gamma", "exponentiated_weibull"})
+    EXPECT_THAT(below.values(family + "_cdf(x, 2, 3, 0.4)"), ::testing::ElementsAre(0, 0, 1));
+  for (const char* text :
+       {"gamma_cdf(1, -2, 3)", "gamma_quantile(0.1, 0, 1)", "inverse_gaussian_cdf(1, 2, -3)",
+        "student_t_cdf(0, -1, 0, 1)", "generalized_gamma_quantile(1.5, 1, 1, 1)"})
+    EXPECT_THROW(value(text), InputError) << text;
+  EXPECT_EQ(value("student_t_quantile(0.5, 3, 1.5, 2)"), 1.5);
 }
 
 TEST(Expression, FunctionsOfDistributionsHaveUnits) {
@@ -180,6 +270,13 @@ TEST(Expression, FunctionsOfDistributionsHaveUnits) {
   EXPECT_THAT(message("weibull_cdf(2 [h], 3 [h], 1 [h])"), HasSubstr("shape of weibull_cdf"));
   EXPECT_THAT(message("weibull_cdf(2, 3)"), AllOf(HasSubstr("needs 3 arguments, but has 2"),
                                                   HasSubstr("weibull_cdf(x, scale, shape)")));
+  EXPECT_THAT(message("gamma_cdf(2 [h], 3, 1 [m])"), HasSubstr("arguments of gamma_cdf"));
+  EXPECT_THAT(message("gamma_cdf(2 [h], 3 [h], 1 [h])"), HasSubstr("shape of gamma_cdf"));
+  EXPECT_THAT(message("gamma_cdf(2 [h], 3)"), HasSubstr("gamma_cdf(x, shape, scale)"));
+  EXPECT_DOUBLE_EQ(laboratory.value("inverse_gaussian_cdf(2 [h], 1 [h], 3600 [s])"),
+                   laboratory.value("inverse_gaussian_cdf(2, 1, 1)"));
+  EXPECT_DOUBLE_EQ(laboratory.value("student_t_quantile(0.1, 3, 0 [h], 2 [h]) / 7200 [s]"),
+                   laboratory.value("student_t_quantile(0.1, 3, 0, 1)"));
   EXPECT_THAT(message("weibull_quantile(2, 3, 1)"), HasSubstr("is not a finite number"));
   EXPECT_THAT(message("weibul_cdf(2, 3, 1)"), HasSubstr("did you mean 'weibull_cdf'?"));
 }

@@ -261,7 +261,20 @@ TEST(Gradient, OfPathsAndLabelsIsTheDifferenceQuotient) {
         "lognormal_survival(x, b, a) + lognormal_quantile(0.1*a, b, a)",
         "weibull_cdf(x, b, a) * weibull_pdf(x, a, b)",
         "weibull_quantile(0.1*a, b, a) + loglogistic_pdf(x, b, a)",
-        "smallest_extreme_value_pdf(x, a, b) + largest_extreme_value_cdf(x, a, b)"})
+        "smallest_extreme_value_pdf(x, a, b) + largest_extreme_value_cdf(x, a, b)",
+        "log10_normal_cdf(x, b, a) + log10_normal_pdf(x, b, a)",
+        "birnbaum_saunders_cdf(x, b, a) + birnbaum_saunders_quantile(0.1*a, b, a)",
+        "frechet_cdf(x, b, a) + frechet_pdf(x, b, a) + frechet_quantile(0.1*a, b, a)",
+        "exponentiated_weibull_survival(x, b, a, a) + exponentiated_weibull_quantile(0.1*a, b, a, "
+        "b)",
+        "gamma_cdf(x, a, b) + gamma_survival(b, x, a)",
+        "gamma_pdf(x, a, b) + gamma_quantile(0.1*a, a, b)",
+        "inverse_gaussian_cdf(x, a, b) + inverse_gaussian_pdf(x, a, b)",
+        "inverse_gaussian_survival(x, a, b) + inverse_gaussian_quantile(0.1*a, a, b)",
+        "generalized_gamma_cdf(x, b, a, a) + generalized_gamma_pdf(x, b, a, -b)",
+        "generalized_gamma_survival(x, b, a, 0.1*b) + generalized_gamma_quantile(0.1*a, b, a, -b)",
+        "student_t_cdf(x, 2 + a, b, a) + student_t_pdf(x, a, b, b)",
+        "student_t_survival(x, 2 + a, b, a) + student_t_quantile(0.1*a, a, b, a)"})
     expect_slopes(laboratory, text);
 }
 

@@ -12,6 +12,28 @@ sev <- function(x, l) pexp(exp((x - 1.5) / 2), 1, l)
 of("smallest_extreme_value", "1.5, 2", c(-20, 1, 6), sev, function(x) { z <- (x - 1.5) / 2; exp(z - exp(z)) / 2 })
 of("largest_extreme_value", "1.5, 2", c(-4, 1, 20), function(x, l) pexp(exp(-(x - 1.5) / 2), 1, !l),
    function(x) { z <- -(x - 1.5) / 2; exp(z - exp(z)) / 2 })
+of("log10_normal", "3, 0.3", c(0.05, 2, 60), function(x, l) pnorm(log10(x / 3) / 0.3, lower.tail = l),
+   function(x) dlnorm(x, log(3), 0.3 * log(10)))
+bs <- function(x) (sqrt(x / 3) - sqrt(3 / x)) / 0.7
+of("birnbaum_saunders", "3, 0.7", c(0.3, 2, 40), function(x, l) pnorm(bs(x), lower.tail = l),
+   function(x) dnorm(bs(x)) * (sqrt(x / 3) + sqrt(3 / x)) / (1.4 * x))
+of("frechet", "3, 1.8", c(0.5, 2, 900), function(x, l) pexp((x / 3)^-1.8, 1, !l),
+   function(x) 1.8 / x * (x / 3)^-1.8 * exp(-(x / 3)^-1.8))
+ew <- function(x, l) { p <- 1.4 * pweibull(x, 1.8, 3, log.p = TRUE); if (l) exp(p) else -expm1(p) }
+of("exponentiated_weibull", "3, 1.8, 1.4", c(0.01, 2, 9), ew,
+   function(x) 1.4 * dweibull(x, 1.8, 3) * pweibull(x, 1.8, 3)^0.4)
+of("gamma", "2.3, 3", c(0.01, 2, 90), function(x, l) pgamma(x, 2.3, scale = 3, lower.tail = l), function(x) dgamma(x, 2.3, scale = 3))
+ig <- function(x, l) {
+  a <- sqrt(7 / x) * (x / 3 - 1); b <- exp(2 * 7 / 3 + pnorm(-sqrt(7 / x) * (x / 3 + 1), log.p = TRUE))
+  if (l) pnorm(a) + b else pnorm(a, lower.tail = FALSE) - b
+}
+of("inverse_gaussian", "3, 7", c(0.4, 2, 15), ig, function(x) sqrt(7 / (2 * pi * x^3)) * exp(-7 * (x - 3)^2 / (2 * 9 * x)))
+gg <- function(lambda) list(
+  p = function(x, l) pgamma(exp(lambda * log(x / 3) / 0.7) / lambda^2, 1 / lambda^2, lower.tail = l == (lambda > 0)),
+  d = function(x) { u <- exp(lambda * log(x / 3) / 0.7) / lambda^2; dgamma(u, 1 / lambda^2) * u * abs(lambda) / (0.7 * x) })
+for (lambda in c(0.6, -0.4, 2)) of("generalized_gamma", sprintf("3, 0.7, %g", lambda), c(0.4, 2, 30), gg(lambda)$p, gg(lambda)$d)
+of("generalized_gamma", "3, 0.7, 0", c(0.4, 2, 30), function(x, l) plnorm(x, log(3), 0.7, l), function(x) dlnorm(x, log(3), 0.7))
+of("student_t", "3.5, 1.5, 2", c(-90, 1, 40), function(x, l) pt((x - 1.5) / 2, 3.5, lower.tail = l), function(x) dt((x - 1.5) / 2, 3.5) / 2)
 # Relations between life and stress (k: Boltzmann's constant in eV/K).
 k <- 8.617333262e-5
 heat <- function(temperature, reference, energy) exp(energy / k * (1 / temperature - 1 / reference))

@@ -66,4 +66,8 @@ exponentiated_weibull <- function(at, s) {
            })
 }
 for (a in c(0.3, 4)) exponentiated_weibull(c(1e-6, 0.3, 60, 110, 400, 3000), c(82, 2.1, a))
+# The reciprocal is a Weibull life.
+all_ways("frechet", c(0.2, 1.9, 3, 8, 90, 9000), c(2, 1.4, 0),
+         function(y) dweibull(1 / y, 1.4, 1 / 2, log = TRUE) - 2 * log(y),
+         function(q, l) pweibull(1 / q, 1.4, 1 / 2, lower.tail = !l, log.p = TRUE))
 for (y in c(0, 1, 7, 400)) put("poisson", "exactly", y, 0, c(5.5, 0, 0), dpois(y, 5.5, log = TRUE))

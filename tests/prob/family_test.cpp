@@ -62,6 +62,7 @@ TEST(Family, GeneralizedGammaHoldsTheOthers) {
     expect_same({"generalized-gamma", {1.5, sigma, 0}}, {"lognormal", {1.5, sigma}});
     expect_same({"generalized-gamma", {1.5, sigma, sigma}},
                 {"gamma", {1 / (sigma * sigma), 1.5 * sigma * sigma}});
+    expect_same({"generalized-gamma", {1.5, sigma, -1}}, {"frechet", {1.5, 1 / sigma}});
   }
   expect_same({"generalized-gamma", {1.5, 1, 1}}, {"exponential", {1.5}});
 }

@@ -48,6 +48,8 @@ const std::vector<Case>& cases() {
       {family_of("birnbaum-saunders", true), {2, 0.6, 0.2}, {0.5, 2.1, 9}},
       {family_of("exponentiated-weibull"), {82, 2.1, 3}, {40, 90, 200}},
       {family_of("exponentiated-weibull"), {82, 2.1, 0.4}, {5, 60, 200}},
+      {family_of("frechet"), {5, 3}, {2, 5.5, 60}},
+      {family_of("frechet", true), {5, 3, 0.4}, {2, 5.5, 60}},
       {smallest_extreme_value, {1, 1.3, 0}, {-5, 1, 3}},
       {largest_extreme_value, {1, 1.3, 0}, {-1, 1, 9}},
       {exponential, {7, 0, 0}, {0.2, 6, 40}},

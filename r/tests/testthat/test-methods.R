@@ -100,6 +100,7 @@ test_that("each family simulates its own quantiles", {
   expect_equal(of("weibull", 2), stats::qweibull(u, 2, 100))
   expect_equal(of("lognormal", 0.5), stats::qlnorm(u, log(100), 0.5))
   expect_equal(of("loglogistic", 3), 100 * exp(stats::qlogis(u) / 3))
+  expect_equal(of("frechet", 2), 1e4 / stats::qweibull(1 - u, 2, 100))  # the reciprocal of a Weibull life
   expect_equal(of("exponential"), stats::qexp(u, 1 / 100))
   expect_equal(of("gamma", 2), stats::qgamma(u, 2, scale = 100))
   expect_equal(of("generalized-gamma", 0.5, 1), stats::qweibull(u, 2, 100))  # lambda 1

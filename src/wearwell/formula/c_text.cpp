@@ -12,6 +12,8 @@ namespace {
 
 // Helper functions that C lacks, written before the text (c_helpers).
 std::string expression_of(const Node& node, const std::vector<std::string>& name) {
+  if (const Function* function = find_distribution_function(node.op))
+    throw InputError(fmt::format("the formula uses {}, which C does not have", function->name));
   const auto of = [&](int i) -> const std::string& { return name[static_cast<std::size_t>(i)]; };
   const auto unary = [&](const char* function) {
     return fmt::format("{}({})", function, of(node.a));

@@ -19,9 +19,8 @@ struct DefinedFunction {
   std::string body;
 };
 
-/// FAMILY_cdf, FAMILY_survival, FAMILY_pdf and FAMILY_quantile for each family whose functions are
-/// elementary or of the normal distribution, with the parameters of docs/reference/distributions.md;
-/// and the ratios of a life to that under reference conditions by the usual relations between life and
+/// FAMILY_cdf, FAMILY_survival, FAMILY_pdf and FAMILY_quantile for each family of continuous
+/// measurements and lives, with the parameters of docs/reference/distributions.md; and the ratios of a life to that under reference conditions by the usual relations between life and
 /// stress (Meeker and Escobar 1998, ch. 18; Norris and Landzberg 1969; Peck 1986).
 const std::vector<DefinedFunction>& defined_functions();
 const DefinedFunction* find_defined_function(std::string_view name);

@@ -262,6 +262,28 @@ Kernels ternary(unsigned uniform) {
       return unary<Expm1>(uniform);
     case Op::growth:
       return unary<Growth>(uniform);
+    case Op::gamma_cdf:
+      return binary<GammaCdf>(uniform);
+    case Op::gamma_survival:
+      return binary<GammaSurvival>(uniform);
+    case Op::gamma_quantile:
+      return binary<GammaQuantile>(uniform);
+    case Op::inverse_gaussian_cdf:
+      return binary<InverseGaussianCdf>(uniform);
+    case Op::inverse_gaussian_survival:
+      return binary<InverseGaussianSurvival>(uniform);
+    case Op::inverse_gaussian_quantile:
+      return binary<InverseGaussianQuantile>(uniform);
+    case Op::generalized_gamma_cdf:
+      return binary<GeneralizedGammaCdf>(uniform);
+    case Op::generalized_gamma_pdf:
+      return binary<GeneralizedGammaPdf>(uniform);
+    case Op::generalized_gamma_quantile:
+      return binary<GeneralizedGammaQuantile>(uniform);
+    case Op::student_t_cdf:
+      return binary<StudentTCdf>(uniform);
+    case Op::student_t_quantile:
+      return binary<StudentTQuantile>(uniform);
     case Op::less:
       return binary<Less>(uniform);
     case Op::less_equal:

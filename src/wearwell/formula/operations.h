@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/formula/distribution_functions.h"
 #include "wearwell/formula/special_functions.h"
 #include "wearwell/formula/vector_math.h"
 
@@ -83,6 +84,35 @@ WEARWELL_BINARY(Equal, a == b ? 1.0 : 0.0, 0, 0)
 WEARWELL_BINARY(Unequal, a != b ? 1.0 : 0.0, 0, 0)
 WEARWELL_BINARY(Both, (a != 0 && b != 0) ? 1.0 : 0.0, 0, 0)
 WEARWELL_BINARY(Either, (a != 0 || b != 0) ? 1.0 : 0.0, 0, 0)
+WEARWELL_BINARY(GammaCdf, standard_cdf(Standard::gamma, a, b), standard_pdf(Standard::gamma, a, b),
+                cdf_slope(Standard::gamma, a, b))
+WEARWELL_BINARY(GammaSurvival, standard_survival(Standard::gamma, a, b),
+                -standard_pdf(Standard::gamma, a, b), survival_slope(Standard::gamma, a, b))
+WEARWELL_BINARY(GammaQuantile, standard_quantile(Standard::gamma, a, b),
+                1 / standard_pdf(Standard::gamma, y, b), quantile_slope(Standard::gamma, y, b))
+WEARWELL_BINARY(InverseGaussianCdf, standard_cdf(Standard::inverse_gaussian, a, b),
+                standard_pdf(Standard::inverse_gaussian, a, b),
+                cdf_slope(Standard::inverse_gaussian, a, b))
+WEARWELL_BINARY(InverseGaussianSurvival, standard_survival(Standard::inverse_gaussian, a, b),
+                -standard_pdf(Standard::inverse_gaussian, a, b),
+                survival_slope(Standard::inverse_gaussian, a, b))
+WEARWELL_BINARY(InverseGaussianQuantile, standard_quantile(Standard::inverse_gaussian, a, b),
+                1 / standard_pdf(Standard::inverse_gaussian, y, b),
+                quantile_slope(Standard::inverse_gaussian, y, b))
+WEARWELL_BINARY(GeneralizedGammaCdf, standard_cdf(Standard::generalized_gamma, a, b),
+                standard_pdf(Standard::generalized_gamma, a, b),
+                cdf_slope(Standard::generalized_gamma, a, b))
+WEARWELL_BINARY(GeneralizedGammaPdf, standard_pdf(Standard::generalized_gamma, a, b),
+                pdf_slope_by_x(Standard::generalized_gamma, a, b),
+                pdf_slope(Standard::generalized_gamma, a, b))
+WEARWELL_BINARY(GeneralizedGammaQuantile, standard_quantile(Standard::generalized_gamma, a, b),
+                1 / standard_pdf(Standard::generalized_gamma, y, b),
+                quantile_slope(Standard::generalized_gamma, y, b))
+WEARWELL_BINARY(StudentTCdf, standard_cdf(Standard::student_t, a, b),
+                standard_pdf(Standard::student_t, a, b), cdf_slope(Standard::student_t, a, b))
+WEARWELL_BINARY(StudentTQuantile, standard_quantile(Standard::student_t, a, b),
+                1 / standard_pdf(Standard::student_t, y, b),
+                quantile_slope(Standard::student_t, y, b))
 #undef WEARWELL_BINARY
 
 // a^b of a >= 0, given log a. NaN for a < 0 except for b = 0, because the exponent is not a fixed

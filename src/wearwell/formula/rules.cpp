@@ -264,6 +264,10 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
       return power(a, arguments[1], at);
     case Rule::pure:
       demand_pure(a, name, at);
+      if (given == 2) {
+        demand_pure(arguments[1], name, at);
+        result.b = arguments[1].node;
+      }
       break;
     case Rule::to_angle:
       demand_pure(a, name, at);

@@ -49,6 +49,18 @@ enum class Op : unsigned char {
   log1p,
   expm1,
   growth,  ///< expm1(a)/a, 1 at 0
+  // Of distributions in standard form (distribution_functions.h): x or p, and the parameter.
+  gamma_cdf,
+  gamma_survival,
+  gamma_quantile,
+  inverse_gaussian_cdf,
+  inverse_gaussian_survival,
+  inverse_gaussian_quantile,
+  generalized_gamma_cdf,
+  generalized_gamma_pdf,
+  generalized_gamma_quantile,
+  student_t_cdf,
+  student_t_quantile,
   less,
   less_equal,
   equal,
@@ -85,6 +97,8 @@ struct Function {
 
 const std::vector<Function>& functions();
 const Function* find_function(std::string_view name);
+/// The function of an operation that is a function of a distribution in standard form; else null.
+const Function* find_distribution_function(Op op);
 
 /// Reserved names: `and`, `or`, `not`, `pi`, and functions except those of distributions and a few
 /// with names that parameters have, like `gamma`.

@@ -7,6 +7,7 @@
 #include "wearwell/prob/exponentiated_weibull.h"
 #include "wearwell/prob/family_functions.h"
 #include "wearwell/prob/flat.h"
+#include "wearwell/prob/frechet.h"
 #include "wearwell/prob/gamma.h"
 #include "wearwell/prob/generalized_gamma.h"
 #include "wearwell/prob/half_cauchy.h"
@@ -35,9 +36,10 @@ using Families = FamilyList<  //
     Normal, Lognormal, LognormalOfMoments, Log10Normal, StudentT, Weibull, SmallestExtremeValue,
     LargestExtremeValue, Exponential, Gamma, Loglogistic, InverseGaussian, Poisson, Binomial, Flat,
     Uniform, HalfNormal, HalfCauchy, InverseGamma, Beta, Jeffreys,
-    GeneralizedGamma,  //
-    BirnbaumSaunders,  //
-    ExponentiatedWeibull>;
+    GeneralizedGamma,      //
+    BirnbaumSaunders,      //
+    ExponentiatedWeibull,  //
+    Frechet>;
 
 template <class F>
 inline constexpr bool takes_threshold = F::positive && !F::counted && !F::prior_only;

@@ -13,6 +13,7 @@
 #include "wearwell/infer/exact.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/prob/log_location_scale.h"
 #include "wearwell/study/family_study.h"
 #include "wearwell/study/never_reached.h"
 #include "wearwell/study/posterior_study.h"
@@ -35,8 +36,16 @@ std::vector<std::string> listed_families(const std::string& text) {
     std::erase(name, ' ');
     at = comma + 1;
     if (name.empty()) throw InputError("--families: an empty name; write weibull,lognormal");
-    if (contains(names, name)) throw InputError(fmt::format("--families: '{}' twice", name));
-    names.push_back(std::move(name));
+    std::vector<std::string> meant = {name};
+    if (name == LogLocationScale::name) {
+      meant.clear();
+      for (const LogLocationScale& each : log_location_scale_families)
+        meant.emplace_back(each.family);
+    }
+    for (const std::string& each : meant) {
+      if (contains(names, each)) throw InputError(fmt::format("--families: '{}' twice", each));
+      names.push_back(each);
+    }
   }
   return names;
 }

@@ -10,14 +10,18 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/prob/log_location_scale.h"
 #include "wearwell/study/scaffold.h"
 
 namespace wearwell {
 namespace {
 
 constexpr std::string_view families[] = {
-    "weibull",          "lognormal",         "loglogistic",           "gamma",
+    "weibull",          "lognormal",         "loglogistic",           "frechet",          "gamma",
     "inverse-gaussian", "birnbaum-saunders", "exponentiated-weibull", "generalized-gamma"};
+
+// Of a study with the family as a log-location-scale family.
+constexpr std::string_view by_standard[] = {"standard", "sigma"};
 
 constexpr std::string_view two_parameters[] = {"mean", "median", "scale", "shape", "log_sd"};
 
@@ -29,8 +33,9 @@ struct LogMoments {
 // A likelihood as its lines in the text.
 struct LikelihoodLines {
   std::string column, family;
-  std::vector<std::string> lines;  // of the whole study
-  std::size_t begin = 0, end = 0;  // after its heading, to the next
+  const LogLocationScale* named = nullptr;  // if the study has the family by that name
+  std::vector<std::string> lines;           // of the whole study
+  std::size_t begin = 0, end = 0;           // after its heading, to the next
 };
 
 std::string key_of(const std::string& line) {
@@ -59,6 +64,14 @@ std::string family_of(const TomlReader& table) {
                                      "write that family, --families names those to rank",
                                      family));
   return family;
+}
+
+const LogLocationScale* named_by_standard(const TomlReader& table) {
+  const std::string standard = table.required_text("standard");
+  for (const LogLocationScale& each : log_location_scale_families)
+    if (each.standard == standard) return &each;
+  table.fail("standard", fmt::format("'{}' is none of the distributions of a {} family", standard,
+                                     LogLocationScale::name));
 }
 
 // Distributions beside the one that is exchanged would stay and blur the ranking.
@@ -115,9 +128,13 @@ LikelihoodLines likelihood_lines(const Source& study) {
   const TomlReader likelihood = root.required_table("likelihood");
   if (likelihood.keys().size() != 1)
     root.fail("likelihood", "needs one measured column to rank families of it");
-  LikelihoodLines found{likelihood.keys().front(), {}, {}, 0, 0};
+  LikelihoodLines found{likelihood.keys().front(), {}, nullptr, {}, 0, 0};
   const TomlReader table = likelihood.required_table(found.column);
   found.family = family_of(table);
+  if (found.family == LogLocationScale::name) {
+    found.named = named_by_standard(table);
+    found.family = found.named->family;
+  }
   if (std::find(std::begin(families), std::end(families), found.family) == std::end(families))
     table.fail("family", fmt::format("is not one of the families that can be ranked: {}",
                                      fmt::join(families, ", ")));
@@ -156,8 +173,23 @@ std::string mean_to_middle(const std::string& r) {
   return fmt::format("(1 + {0}*(1 + 0.3201*{0})/(2 + 1.1402*{0}))", r);
 }
 
-LogMoments moments_of(const TomlReader& table, const std::string& family) {
+// Mean and standard deviation of log life, of a scale and the sigma of its logarithm.
+LogMoments moments_of_sigma(const LogLocationScale& named, const std::string& scale,
+                            const std::string& sigma) {
+  if (named.standard == "normal") return {scale, sigma};
+  if (named.standard == "logistic") return {scale, fmt::format("1.8137993642*{}", sigma)};
+  const char sign = named.standard == "smallest extreme value" ? '-' : '+';
+  return {fmt::format("{} * exp({}0.5772156649*{})", scale, sign == '-' ? "-" : "", sigma),
+          fmt::format("1.2825498302*{}", sigma)};
+}
+
+LogMoments moments_of(const TomlReader& table, const LikelihoodLines& found) {
+  const std::string& family = found.family;
   const auto of = [&](const char* name) { return parameter(table, name); };
+  if (found.named) return moments_of_sigma(*found.named, of("scale"), of("sigma"));
+  if (family == "frechet")
+    return {fmt::format("{} * exp(0.5772156649/{})", of("scale"), of("shape")),
+            fmt::format("1.2825498302/{}", of("shape"))};
   if (family == "weibull")
     return {fmt::format("{} * exp(-0.5772156649/{})", of("scale"), of("shape")),
             fmt::format("1.2825498302/{}", of("shape"))};
@@ -171,10 +203,10 @@ LogMoments moments_of(const TomlReader& table, const std::string& family) {
     return {fmt::format("{}/{}", of("mean"), mean_to_middle(ratio)),
             fmt::format("sqrt(log1p{})", ratio)};
   }
-  table.fail(
-      "family",
-      fmt::format("cannot be the first of a ranking with these parameters; start from weibull, "
-                  "lognormal (median and log_sd), loglogistic, gamma or inverse-gaussian"));
+  table.fail("family",
+             fmt::format(
+                 "cannot be the first of a ranking with these parameters; start from weibull, "
+                 "lognormal (median and log_sd), loglogistic, frechet, gamma or inverse-gaussian"));
 }
 
 std::vector<std::pair<std::string, std::string>> parameters_of(std::string_view family,
@@ -187,6 +219,9 @@ std::vector<std::pair<std::string, std::string>> parameters_of(std::string_view 
     if (family != "weibull") all.emplace_back("exponent", "family_exponent");
     return all;
   }
+  if (family == "frechet")
+    return {{"scale", fmt::format("{} * exp(-0.4500532075*{})", m, s)},
+            {"shape", fmt::format("1.2825498302/{}", s)}};
   if (family == "lognormal") return {{"median", m}, {"log_sd", s}};
   if (family == "loglogistic") return {{"scale", m}, {"shape", fmt::format("1.8137993642/{}", s)}};
   if (family == "gamma") {
@@ -235,7 +270,8 @@ std::string family_priors(std::string_view written, std::span<const std::string>
                           : "exponentiated-weibull with family_exponent ~ lognormal(1, 0.7), 1 is "
                             "weibull");
     } else {
-      const bool closed = each == "weibull" || each == "lognormal" || each == "loglogistic";
+      const bool closed =
+          each == "weibull" || each == "lognormal" || each == "loglogistic" || each == "frechet";
       const bool from = written != "gamma" && written != "inverse-gaussian";
       (closed && from ? exact : near).push_back(each);
     }
@@ -261,7 +297,7 @@ Source study_with_family(const Source& study, std::string_view family) {
   const TomlReader root = TomlReader::parse(study.study);
   const TomlReader table = root.required_table("likelihood").required_table(found.column);
   const bool same = found.family == family;
-  const LogMoments log = same ? LogMoments{} : moments_of(table, found.family);
+  const LogMoments log = same ? LogMoments{} : moments_of(table, found);
   const auto parameters =
       same ? std::vector<std::pair<std::string, std::string>>() : parameters_of(family, log);
   // A new parameter takes the line of an old one, so that messages name the lines of the study.
@@ -273,9 +309,11 @@ Source study_with_family(const Source& study, std::string_view family) {
   std::string text;
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
     const std::string key = i >= found.begin && i < found.end ? key_of(found.lines[i]) : "";
-    const bool replaced = !same && std::find(std::begin(two_parameters), std::end(two_parameters),
-                                             key) != std::end(two_parameters);
-    if (key == "family") {
+    const auto among = [&](const auto& keys) {
+      return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    };
+    const bool replaced = !same && (among(two_parameters) || (found.named && among(by_standard)));
+    if (key == "family" && !(same && found.named)) {
       text += fmt::format("family = {}\n", toml_text(std::string(family)));
     } else if (replaced && written < parameters.size()) {
       text += next();

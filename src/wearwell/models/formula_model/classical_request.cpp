@@ -81,9 +81,10 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
   if (!model.measured.front().life.plain())
     asked.predict.fail("classical",
                        "is for one distribution of lives, without shares or subpopulations");
-  if (model.steps)
+  if (model.has_exposure())
     asked.predict.fail("classical",
-                       "is for lives under constant conditions, not for a step-stress test");
+                       fmt::format("is for lives under constant conditions, not for a {} test",
+                                   model.steps ? "step-stress" : "ramp"));
   const ClassicalLevel level{asked.part.levels.credible_level,
                              asked.part.levels.sides == BoundSides::both};
   if (!(level.within() > 0))

@@ -161,8 +161,9 @@ std::vector<Driver> drivers_of(const FormulaModel& model) {
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
     const std::string& name = model.row_symbols.columns[c].name;
     if (model.steps && name == model.steps->duration) continue;  // the life itself
+    if (model.ramp && (name == model.ramp->stress || name == RampStress::duration)) continue;
     if (changes(model, model.data.number(name)->values)) continue;
-    bool used = false, whole = true;
+    bool used = model.ramp && name == model.ramp->rate, whole = true;
     Driver driver{name, {}};
     for (const Measured& measured : model.measured) {
       used |= measured.program.uses_column(c);
@@ -307,7 +308,8 @@ std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   };
   data.drivers = drivers_of(model);
   data.labels = labels_of(model);
-  if (!model.steps) data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
+  if (!model.has_exposure())
+    data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
   if (!model.has_process()) {
     data.measured = measured_values(model);
     data.measured.log_density = [rows](const double* x) { return log_densities(*rows, x); };

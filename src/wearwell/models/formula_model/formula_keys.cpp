@@ -110,6 +110,22 @@ StudyKeys formula_keys() {
                   {".family=binomial"}),
        {"likelihood.*.steps", "\"specimen\"",
         "column of the specimens of a step-stress test, whose rows are the steps"},
+       needed_key("likelihood.*.standard", "\"normal\"",
+                  "distribution of the standardized logarithm "
+                  "([distributions.md](distributions.md#log-location-scale-families-and-names-"
+                  "elsewhere))",
+                  {}, {".family=log-location-scale"}),
+       {"likelihood.*.ramp", "{ stress = \"voltage\", start = \"0 kV\", rate = \"ramp\" }",
+        "a test under a stress that rises in proportion to time, a row for each specimen "
+        "([life.md](life.md#ramp-tests))"},
+       needed_key("likelihood.*.ramp.stress", "\"voltage\"",
+                  "name of the stress in expressions, which has no column", {}, {".start"}),
+       needed_key("likelihood.*.ramp.start", "\"0 kV\"",
+                  "stress at the beginning: a column under data.columns or a quantity", {},
+                  {".stress"}),
+       needed_key("likelihood.*.ramp.rate", "\"ramp\"",
+                  "change of the stress per time: a column under data.columns or a quantity", {},
+                  {".stress"}),
        {"prior.*", "{ distribution = \"lognormal\", median = \"1e-6 mm^3/(N m)\", log_sd = 2 }",
         "one per parameter; `k` or `\"k[PTFE]\"` for one of each level"},
        {"random_effects.*", "{ k = { distribution = \"lognormal\", log_sd = \"k_scatter\" } }",

@@ -10,6 +10,7 @@
 #include "wearwell/models/formula_model/failure_modes.h"
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/formula_process.h"
+#include "wearwell/models/formula_model/ramp_stress.h"
 #include "wearwell/models/formula_model/step_stress.h"
 #include "wearwell/models/formula_model/subpopulations.h"
 #include "wearwell/prob/life_mixture.h"
@@ -104,7 +105,8 @@ struct FormulaModel {
   std::vector<JointFailure> joint;  ///< what `measured` lacks
 
   std::optional<StepStress>
-      steps;  ///< of a step-stress test: the last of `wanted` is its threshold
+      steps;                       ///< of a step-stress test: the last of `wanted` is its threshold
+  std::optional<RampStress> ramp;  ///< of a ramp test: likewise
 
   FormulaData data;
   /// Rows in the order of the programs: unit by unit, along the axis.
@@ -113,6 +115,8 @@ struct FormulaModel {
   std::vector<std::string> units;        ///< their labels; one without a name if there are none
   std::optional<std::string> along;      ///< the axis of wear and life
 
+  /// Whether lives follow cumulative exposure: the last of `wanted` is a threshold.
+  bool has_exposure() const { return steps || ramp; }
   bool has_random_effects() const { return !effects.empty(); }
   /// Whether effects of this label are drawn.
   bool is_drawn(const std::string& of) const;

@@ -20,9 +20,11 @@
 #include "wearwell/models/formula_model/formula_order.h"
 #include "wearwell/models/formula_model/linear_form.h"
 #include "wearwell/models/formula_model/lines_by_level.h"
+#include "wearwell/models/formula_model/ramp_stress.h"
 #include "wearwell/models/formula_model/step_stress.h"
 #include "wearwell/models/formula_model/use_rate_model.h"
 #include "wearwell/models/formula_model/written_mixture.h"
+#include "wearwell/prob/log_location_scale.h"
 #include "wearwell/study/family_study.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of earlier
@@ -94,7 +96,7 @@ class Reader {
     if (use_rate_) refuse_with_use_rate(root_, written_, *use_rate_);
     model_->data = read_own_data(root_, source_, label_names());
     read_use_rate();
-    read_steps();
+    read_exposure();
     read_modes();
     read_mixture();
     choose_units();
@@ -105,6 +107,7 @@ class Reader {
     add_drawn_effects(root_, drawn_, *model_);
     read_effects();
     compile_population();
+    add_ramp_exposure();
     compile_measured();
     order_rows(*model_, root_);
     require_rising(*model_);
@@ -199,6 +202,23 @@ class Reader {
                           file, fmt::join(ranked, ",")));
   }
 
+  // The family that `standard` names.
+  static const LogLocationScale* log_location_scale(const TomlReader& table,
+                                                    const std::string& family) {
+    if (family != LogLocationScale::name) return nullptr;
+    std::vector<std::string> standards;
+    for (const LogLocationScale& each : log_location_scale_families)
+      standards.emplace_back(each.standard);
+    const auto standard = table.choice("standard", standards);
+    if (!standard)
+      table.fail(
+          "standard",
+          fmt::format("is missing: the distribution of the standardized logarithm, one of {}",
+                      fmt::join(standards, ", ")));
+    return &*std::find_if(log_location_scale_families.begin(), log_location_scale_families.end(),
+                          [&](const auto& each) { return each.standard == *standard; });
+  }
+
   WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
                                     const std::string& place) {
     std::vector<std::string> names;
@@ -208,15 +228,28 @@ class Reader {
     for (const ProcessForm& each : process_forms()) {
       if (names.back() != each.form.name) names.emplace_back(each.form.name);
     }
+    names.emplace_back(LogLocationScale::name);
     refuse_several_families(table);
-    const auto family = table.choice("family", names);
+    auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
+    const LogLocationScale* const named = log_location_scale(table, *family);
+    if (named) family = named->family;
     // Not by table.has, which would mark a key that the form does not have as used.
     const std::vector<std::string> keys = table.keys();
-    const bool steps = std::find(keys.begin(), keys.end(), "steps") != keys.end();
+    const auto key_of = [&](std::string_view name) {
+      return std::string(!named                  ? name
+                         : name == named->scale  ? "scale"
+                         : name == named->spread ? "sigma"
+                                                 : name);
+    };
+    const auto among_keys = [&](std::string_view name) {
+      return std::find(keys.begin(), keys.end(), key_of(name)) != keys.end();
+    };
+    const bool steps = among_keys("steps"), ramp = among_keys("ramp");
+    if (steps && ramp) table.fail("ramp", "and steps describe one test; give one of them");
     const auto has = [&](std::string_view name) {
-      return std::find(keys.begin(), keys.end(), name) != keys.end() ||
-             (steps && name == "threshold" && !scale_parameter(*family).empty());
+      return among_keys(name) ||
+             ((steps || ramp) && name == "threshold" && !scale_parameter(*family).empty());
     };
     const ResponseForm* form = given_form(response_forms(), *family, has);
     const ProcessForm* process = nullptr;
@@ -226,8 +259,9 @@ class Reader {
     }
     if (process) form = &process->form;
     if (!form) {
-      table.fail("family", fmt::format("{} needs {}", *family,
-                                       fmt::join(needed_parameters(*family), ", or ")));
+      table.fail("family", named ? fmt::format("{} needs scale and sigma", LogLocationScale::name)
+                                 : fmt::format("{} needs {}", *family,
+                                               fmt::join(needed_parameters(*family), ", or ")));
     }
     WrittenLikelihood result = empty_likelihood(column);
     result.place = place;
@@ -235,46 +269,77 @@ class Reader {
     result.process = process;
     for (std::size_t s = 0; s < form->family_parameters.size(); ++s) {
       const std::string name(form->family_parameters[s].name);
-      if (!table.has(name)) continue;
-      result.family_parameters.emplace_back(s, expression(table, name));
+      if (!among_keys(name) || !table.has(key_of(name))) continue;
+      std::string text = expression(table, key_of(name));
+      if (named && name == named->spread) {
+        result.sigma = text;
+        if (named->inverse) text = fmt::format("1/({})", text);
+      }
+      result.family_parameters.emplace_back(s, std::move(text));
       texts_.push_back(result.family_parameters.back().second);
     }
-    if (steps) add_steps(table, *family, result);
+    if (steps || ramp) add_exposure(table, *family, steps, result);
     if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
     if (place.starts_with("likelihood.")) read_shares(table, result);
     return result;
   }
 
-  // The age before the last step as the threshold of a likelihood.
-  void add_steps(const TomlReader& table, const std::string& family,
-                 WrittenLikelihood& likelihood) {
+  // The threshold of cumulative exposure; that of a ramp is written later (add_ramp_exposure).
+  void add_exposure(const TomlReader& table, const std::string& family, bool steps,
+                    WrittenLikelihood& likelihood) {
     const std::string scale = scale_parameter(family);
     std::string text;
     for (const auto& [at, each] : likelihood.family_parameters)
       if (likelihood.form->family_parameters[at].name == scale) text = each;
-    model_->steps = read_step_stress(table, family, text);
+    if (steps) model_->steps = read_step_stress(table, family, text);
+    if (!steps) model_->ramp = read_ramp_stress(table, family, text);
     const auto& parameters = likelihood.form->family_parameters;
-    likelihood.family_parameters.emplace_back(parameters.size() - 1, threshold_of(*model_->steps));
+    likelihood.family_parameters.emplace_back(parameters.size() - 1,
+                                              steps ? threshold_of(*model_->steps) : "0");
   }
 
-  void read_steps() {
-    if (!model_->steps) return;
+  void read_exposure() {
+    if (!model_->has_exposure()) return;
+    const char* const key = model_->steps ? "steps" : "ramp";
     const WrittenLikelihood& life = written_.front();
     const TomlReader table = root_.required_table("likelihood").required_table(life.column);
     for (const char* other : {"failure_modes", "random_effects", "subpopulations"})
-      if (root_.has(other)) table.fail("steps", fmt::format("is not possible with [{}]", other));
+      if (root_.has(other)) table.fail(key, fmt::format("is not possible with [{}]", other));
     for (const char* share : {"share_defective", "share_dead_on_arrival"})
-      if (table.has(share)) table.fail(share, "is not possible with steps");
-    if (written_.size() > 1) table.fail("steps", "needs one measured column, the life");
+      if (table.has(share)) table.fail(share, fmt::format("is not possible with {}", key));
+    if (written_.size() > 1) table.fail(key, "needs one measured column, the life");
     if (special_columns(model_->data).entry)
-      table.fail("steps",
-                 "is not possible with data.columns.entry: a step-stress test begins at 0");
+      table.fail(key, fmt::format("is not possible with data.columns.entry: a {} test begins at 0",
+                                  model_->steps ? "step-stress" : "ramp"));
     if (const auto predict = root_.table("predict"); predict && predict->has("along"))
-      predict->fail("along", "is not possible with steps, which are in the order of their ages");
-    if (!model_->data.label(model_->steps->label))
+      predict->fail("along",
+                    model_->steps
+                        ? "is not possible with steps, which are in the order of their ages"
+                        : "is not possible with ramp");
+    if (model_->steps && !model_->data.label(model_->steps->label))
       table.fail("steps", "must name the column of the specimens under data.columns");
     if (!model_->data.number(life.column)) fail_without_column(life);
-    add_durations(*model_->steps, life.column, model_->data);
+    if (model_->steps) add_durations(*model_->steps, life.column, model_->data);
+    if (model_->ramp) add_ramp(table, *model_->ramp, life.column, model_->data);
+  }
+
+  // Once the names in expressions are known.
+  void add_ramp_exposure() {
+    if (!model_->ramp) return;
+    WrittenLikelihood& life = written_.front();
+    const TomlReader table = table_of(life);
+    Measured given;
+    add_wanted(life, model_->data.number(life.column)->unit.powers, given);
+    std::size_t scale = 0;
+    while (life.form->family_parameters[given.family_parameter[scale]].name !=
+           model_->ramp->parameter)
+      ++scale;
+    try {
+      life.family_parameters.back().second = threshold_of(table, *model_->ramp, model_->lines,
+                                                          given.wanted, scale, model_->row_symbols);
+    } catch (const InputError& error) {
+      fail_at_place(root_, table, error.what());
+    }
   }
 
   void read_use_rate() {
@@ -646,6 +711,7 @@ class Reader {
           if (kind == ParameterKind::scale || kind == ParameterKind::number)
             bounds[base(text)].take(0, INFINITY);
         }
+        if (each.sigma) bounds[base(*each.sigma)].take(0, INFINITY);
       }
       for (const WrittenShare& each : written.shares) bounds[base(each.text)].take(0, 1);
     }
@@ -911,6 +977,7 @@ class Reader {
       if (model_->steps)
         measured.observed =
             last_steps(*model_->steps, written.column, model_->data, measured.observed);
+      if (model_->ramp) require_exact_failures(model_->data, written.column, measured.observed);
       if (model_->modes && measured.program.has_paths())
         table.fail(
             "",

@@ -225,6 +225,8 @@ class Printer {
 
   std::string binary(const Node& node) const {
     if (node.b < 0) refuse_rows_before();
+    if (const formula::Function* function = formula::find_distribution_function(node.op))
+      lacks(function->name);
     const auto sign = [&](const char* between) {
       return fmt::format("{} {} {}", of(node.a), between, of(node.b));
     };

@@ -91,7 +91,7 @@ std::string description(const FormulaModel& model) {
       continue;
     }
     std::vector<std::string> family_parameters;
-    const std::size_t written = each.wanted.size() - (model.steps ? 1 : 0);
+    const std::size_t written = each.wanted.size() - (model.has_exposure() ? 1 : 0);
     for (std::size_t o = 0; o < written; ++o) {
       family_parameters.push_back(
           fmt::format("{} = {}", each.form->family_parameters[each.family_parameter[o]].name,
@@ -104,6 +104,9 @@ std::string description(const FormulaModel& model) {
   if (model.steps)
     parts.push_back(
         fmt::format("by cumulative exposure over the steps of each {}", model.steps->label));
+  if (model.ramp)
+    parts.push_back(fmt::format("by cumulative exposure under a ramp of {} from {} at {}",
+                                model.ramp->stress, model.ramp->start, model.ramp->rate));
   if (model.modes)
     parts.push_back(
         fmt::format("{} of a part is the earliest of these", model.measured.front().column));
@@ -235,6 +238,9 @@ std::vector<std::string> notes(const FormulaModel& model) {
   if (model.steps)
     all.push_back(fmt::format("steps of {} {}: the last row of each is its observation",
                               model.units.size(), prognosis::plural(model.steps->label)));
+  if (model.ramp)
+    all.push_back(fmt::format("the exposure along each ramp of {} is {}", model.ramp->stress,
+                              model.ramp->closed ? "in closed form" : "by quadrature (32 nodes)"));
   if (model.has_random_effects())
     all.push_back(fmt::format("{} {}", model.units.size(), prognosis::plural(*model.label)));
   for (const formula_model::DrawnEffect& each : model.drawn) {
@@ -402,7 +408,8 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   };
   formula_model::tell_drawn_effects(model, study);
   formula_model::read_own_predictions(root, model, rows, study);
-  formula_model::show_life_paper(root, model, study);
+  // Ages under a stress that changes are not lives under any.
+  if (!model->has_exposure()) formula_model::show_life_paper(root, model, study);
   formula_model::add_returns(root, source, model, study);
 }
 

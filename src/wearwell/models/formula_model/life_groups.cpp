@@ -150,7 +150,7 @@ std::shared_ptr<const LifeDistribution> life_distribution(
     if (!(modes >> k & 1)) continue;
     const Measured& measured = model->measured[k];
     std::vector<formula::Wanted> wanted = measured.wanted;
-    if (model->steps) wanted.pop_back();  // a new item has no age
+    if (model->has_exposure()) wanted.pop_back();  // a new item has no age
     risks.push_back(risk_of(make_path(model, table, key, wanted, false, conditions), measured));
   }
   require_values(table, key, *model, risks);

@@ -24,7 +24,7 @@ ObservedLives::ObservedLives(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();
   // With rates of use the last of `measured` are ages and rates.
   if (depends_on_conditions(model) || model.has_random_effects() || !model.drawn.empty()) {
-    if (!model.modes && !model.use_rate && !model.steps && !model.has_random_effects() &&
+    if (!model.modes && !model.use_rate && !model.has_exposure() && !model.has_random_effects() &&
         model.drawn.empty())
       rows_ = std::move(rows);
     return;

@@ -36,21 +36,29 @@ std::string scale_parameter(const std::string& family) {
                                                             {"loglogistic", "scale"},
                                                             {"generalized-gamma", "scale"},
                                                             {"birnbaum-saunders", "scale"},
-                                                            {"exponentiated-weibull", "scale"}};
+                                                            {"exponentiated-weibull", "scale"},
+                                                            {"frechet", "scale"}};
   const auto found = scales.find(family);
   return found == scales.end() ? "" : found->second;
 }
 
+std::string scale_of_exposure(const TomlReader& likelihood, const std::string& key,
+                              const std::string& family, const std::string& scale) {
+  std::string parameter = scale_parameter(family);
+  if (parameter.empty())
+    likelihood.fail(key, fmt::format("needs a family of lives with a scale; {} has none "
+                                     "(weibull, lognormal, loglogistic, exponential, gamma)",
+                                     family));
+  if (scale.empty()) likelihood.fail(key, fmt::format("needs {} by its {}", family, parameter));
+  if (likelihood.has("threshold"))
+    likelihood.fail("threshold",
+                    fmt::format("is not possible with {}, whose ages begin at 0", key));
+  return parameter;
+}
+
 StepStress read_step_stress(const TomlReader& likelihood, const std::string& family,
                             const std::string& scale) {
-  const std::string parameter = scale_parameter(family);
-  if (parameter.empty())
-    likelihood.fail("steps", fmt::format("needs a family of lives with a scale; {} has none "
-                                         "(weibull, lognormal, loglogistic, exponential, gamma)",
-                                         family));
-  if (scale.empty()) likelihood.fail("steps", fmt::format("needs {} by its {}", family, parameter));
-  if (likelihood.has("threshold"))
-    likelihood.fail("threshold", "is not possible with steps, whose ages begin at 0");
+  scale_of_exposure(likelihood, "steps", family, scale);
   return {likelihood.required_text("steps"), scale, "duration_of_step"};
 }
 

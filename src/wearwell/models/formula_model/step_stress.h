@@ -26,6 +26,11 @@ StepStress read_step_stress(const TomlReader& likelihood, const std::string& fam
 /// The parameter of a family in proportion to which its values grow, all else fixed; empty if there is none.
 std::string scale_parameter(const std::string& family);
 
+/// The same for the key `key` of a likelihood by cumulative exposure; throws InputError if there is none, if the
+/// study does not give it (`scale` is empty), or if the study has a threshold.
+std::string scale_of_exposure(const TomlReader& likelihood, const std::string& key,
+                              const std::string& family, const std::string& scale);
+
 /// The expression of the threshold.
 std::string threshold_of(const StepStress& steps);
 

@@ -28,6 +28,7 @@ struct WrittenLikelihood {
   std::optional<std::string> trials;
   /// Of the form, and the expression.
   std::vector<std::pair<std::size_t, std::string>> family_parameters;
+  std::optional<std::string> sigma;  ///< of a log-location-scale family by that name: positive
   std::optional<std::string> defective, dead;  ///< share_defective, share_dead_on_arrival
   std::vector<WrittenLikelihood> parts;        ///< the subpopulations, if it is a mixture of some
   std::size_t rest = 0;                        ///< the one without a share
