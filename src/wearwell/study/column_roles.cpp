@@ -73,6 +73,18 @@ bool has_value(const Table& table, const Column& column, const std::function<boo
   return false;
 }
 
+// Whether a heading has a small m where M would be a million: "mcycles" may mean millions, or not.
+bool would_be_millions(const std::string& heading, const std::string& unit, const RoleForm& role,
+                       std::size_t word) {
+  const std::string_view of = role.words.empty() ? std::string_view() : role.words[word].text;
+  for (std::size_t at = heading.find('m'); at != heading.npos; at = heading.find('m', at + 1)) {
+    std::string capital = heading;
+    capital[at] = 'M';
+    if (with_multiple(capital, unit, of) != with_multiple(heading, unit, of)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ColumnRoles::ColumnRoles(const Table& table, std::string file, const TableChoices& choices,
@@ -305,6 +317,11 @@ ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& matc
   if (found.unit_guessed)
     guesses.push_back(
         fmt::format("column '{}' has no unit in its heading; {} is a guess", name, found.unit));
+  if (may_be_plain(found.si) && would_be_millions(name, found.unit, *found.role, match.word))
+    guesses.push_back(fmt::format(
+        "column '{}': m is not read as a million; if it means one, write unit = \"1e6 cycles\" in "
+        "the study",
+        name));
   if (match.letter)
     guesses.push_back(fmt::format("column '{}': {} is read as {}", name,
                                   found.unit == "degC" ? "C" : "F", found.unit));
