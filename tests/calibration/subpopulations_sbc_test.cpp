@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "calibration/formula_design.h"
+#include "calibration/inspected_lives.h"
+#include "calibration/places_of_truth.h"
+#include "calibration/shares.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/run_chains.h"
 #include "wearwell/models/formula_model/formula_start.h"
@@ -23,51 +23,6 @@ constexpr std::size_t parts = 40;
 
 double weibull_life(double scale, double shape, Rng& rng) {
   return scale * std::pow(-std::log(rng.uniform()), 1 / shape);
-}
-
-// As it is seen: watched from `entry` on, to `longest`; two of three between looks.
-template <class Draw>
-std::vector<Response> seen(const Draw& draw, double longest, double apart, double late) {
-  std::vector<Response> all;
-  while (all.size() < parts) {
-    const std::size_t i = all.size();
-    const double entry = i % 4 == 3 ? late : -INFINITY, life = draw();
-    if (life <= entry) continue;  // it was never seen
-    Response y{.at = std::min(life, longest), .entry = entry};
-    if (life > longest) {
-      y.seen = Censoring::right;
-    } else if (i % 3 != 2) {
-      const double before = apart * std::floor(life / apart), from = std::max(before, entry);
-      y.seen = from > 0 ? Censoring::interval : Censoring::left;
-      y.at = from > 0 ? from : apart;
-      y.until = before + apart;
-    }
-    all.push_back(y);
-  }
-  return all;
-}
-
-int replications(int otherwise) {
-  const char* wanted = std::getenv("WEARWELL_REPLICATIONS");
-  return wanted ? std::max(100, std::atoi(wanted)) : otherwise;
-}
-
-void judge(const char* name, const FormulaModel& model,
-           const std::vector<std::vector<double>>& all) {
-  const auto count = static_cast<double>(all.size());
-  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
-    double bin[bins] = {}, chi_squared = 0;
-    for (const auto& places : all) {
-      ASSERT_FALSE(std::isnan(places[p]));
-      bin[std::min(bins - 1, static_cast<int>(bins * places[p]))] += 1;
-    }
-    for (const double n : bin) chi_squared += std::pow(n - count / bins, 2) / (count / bins);
-    const double p_value = cdf(complement(boost::math::chi_squared(bins - 1), chi_squared));
-    std::printf("%s, %s: %.0f replications, chi-squared %.1f, p %.3f\n", name,
-                model.parameters[p].name.c_str(), count, chi_squared, p_value);
-    EXPECT_GT(p_value, 1e-3) << p;
-  }
-  std::fflush(stdout);
 }
 
 const std::string columns_of_lives = R"toml(
@@ -95,16 +50,12 @@ p = { distribution = "beta", alpha = 2, beta = 2 }
     const auto draw = [&] {
       return rng.uniform() < x[2] ? weibull_life(x[0], x[1], rng) : INFINITY;
     };
-    const auto rows =
-        std::make_shared<const FormulaRows>(design.with(seen(draw, 500, 120, 60)), parts);
+    const auto rows = std::make_shared<const FormulaRows>(
+        design.with(inspected_lives(parts, draw, {500, 120, 60})), parts);
     const ExactPosterior exact = exact_posterior(rows, 1e-3);
-    for (std::size_t p = 0; p < x.size(); ++p)
-      all[i].push_back(
-          exact.failure.empty()
-              ? QuantityDistribution(exact.nodes, [p](const double* at) { return at[p]; }).cdf(x[p])
-              : NAN);
+    all[i] = places_of(x, exact);
   });
-  judge("limited failure population", *design.model, all);
+  expect_even("limited failure population", design.model->parameters, all, bins);
 }
 
 TEST(SubpopulationsCalibration, TwoWeibullSubpopulations) {
@@ -136,8 +87,8 @@ w = { distribution = "beta", alpha = 2, beta = 3 }
       const bool early = rng.uniform() < x[4];
       return weibull_life(x[early ? 0 : 1], x[early ? 2 : 3], rng);
     };
-    const auto rows =
-        std::make_shared<const FormulaRows>(design.with(seen(draw, 1500, 150, 100)), parts);
+    const auto rows = std::make_shared<const FormulaRows>(
+        design.with(inspected_lives(parts, draw, {1500, 150, 100})), parts);
     const auto likelihood = formula_likelihood(rows);
     std::vector<Parameter> parameters = design.model->parameters;
     find_starts(*likelihood, parameters);
@@ -155,7 +106,7 @@ w = { distribution = "beta", alpha = 2, beta = 3 }
       all[i].push_back((rank + 0.5) / (draws / thin + 1));
     }
   });
-  judge("two Weibull subpopulations", *design.model, all);
+  expect_even("two Weibull subpopulations", design.model->parameters, all, bins);
 }
 
 }  // namespace

@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "calibration/formula_design.h"
+#include "calibration/places_of_truth.h"
+#include "calibration/shares.h"
 #include "wearwell/base/rng.h"
 
 namespace wearwell::formula_model {
@@ -54,10 +53,7 @@ FormulaDesign fleet_at(const std::vector<double>& x, Rng& rng) {
 }
 
 TEST(UseRateCalibration, PlacesOfTruthAreEven) {
-  constexpr int bins = 10;
-  const char* wanted = std::getenv("WEARWELL_REPLICATIONS");
-  std::vector<std::vector<double>> all(
-      static_cast<std::size_t>(wanted ? std::max(100, std::atoi(wanted)) : 200));
+  std::vector<std::vector<double>> all(static_cast<std::size_t>(replications(200)));
   Rng first(20261126, 1u << 30);
   const FormulaDesign any = fleet_at({100, 1.5, 2 / 3600.0}, first);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
@@ -65,26 +61,9 @@ TEST(UseRateCalibration, PlacesOfTruthAreEven) {
     const std::vector<double> x = any.from_priors(rng);
     const FormulaDesign design = fleet_at(x, rng);
     const auto rows = std::make_shared<const FormulaRows>(design.model, units);
-    const ExactPosterior exact = exact_posterior(rows, 1e-3);
-    for (std::size_t p = 0; p < x.size(); ++p)
-      all[i].push_back(
-          exact.failure.empty()
-              ? QuantityDistribution(exact.nodes, [p](const double* at) { return at[p]; }).cdf(x[p])
-              : NAN);
+    all[i] = places_of(x, exact_posterior(rows, 1e-3));
   });
-  for (std::size_t p = 0; p < any.model->parameters.size(); ++p) {
-    double bin[bins] = {}, chi_squared = 0;
-    for (const auto& places : all) {
-      ASSERT_FALSE(std::isnan(places[p]));
-      bin[std::min(bins - 1, static_cast<int>(bins * places[p]))] += 1;
-    }
-    const double expected = static_cast<double>(all.size()) / bins;
-    for (const double n : bin) chi_squared += std::pow(n - expected, 2) / expected;
-    const double p_value = cdf(complement(boost::math::chi_squared(bins - 1), chi_squared));
-    std::printf("%s: %zu replications, chi-squared %.1f, p %.3f\n",
-                any.model->parameters[p].name.c_str(), all.size(), chi_squared, p_value);
-    EXPECT_GT(p_value, 1e-3) << p;
-  }
+  expect_even("lives in use", any.model->parameters, all, 10);
 }
 
 }  // namespace

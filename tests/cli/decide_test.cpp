@@ -85,6 +85,19 @@ TEST_F(Decide, RefusesWhatItCannotTell) {
   EXPECT_THAT(refusal("no-such.csv" + costs), HasSubstr("no-such.csv"));
 }
 
+// Failures of repaired units recur: what a decision can rest on is said.
+TEST_F(Decide, FailuresOfRepairedUnits) {
+  const std::string result = (folder() / "growth").string();
+  const CommandResult fit = run_wearwell("fit " PROJECT_SOURCE_DIR
+                                         "/examples/repairable/growth.toml --method exact "
+                                         "--draws 100 --quiet --no-report -o " +
+                                         result);
+  ASSERT_LE(fit.exit_code, 1) << fit.err;
+  EXPECT_THAT(refusal(result + costs),
+              AllOf(HasSubstr("counts the failures of units that are repaired"),
+                    HasSubstr("[predict] next"), HasSubstr("a study of these lives")));
+}
+
 TEST_F(Decide, NamesTheRowThatIsNoLife) {
   const auto table = [&](const std::string& text) {
     const std::string file = (folder() / "lives.csv").string();

@@ -71,6 +71,8 @@ TEST_F(LifeStatusTest, WordsOfTheStudyComeFirst) {
   EXPECT_THAT(
       seen("z", {"x", "1", "y"}, "{ column = \"z\", failure = 0, left = \"x\", interval = \"y\" }"),
       ElementsAre(Censoring::left, Censoring::right, Censoring::interval));
+  EXPECT_THAT(seen("z", {"failed", ""}, "{ column = \"z\", runout = \"\" }"),
+              ElementsAre(Censoring::none, Censoring::right));
   EXPECT_THAT(message_of<InputError>(
                   [&] { seen("z", {"x"}, "{ column = \"z\", failure = \"x\", runout = \"X\" }"); }),
               HasSubstr("data.columns.status.runout: 'X' is given for two statuses"));

@@ -10,6 +10,7 @@
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/table.h"
+#include "wearwell/prognosis/required_lives.h"
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/posterior_summary.h"
@@ -27,12 +28,7 @@ struct FoundLife {
 
   FoundLife(const NamedState& result, const std::string& unit, Models models)
       : study(read_study(result.state.source, models)) {
-    const auto lives = named_lives(require_posterior_study(*study));
-    if (lives.empty())
-      throw InputError(
-          fmt::format("{}: this study has no life of a new unit to compare; state one "
-                      "under [predict]",
-                      printable(result.name)));
+    const auto lives = required_lives(require_posterior_study(*study), printable(result.name));
     life = life_named(lives, unit, result.name + ": --unit");
     const std::string at = life.request->at.empty() ? "" : " " + life.request->at;
     of = printable(fmt::format("{}, {}{}", result.name, without_new(life.request->of), at));

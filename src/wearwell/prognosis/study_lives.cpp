@@ -14,6 +14,7 @@
 #include "wearwell/input/status_words.h"
 #include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/named_life.h"
+#include "wearwell/prognosis/required_lives.h"
 #include "wearwell/prognosis/unit_table.h"
 
 namespace wearwell::prognosis {
@@ -76,9 +77,7 @@ KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, boo
 
 KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
                           const std::string& title, bool trusted, const std::string& point) {
-  const std::vector<NamedLife> lives = named_lives(study);
-  if (lives.empty())
-    throw InputError(fmt::format("{}: the study has no life of a new unit", title));
+  const std::vector<NamedLife> lives = required_lives(study, title);
   const NamedLife life = life_named(lives, point, "--at");
   const ThinnedPosterior few(posterior, most_populations);
   KnownLives known;

@@ -1,6 +1,7 @@
 #include "wearwell/study/column_roles.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,26 @@ bool has_value(const Table& table, const Column& column, const std::function<boo
     }
   }
   return false;
+}
+
+// Whether a heading has a small m where M would be a million: "mcycles" may mean millions, or not.
+bool would_be_millions(const std::string& heading, const std::string& unit, const RoleForm& role,
+                       std::size_t word) {
+  const std::string_view of = role.words.empty() ? std::string_view() : role.words[word].text;
+  for (std::size_t at = heading.find('m'); at != heading.npos; at = heading.find('m', at + 1)) {
+    std::string capital = heading;
+    capital[at] = 'M';
+    if (with_multiple(capital, unit, of) != with_multiple(heading, unit, of)) return true;
+  }
+  return false;
+}
+
+// A life can be in several dimensions, or a plain number; it has none that its heading contradicts.
+void refuse_other_dimension(const std::string& file, const Column& column, const RoleForm& role) {
+  const std::string unit = stated_unit(column);
+  if (role.si.size() < 2 || unit.empty() || unit == "1" || may_be_of(role, unit)) return;
+  throw InputError(fmt::format("{}: column '{}': unit '{}' does not fit {}, which is in {}", file,
+                               column.name, unit, role.name, fmt::join(role.si, ", ")));
 }
 
 }  // namespace
@@ -212,6 +233,19 @@ ColumnRoles::Found ColumnRoles::take_column(const std::string& key, const Column
       match.found.unit = role.usual;
       match.found.unit_guessed = !role.si.empty() && !may_be_plain(si);
     }
+    // "khours" and "Mcycles" say their unit in the words of another role.
+    for (const RoleForm& other : role_forms()) {
+      if (!match.found.column->unit.empty() || !heading.unit.empty()) break;
+      const auto named = this->match(column, other, false);
+      if (!named || other.cells != Cells::numbers || named->found.unit_guessed) continue;
+      if (std::find(role.si.begin(), role.si.end(), named->found.si) == role.si.end()) continue;
+      match.found.unit = named->found.unit;
+      match.found.si = named->found.si;
+      match.found.unit_guessed = false;
+      break;
+    }
+    if (may_be_plain(match.found.si))
+      match.found.unit = with_multiple(column.name, match.found.unit, "");
   }
   return record(key, match);
 }
@@ -277,6 +311,7 @@ void ColumnRoles::pass_over(std::string_view role) {
 
 ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& match) {
   Found found = match.found;
+  refuse_other_dimension(file_, *found.column, *found.role);
   const std::string name_of_role(key.empty() ? found.role->name : std::string_view(key));
   used_.push_back(found.column);
   const std::string& name = found.column->name;
@@ -305,6 +340,11 @@ ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& matc
   if (found.unit_guessed)
     guesses.push_back(
         fmt::format("column '{}' has no unit in its heading; {} is a guess", name, found.unit));
+  if (may_be_plain(found.si) && would_be_millions(name, found.unit, *found.role, match.word))
+    guesses.push_back(fmt::format(
+        "column '{}': m is not read as a million; if it means one, write unit = \"1e6 cycles\" in "
+        "the study",
+        name));
   if (match.letter)
     guesses.push_back(fmt::format("column '{}': {} is read as {}", name,
                                   found.unit == "degC" ? "C" : "F", found.unit));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
 #include "wearwell/study/column_roles.h"
@@ -37,6 +38,59 @@ bool few_kinds(const Table& table, const Column& column) {
   return kinds > 0 && kinds <= most;
 }
 
+// What empty cells mean where only one reading fits the others, and why.
+struct EmptyCells {
+  Censoring seen;
+  const char* why;
+};
+
+std::optional<EmptyCells> empty_cells(const Table& table, const LifeStatus& status,
+                                      const Column* modes) {
+  std::size_t failures = 0, runouts = 0, empty = 0, with_mode = 0;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    if (cell_word(table.column(status.column), i).empty()) {
+      ++empty;
+      const std::string mode = modes ? cell_word(*modes, i) : "";
+      with_mode += !mode.empty() && !is_missing_mark(mode);
+      continue;
+    }
+    const Censoring seen = seen_in(table, status, i);
+    if (seen != Censoring::none && seen != Censoring::right) return {};
+    ++(seen == Censoring::none ? failures : runouts);
+  }
+  if (empty == 0) return {};
+  if (with_mode == empty) return EmptyCells{Censoring::none, "those rows have a failure mode"};
+  if (with_mode > 0) return {};
+  if (runouts == 0) return EmptyCells{Censoring::right, "all others are failures"};
+  if (failures == 0 && !modes) return EmptyCells{Censoring::none, "all others are run-outs"};
+  return {};
+}
+
+// The line of a study that names the column.
+struct StatusKeys {
+  std::string heading, keys, remark, guess;
+
+  // `stated` is the code of a failure as the user gave it.
+  StatusKeys(const Table& table, const LifeStatus& status, std::optional<int> stated,
+             const Column* modes)
+      : heading(toml_text(status.column)) {
+    if (stated) keys = fmt::format(", failure = {}", *stated);
+    if (!says_status(table, table.column(status.column), status.failure_code)) return;
+    const auto empty = empty_cells(table, status, modes);
+    if (!empty) return;
+    const bool failed = empty->seen == Censoring::none;
+    if (failed && stated) return;  // the key has no room for a word
+    keys += failed ? ", failure = \"\"" : ", runout = \"\"";
+    remark = fmt::format("    # GUESS: an empty cell is a {}", failed ? "failure" : "run-out");
+    guess = fmt::format("an empty cell of column '{}' is read as a {}: {}", status.column,
+                        failed ? "failure" : "run-out", empty->why);
+  }
+  std::string line() const {
+    return keys.empty() ? fmt::format("status = {}\n", heading)
+                        : fmt::format("status = {{ column = {}{} }}{}\n", heading, keys, remark);
+  }
+};
+
 }  // namespace
 
 const Column* ColumnRoles::status_column(bool of_lives) const {
@@ -61,16 +115,23 @@ const Column* ColumnRoles::status_column(bool of_lives) const {
 std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
   roles_.emplace("status");
   const Column* column = status_column(of_lives);
-  if (!column) return {};
+  if (!column || std::find(used_.begin(), used_.end(), column) != used_.end()) return {};
   used_.push_back(column);
-  const std::string plain = fmt::format("status = {}\n", toml_text(column->name));
   const std::vector<std::string> kinds = kinds_of(table_, *column);
-  if (!has_codes(table_, *column)) {
+  const bool codes = has_codes(table_, *column);
+  const std::optional<int> of_heading = failure_code_of(column->name);
+  const std::optional<int> failure = choices_.failure ? choices_.failure : of_heading;
+  const Column* modes = nullptr;  // of failure, which were taken before
+  for (const Column* each : used_)
+    if (chosen("mode") == each || match(*each, role_form("mode"), false)) modes = each;
+  StatusKeys keys(table_, {column->name, codes ? failure : std::nullopt},
+                  codes ? choices_.failure : std::nullopt, modes);
+  const std::string plain = keys.line();
+  if (!keys.guess.empty()) guesses.push_back(keys.guess);
+  if (!codes) {
     taken.push_back(fmt::format("status: column '{}' ({})", column->name, fmt::join(kinds, ", ")));
     return plain;
   }
-  const std::optional<int> of_heading = failure_code_of(column->name);
-  const std::optional<int> failure = choices_.failure ? choices_.failure : of_heading;
   const auto coded = [&](int code) {
     std::string failed, went_on;
     for (std::size_t i = 0; i < table_.rows; ++i) {
@@ -102,9 +163,7 @@ std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
   }
   taken.push_back(fmt::format("status: column '{}': {}: {}", column->name, coded(*failure),
                               choices_.failure ? "your choice" : "from the heading"));
-  if (!choices_.failure) return plain;
-  return fmt::format("status = {{ column = {}, failure = {} }}\n", toml_text(column->name),
-                     *failure);
+  return plain;
 }
 
 void ColumnRoles::refuse_status() {

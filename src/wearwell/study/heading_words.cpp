@@ -61,6 +61,54 @@ bool begins_word(std::string_view text, std::size_t i) {
   return i >= 2 && std::isupper(at(i)) && std::islower(at(i - 1)) && std::isalpha(at(i - 2));
 }
 
+// Words of letters and digits without accents, each between two blanks.
+std::string cased_words(std::string_view text) {
+  const std::string plain = without_accents(text);
+  std::string words = " ";
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const auto u = static_cast<unsigned char>(plain[i]);
+    if (std::isalnum(u) || u >= 0x80) {
+      if (begins_word(plain, i)) words += ' ';
+      words += plain[i];
+    } else if (words.back() != ' ') {
+      words += ' ';
+    }
+  }
+  return words.back() == ' ' ? words : words + ' ';
+}
+
+std::string lower_case(std::string text) {
+  for (char& each : text) each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+  return text;
+}
+
+std::vector<std::string> words_in(const std::string& words) {
+  std::istringstream parts(words);
+  std::vector<std::string> all;
+  for (std::string each; parts >> each;) all.push_back(each);
+  return all;
+}
+
+// A prefix before a count: "k" or "K", as users write it, but of millions "M" alone; "m" is milli, or begins another word.
+std::string multiple_of(const std::string& prefix) {
+  if (prefix == "k" || prefix == "K") return "1e3 ";
+  return prefix == "M" ? "1e6 " : "";
+}
+
+// Whether a word in lower case begins with the name of something counted; with `hours`, or with one that names a unit of time or of
+// distance that has no prefix.
+bool is_counting(const std::string& word, bool hours) {
+  static constexpr std::string_view counts[] = {
+      "cycle",     "stroke",       "closing", "revolution", "turns", "zykl",  "lastwechsel",
+      "lastspiel", "schwingspiel", "schalt",  "umdrehung",  "hube",  "takte", "ciclo",
+      "cicli",     "tours",        "vuelta",  "revolucion", "giri"};
+  static constexpr std::string_view units[] = {"hour",  "stunde", "betriebsstunde", "heure",
+                                               "horas", "miles",  "meilen"};
+  const auto begins = [&](std::string_view each) { return word.starts_with(each); };
+  return std::any_of(std::begin(counts), std::end(counts), begins) ||
+         (hours && std::any_of(std::begin(units), std::end(units), begins));
+}
+
 }  // namespace
 
 bool is_unit_of(const std::string& text, std::string_view si) {
@@ -135,46 +183,35 @@ std::string with_multiple(const std::string& heading, const std::string& unit,
     return "1e6 " + base;
   if (says({"thousand", "thousands", "tsd", "tausend", "milliers", "miles de"}))
     return "1e3 " + base;
-  // "cycles to failure" counts cycles.
-  std::vector<std::string> counted;
-  std::istringstream parts(plain_words(word));
-  for (std::string each; parts >> each;) counted.push_back(each);
-  const auto begins = [&](std::string_view each, std::size_t least) {
-    return std::any_of(counted.begin(), counted.end(), [&](const std::string& part) {
-      return part.size() >= least && each.starts_with(part);
-    });
+  // "cycles to failure" counts cycles; by its unit alone a column counts that.
+  const std::vector<std::string> counted =
+      words_in(plain_words(!word.empty() || unit == "1" ? word : std::string_view(unit)));
+  const auto is_named = [&](const std::string& each) {
+    return std::any_of(counted.begin(), counted.end(),
+                       [&](const std::string& part) { return each.starts_with(part); }) ||
+           (!unit.empty() && !counted.empty() && is_exactly(unit, each));
   };
-  const auto is_named = [&](std::string_view each) {
-    return begins(each, 1) || (!unit.empty() && !counted.empty() && is_exactly(unit, each));
-  };
-  std::istringstream all(words);
-  std::string before, each;
-  for (; all >> each; before = each) {
-    if ((each[0] == 'k' || each[0] == 'm') && begins(each.substr(1), 3))
-      return (each[0] == 'k' ? "1e3 " : "1e6 ") + base;
-    if (!is_named(each)) continue;
-    if (before == "k") return "1e3 " + base;
-    const bool power = before.starts_with('1') && before.size() > 2 &&
-                       before.find_first_not_of('0', 1) == before.npos;
-    if (power) return fmt::format("1e{} {}", before.size() - 1, base);
-    if (before.size() == 3 && before.starts_with("1e")) return before + " " + base;
+  std::string before;
+  for (const std::string& each : words_in(cased_words(heading))) {
+    if (const std::string attached = multiple_of(each.substr(0, 1));
+        !attached.empty() && is_counting(lower_case(each.substr(1)), each[0] != 'M'))
+      return attached + base;
+    if (is_named(lower_case(each))) {
+      const std::string apart = multiple_of(before);
+      if (!apart.empty() && (before != "M" || is_counting(lower_case(each), false)))
+        return apart + base;
+      const bool power = before.starts_with('1') && before.size() > 2 &&
+                         before.find_first_not_of('0', 1) == before.npos;
+      if (power) return fmt::format("1e{} {}", before.size() - 1, base);
+      if (before.size() == 3 && before.starts_with("1e")) return before + " " + base;
+    }
+    before = each;
   }
   return unit;
 }
 
 std::string plain_words(std::string_view text) {
-  const std::string plain = without_accents(text);
-  std::string words = " ";
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    const auto u = static_cast<unsigned char>(plain[i]);
-    if (std::isalnum(u) || u >= 0x80) {
-      if (begins_word(plain, i)) words += ' ';
-      words += static_cast<char>(std::tolower(u));
-    } else if (words.back() != ' ') {
-      words += ' ';
-    }
-  }
-  return words.back() == ' ' ? words : words + ' ';
+  return lower_case(cased_words(text));
 }
 
 bool is_called(const std::string& heading, std::string_view word) {

@@ -226,7 +226,7 @@ const std::vector<RoleForm>& role_forms() {
        {"V"},
        "V",
        Cells::numbers,
-       words("voltage | volt | spannung | tension | tensión | voltaje"),
+       words("voltage | kv = kV | volt | spannung | tension | tensión | voltaje"),
        1e-9,
        any},
       {"speed",

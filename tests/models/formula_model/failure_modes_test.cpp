@@ -422,6 +422,23 @@ TEST_F(FailureModesTest, CellsAreReadAsModes) {
   EXPECT_EQ(own->joint.size(), 3u);
 }
 
+// Without a status column the study states what an empty cell is.
+TEST_F(FailureModesTest, EmptyCellsAsTheStudyStates) {
+  const auto possible = [&](const std::string& words) {
+    return model("life,mode\n1,a\n2,\n3,b\n",
+                 "[data.columns]\nlife = { column = \"life\", unit = \"1\" }\nmode = \"mode\"\n"
+                 "[failure_modes]\ncolumn = \"mode\"\n" +
+                     words +
+                     "[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta[mode]\"\n"
+                     "shape = \"beta\"\n" +
+                     flat("eta beta"))
+        ->modes->possible;
+  };
+  EXPECT_EQ(possible("runout = \"\"\n"), (std::vector<std::uint32_t>{1, 0, 2}));
+  EXPECT_EQ(possible("unknown = \"\"\n"), (std::vector<std::uint32_t>{1, 3, 2}));
+  EXPECT_THROW(possible("runout = \"\"\nunknown = \"\"\n"), InputError);
+}
+
 // A line of [formula] that depends on the mode has a copy for each.
 TEST_F(FailureModesTest, DriversAreSharedOrSeparate) {
   const std::string table = "life,stress,mode\n100,2,a\n50,4,b\n70,3,a\n200,1,runout\n";

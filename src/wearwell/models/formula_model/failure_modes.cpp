@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/cell_text.h"
@@ -39,7 +40,8 @@ class ModeCells {
   };
   Named named(std::size_t i) const {
     const std::string text = word(i);
-    const bool none = text.empty(), unknown = !none && words_.means_unknown(text);
+    const bool none = text.empty(),
+               unknown = none ? contains(words_.unknown, "") : words_.means_unknown(text);
     if (of_returns_) {
       if (all_.responses[i].seen == Censoring::right) return {true};
       return none ? Named{} : Named{false, parts(i, text)};

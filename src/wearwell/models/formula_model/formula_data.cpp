@@ -31,12 +31,15 @@ auto find(const Columns& columns, const std::string& name) {
   return at == columns.end() ? nullptr : &*at;
 }
 
-LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
+// `status`: of that column, in which an empty cell can have a meaning.
+LabelColumn read_labels(const Table& table, const std::string& name, const Column& column,
+                        const LifeStatus* status) {
   LabelColumn result{name, column.name, {}, {}};
   std::unordered_map<std::string, int> known;
   for (std::size_t i = 0; i < table.rows; ++i) {
     check_stop();
-    std::string text = label_word(table, column, i);
+    std::string text = status ? cell_word(column, i) : label_word(table, column, i);
+    if (text.empty()) static_cast<void>(seen_in(table, *status, i));  // refuses others
     const auto [at, is_new] = known.try_emplace(text, static_cast<int>(result.levels.size()));
     result.at.push_back(at->second);
     if (is_new) result.levels.push_back(std::move(text));
@@ -400,7 +403,9 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
     }
     const bool words = is_text(*column) || (name == "status" && !column->is_number);
     if (is_label(name) || (!unit && words)) {
-      data.labels.push_back(read_labels(data.table, name, *column));
+      const bool is_status = name == "status" && data.status;
+      data.labels.push_back(
+          read_labels(data.table, name, *column, is_status ? &*data.status : nullptr));
     } else {
       if (!unit) {
         unit = written_unit(data.table, *column, name);

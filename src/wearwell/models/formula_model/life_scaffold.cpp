@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "wearwell/input/prior.h"
-#include "wearwell/input/status_words.h"
-#include "wearwell/models/formula_model/failure_modes.h"
+#include "wearwell/models/formula_model/life_columns.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
+#include "wearwell/models/formula_model/step_columns.h"
 #include "wearwell/study/column_values.h"
 
 namespace wearwell::formula_model {
@@ -28,6 +28,7 @@ struct Lives {
   bool stated = false;     ///< text or a status marks these as lives
   bool modes = false;      ///< with a column of failure modes
   std::string runout;      ///< a line of [failure_modes]
+  std::string steps;       ///< the name of the specimens of a step-stress test
 };
 
 bool is_interval(const ColumnRoles& roles) {
@@ -61,41 +62,26 @@ bool is_path(const ColumnRoles& roles) {
          (has_units(roles) && !roles.has({"life"}));
 }
 
-// Failure modes differ from row to row; one word in all rows says nothing.
-bool has_modes(const ColumnRoles& roles) {
-  const auto mode = roles.find({"mode"});
-  if (!mode) return false;
-  const std::size_t kinds = kinds_of(roles.table(), *mode->column).size();
-  return kinds >= 2 && kinds <= FailureModes::most + 1;
+void note_repeated_units(ColumnRoles& roles) {
+  const auto unit = roles.find({"unit"});
+  if (!unit || kinds_of(roles.table(), *unit->column).size() == roles.table().rows) return;
+  roles.guesses.emplace_back(
+      "several rows are of one unit: each is taken for the life of a part of its own. If rows are "
+      "ages at which one unit failed and was repaired, the model is \"repairable\" "
+      "(docs/reference/repairable.md)");
 }
 
-void take_modes(ColumnRoles& roles, Lives& lives) {
-  if (!has_modes(roles)) return;
-  lives.columns += ColumnRoles::line("mode", *roles.take("mode", {"mode"}));
+std::string take_modes(ColumnRoles& roles, Lives& lives) {
+  if (!lives.steps.empty() || !has_modes(roles)) return "";
   lives.modes = true;
   lives.stated = true;
+  return ColumnRoles::line("mode", *roles.take("mode", {"mode"}));
 }
 
-// Without a status column a word of the mode column marks run-outs: a long one is known, a short one can be a mode.
-void take_runouts_of_modes(ColumnRoles& roles, const Column& column, Lives& lives) {
-  std::vector<std::string> possible;
-  bool known = false;
-  for (const std::string& kind : kinds_of(roles.table(), column)) {
-    if (censoring_by_word(kind) != Censoring::right && kind != "0") continue;
-    known |= folded_word(kind).size() >= shortest_runout_word;
-    possible.push_back("'" + kind + "'");
-  }
-  if (known || possible.empty()) return;
-  lives.runout = roles.unstated_line(
-      "runout",
-      fmt::format(
-          "the word of column '{}' that marks parts that did not fail ({} can be it, or a mode)",
-          column.name, fmt::join(possible, ", ")),
-      "censored");
-}
-
-std::optional<Lives> take_lives(ColumnRoles& roles) {
+std::optional<Lives> take_lives(ColumnRoles& roles, const std::string& steps = "") {
   Lives lives;
+  lives.steps = steps;
+  const std::string count = take_count(roles);
   if (is_interval(roles)) {
     const Found lower = *roles.take("lower", {"lower"}), upper = *roles.take("upper", {"upper"});
     Found a = lower, b = upper;
@@ -132,18 +118,18 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
           "column '{}' has no unit: a life is a plain number, such as cycles", life->column->name));
   }
   const auto mode = roles.find({"mode"});
-  take_modes(roles, lives);
+  lives.columns += take_modes(roles, lives);
   if (const auto status = roles.take_status(true)) {
     lives.columns += *status;
     lives.stated = true;
   } else if (lives.modes) {
-    take_runouts_of_modes(roles, *mode->column, lives);
+    if (!lives.open_ends && lives.columns.starts_with("life"))
+      lives.runout = runouts_of_modes(roles, *mode->column);
   } else if (!lives.open_ends && lives.columns.starts_with("life")) {
     roles.guesses.emplace_back(
         "no column tells which parts were stopped unbroken: all count as failures");
   }
-  if (const auto count = roles.take("count", {"count"}))
-    lives.columns += ColumnRoles::line("count", *count);
+  lives.columns += count;
   if (const auto entry = roles.take("entry", {"entry"})) {
     Found since = *entry;
     if (since.unit == "1") since.unit = lives.unit;
@@ -163,6 +149,16 @@ constexpr const char* family =
     "docs/how-to/subpopulations.md\n";
 
 std::string likelihood(const Lives& lives, const std::string& scale) {
+  if (!lives.steps.empty())
+    return fmt::format(
+        "[likelihood.life]\n"
+        "family = \"weibull\"                       # or lognormal, loglogistic, gamma "
+        "(docs/reference/life.md)\n"
+        "scale  = \"{}\"                # 63.2 % have failed by then, under one stress\n"
+        "shape  = \"slope\"\n"
+        "steps  = \"{}\"    # a row is a step of this specimen, with the age at its end "
+        "(cumulative exposure)\n",
+        scale, lives.steps);
   if (!lives.modes) return family;
   return "[failure_modes]\n"
          "column = \"mode\"                         # competing risks: a part fails by the mode "
@@ -212,13 +208,7 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
   const std::size_t differing = roles.other_numbers().size();
   const auto lives = take_lives(roles);
   if (!lives) return {};
-  const auto unit = roles.find({"unit"});
-  if (unit && kinds_of(roles.table(), *unit->column).size() < roles.table().rows)
-    roles.guesses.emplace_back(
-        "several rows are of one unit: each is taken for the life of a part of its own. If they "
-        "are "
-        "ages at which one unit failed and was repaired, the model is \"repairable\" "
-        "(docs/reference/repairable.md)");
+  note_repeated_units(roles);
   roles.pass_over("unit");
   const std::size_t more = roles.other_numbers().size();
   if (!lives->stated && (more > 0 || differing == 0)) return {};
@@ -248,7 +238,9 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
 }
 
 std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
-  if (is_path(roles)) return {};
+  const Column* const specimen = specimens_of_steps(
+      roles, {"temperature", "force", "pressure", "voltage", "alternating_stress"});
+  if (!specimen && is_path(roles)) return {};
   const bool counted = [&] {
     const auto life = roles.find({"life", "cycles"});
     return life && life->si == "cycle";
@@ -258,12 +250,13 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
   std::vector<std::string_view> powers;
   for (const std::string_view each : stresses) {
     const auto found = roles.find({each});
-    if (found && found->si == "Pa" && each == "alternating_stress" && counted) return {};  // S-N
+    if (found && found->si == "Pa" && each == "alternating_stress" && counted && !specimen)
+      return {};  // S-N
     if (found && differs(roles.table(), *found->column)) powers.push_back(each);
   }
   if (!by_temperature && powers.empty()) return {};
   std::string columns, constants, given, priors;
-  const std::string each = has_modes(roles) ? "[mode]" : "";
+  const std::string each = !specimen && has_modes(roles) ? "[mode]" : "";
   std::string formula = "life_ref" + each;
   std::vector<std::string> said;
   if (by_temperature) {
@@ -303,7 +296,16 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
         name);
     said.push_back("a power of " + name);
   }
-  const auto lives = take_lives(roles);
+  const std::string steps = specimen ? name_of(*specimen, "specimen") : "";
+  if (specimen) {
+    columns += fmt::format("{} = {}\n", steps, toml_text(specimen->name));
+    roles.take_column(steps, *specimen, role_form("unit"));
+    roles.guesses.emplace_back(
+        "the rows of one specimen are the steps of its test, each with the age at its end");
+  } else {
+    note_repeated_units(roles);
+  }
+  const auto lives = take_lives(roles, steps);
   if (!lives || !lives->stated) return {};
   roles.pass_over("unit");
   const std::string how = fmt::format("{}", fmt::join(said, " and "));
@@ -311,7 +313,8 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
       "predictions are for the mildest conditions tested; state the conditions of use in [predict] "
       "given");
   return roles.study(
-      "lives under several conditions: " + how, ReadingFit::specific,
+      (specimen ? "step-stress test: " : "lives under several conditions: ") + how,
+      ReadingFit::specific,
       head(roles, "Lives under conditions") + lives->columns + columns + "\n[constants]\n" +
           constants +
           "\n"

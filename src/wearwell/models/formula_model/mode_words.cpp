@@ -19,18 +19,22 @@ bool ModeWords::means_unknown(const std::string& text) const {
 }
 
 bool ModeWords::means_runout(const std::string& text) const {
-  if (text.empty()) return false;
   const std::string word = folded_word(text);
   if (!runout.empty()) return contains(runout, word);
+  if (text.empty()) return false;
   return censoring_by_word(text) == Censoring::right && word.size() >= shortest_runout_word;
 }
 
+// An empty word stands for empty cells.
 ModeWords read_mode_words(const TomlReader& failure_modes) {
   ModeWords words;
   for (const std::string& each : failure_modes.texts("runout"))
     words.runout.push_back(folded_word(each));
   for (const std::string& each : failure_modes.texts("unknown"))
     words.unknown.push_back(folded_word(each));
+  for (const std::string& each : words.unknown)
+    if (contains(words.runout, each))
+      failure_modes.fail("unknown", fmt::format("'{}' is a word of runout, too", each));
   return words;
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/prognosis/named_life.h"
+
+namespace wearwell::prognosis {
+
+/// The named lives of a study that has some; else throws InputError that begins with `title` and says what can be done instead.
+std::vector<NamedLife> required_lives(const PosteriorStudy& study, const std::string& title);
+
+}  // namespace wearwell::prognosis
