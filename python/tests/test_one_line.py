@@ -2,6 +2,7 @@
 
 import copy
 import functools
+import json
 import os
 import pickle
 import tomllib
@@ -567,3 +568,13 @@ def test_cells_of_events_and_lives():
     said = refusal(ww.life, fleet.assign(hours=[-5.0] + [100.0] * 9), "hours", event="failed")
     assert said == "data, row 1, column 'hours': -5 must be positive for the weibull family"
     assert "bool" in refusal(ww.life, fleet.assign(failed=[True, "x"] * 5), "hours", event="failed")
+
+
+def test_parameters_and_default_priors_are_those_of_the_r_package():
+    """tests/golden/life_families.json is what both make of the same nine lives; r/tests/testthat/test-life.R reads it too."""
+    pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+    with open(os.path.join(source, "tests", "golden", "life_families.json")) as file:
+        expected = json.load(file)
+    for family, of in expected.items():
+        study = tomllib.loads(made(ww.life, pumps, "hours", event="failed", family=family, units={"hours": "h"}).toml)
+        assert study["likelihood"]["hours"] == of["likelihood"] and study["prior"] == of["prior"], family

@@ -1,22 +1,43 @@
 # Lives in one line: a formula model with the priors of `wearwell new`.
 
-# Of a family: its parameters, the location first, by the names of the study's parameters.
-life_families <- list(
-  weibull = c(scale = "eta", shape = "shape"),
-  lognormal = c(median = "median", log_sd = "sigma"),
-  loglogistic = c(scale = "median", shape = "shape"),
-  exponential = c(mean = "mean"),
-  gamma = c(scale = "scale", shape = "shape"),
-  `inverse-gaussian` = c(mean = "mean", shape = "shape"),
-  `birnbaum-saunders` = c(scale = "median", shape = "shape"),
-  `generalized-gamma` = c(scale = "scale", sigma = "sigma", lambda = "lambda"))
+# The spread of ln life, pi/sqrt(6)/slope of a Weibull life, under the default prior of its slope.
+spread <- 0.86
+of_spread <- function(median = spread, log_sd = 0.7) list(distribution = "lognormal", median = round(median, 2), log_sd = log_sd)
 
-# Weak priors from the size of the data.
-life_prior <- function(family, slot, largest, unit) {
-  if (slot == names(life_families[[family]])[1] || (family == "inverse-gaussian" && slot == "shape")) {
-    return(ww_lognormal(quantity_text(rounded_up(largest), unit), log_sd = 2))
-  }
-  switch(slot, shape = ww_lognormal(1.5, log_sd = 0.7), log_sd = , sigma = ww_half_normal(2), lambda = ww_normal(0, 1.5))
+# Of a family: the parameter that conditions multiply, what [likelihood] has of it ("{}"), and the parameters of its shape with their default
+# priors. Names and priors are those of ww.life in Python.
+life_families <- list(
+  weibull = list(location = "characteristic", slots = list(scale = "{}", shape = "slope"),
+                 shapes = list(slope = list(distribution = "lognormal", median = 1.5, log_sd = 0.7))),
+  lognormal = list(location = "median_life", slots = list(median = "{}", log_sd = "sigma"), shapes = list(sigma = of_spread())),
+  loglogistic = list(location = "median_life", slots = list(scale = "{}", shape = "shape"), shapes = list(shape = of_spread(1.8138 / spread))),
+  exponential = list(location = "mean_life", slots = list(mean = "{}"), shapes = list()),
+  gamma = list(location = "mean_life", slots = list(scale = "{}/shape", shape = "shape"), shapes = list(shape = of_spread(1.8, 1.2))),
+  `inverse-gaussian` = list(location = "mean_life", slots = list(mean = "{}", shape = "{}/variation^2"), shapes = list(variation = of_spread())),
+  `birnbaum-saunders` = list(location = "median_life", slots = list(scale = "{}", shape = "alpha"), shapes = list(alpha = of_spread())),
+  `generalized-gamma` = list(location = "scale", slots = list(scale = "{}", sigma = "sigma", lambda = "lambda"),
+                             shapes = list(sigma = of_spread(), lambda = list(distribution = "normal", mean = 0, sd = 1.5))))
+
+# Earlier names of parameters.
+called_before <- list(eta = "characteristic", shape = c("slope", "alpha"), median = "median_life", mean = "mean_life", exponent = "power",
+                      scale = "step_ratio")
+
+parameters_of_family <- function(family) c(life_families[[family]]$location, names(life_families[[family]]$shapes))
+
+# Weak priors from the size of the data: `size`, of the location.
+life_priors <- function(family, size, unit) {
+  own <- life_families[[family]]
+  c(stats::setNames(list(ww_lognormal(quantity_text(rounded_up(size), unit), log_sd = 2)), own$location), own$shapes)
+}
+
+# [likelihood] of a family: `middle` is an expression of its location, `index` "[group]" if shapes differ.
+life_slots <- function(family, middle, index = "") {
+  own <- life_families[[family]]
+  slots <- lapply(own$slots, function(text) {
+    for (name in names(own$shapes)) text <- sub(paste0("\\b", name, "\\b"), paste0(name, index), text)
+    sub("{}", middle, text, fixed = TRUE)
+  })
+  c(list(family = family), slots)
 }
 
 ww_life <- function(x, ...) UseMethod("ww_life")
@@ -60,8 +81,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
   if (!length(columns) || length(columns[[1]]$values) == 0) stop_input("data has no rows")
-  parameters <- life_families[[family]]
-  location <- parameters[[1]]
+  parameters <- parameters_of_family(family)
+  location <- parameters[1]
   reader <- list(x = x, location = location, by = by, mode = mode, stress = stress_laws(stress), units = units, weights = weights, unused = unused)
   read <- read_lives(reader, columns)
   study <- read$columns
@@ -73,9 +94,9 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   index <- if (!is.null(c(by$name, modes$name))) paste0("[", c(by$name, modes$name), "]") else ""
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
-  likelihood <- c(list(family = family), stats::setNames(as.list(c(middle, paste0(parameters[-1], if (has_own_shapes(shape, by, modes)) index)[seq_along(parameters[-1])])), names(parameters)))
+  likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes)) index else "")
   largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
-  proposed <- stats::setNames(lapply(names(parameters), function(slot) life_prior(family, slot, largest, lives$unit)), parameters)
+  proposed <- life_priors(family, largest, lives$unit)
   proposed <- c(proposed, effects$priors, effect$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(
@@ -254,10 +275,13 @@ flat_of <- function(default) {
 }
 
 checked_priors <- function(own, known) {
-  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(shape = ww_lognormal(2, log_sd = 0.5)), or \"flat\"")
+  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(slope = ww_lognormal(2, log_sd = 0.5)), or \"flat\"")
   for (name in names(own)) {
     if (!is.list(own[[name]])) stop_input("priors: ", name, " is ", kind_of(own[[name]]), "; ww_lognormal(...) and its like make one")
-    if (!is.null(known) && !sub("[[].*", "", name) %in% known) {
+    base <- sub("[[].*", "", name)
+    if (!is.null(known) && !base %in% known) {
+      now <- intersect(called_before[[base]], known)
+      if (length(now)) stop_input("priors: '", name, "' is called '", now[1], "'")
       stop_input("priors: the model has no parameter '", name, "' (parameters: ", words(known), ")")
     }
   }

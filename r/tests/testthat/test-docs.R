@@ -30,7 +30,7 @@ test_that("every block of the reference runs", {
 test_that("the page for users of survival compares both", {  # in its blocks
   skip_if_not_installed("survival")
   space <- run_blocks("how-to", "coming-from-survival.md")
-  expect_match(space$study$text, "eta = { distribution = \"lognormal\", log_sd = \"eta_scatter\" }", fixed = TRUE)
+  expect_match(space$study$text, "characteristic = { distribution = \"lognormal\", log_sd = \"characteristic_scatter\" }", fixed = TRUE)
 })
 
 test_that("the page for users of brms agrees with a published fit of brms", {  # in its blocks

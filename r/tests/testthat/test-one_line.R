@@ -14,9 +14,9 @@ test_that("degradation is a formula study with a rate of each unit", {
   text <- function(...) ww_degradation(..., data = wear, fit = FALSE)$text
   expect_match(text(depth ~ km | machine, limit = "100 um", units = units), "limit = { path = \"100 um\" }", fixed = TRUE)
   expect_match(text(depth ~ km, unit = "machine"), "[random_effects.machine]", fixed = TRUE)
-  expect_match(text(depth ~ km | machine, path = "power"), "path = \"rate * 50 * (km/50)^exponent\"", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, path = "power"), "path = \"rate * 50 * (km/50)^power\"", fixed = TRUE)
   expect_match(text(depth ~ km | machine, start = TRUE), "start = { distribution = \"normal\", sd = \"start_scatter\" }", fixed = TRUE)
-  expect_match(text(depth ~ km | machine, family = "gamma-process"), "family = \"gamma-process\"\nmean = \"rate * km\"\nscale = \"scale\"", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, family = "gamma-process"), "family = \"gamma-process\"\nmean = \"rate * km\"\nscale = \"step_ratio\"", fixed = TRUE)
   expect_identical(ww_degradation(wear, "depth", "km", unit = "machine", fit = FALSE)$text, text(depth ~ km | machine))
   refused(text(depth ~ km | mashine), "unit: data has no column 'mashine'")
   refused(text(-depth ~ km | machine), "the readings do not rise along the axis")
