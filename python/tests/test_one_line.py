@@ -475,6 +475,25 @@ def test_other_columns_are_no_counts(column):
     assert not warned(ww.life, fleet.assign(n=column), "hours", **in_hours)
 
 
+def test_presets_name_columns_that_they_do_not_use():
+    tests = {"S [MPa]": [300, 315, 330, 315, 300, 315, 300, 285, 300, 315], "broke": [0, 0, 1, 1, 0, 1, 1, 0, 0, 1], "n": [1, 2] * 5}
+    of_counts = ["column 'n' looks like a number of equal rows and is not used: write count=\"n\", or unused=\"n\" if it says something else"]
+    assert warned(ww.staircase, tests, "S", "broke") == of_counts
+    assert not warned(ww.staircase, tests, "S", "broke", unused="n") and not warned(ww.staircase, tests, "S", "broke", count="n")
+    looks = {"cycles": [1, 100, 1000, 5000], "V": [1.59, 2.57, 8.10, 24.48], "joint": ["A", "A", "B", "B"], "n": [1, 2, 1, 2]}
+    joint = dict(work_per_cycle="5.966 N m", units={"V": "mm^3"})
+    assert warned(ww.joint, looks, "V", "cycles", **joint) == [*of_counts, (
+        "column 'joint' looks like a label of units with several rows each and is not used, so all rows count as those of one joint: write "
+        "wearwell.degradation(..., unit=\"joint\"), whose rate differs from unit to unit, or unused=\"joint\" if that is so")]
+    assert not warned(ww.joint, looks, "V", "cycles", unused=["n", "joint"], **joint)
+    inspections = table_of("bearing/inspections.csv")
+    bearing = dict(contact="stationary", radius="10 mm", clearance="25 um", revolutions="revolutions", pressure="1 MPa", units={"depth_um": "um"})
+    assert warned(ww.bearing, inspections, "depth_um", **bearing) == [
+        "column 'bearing' looks like a label of units with several rows each and is not used, so all rows count as independent: write "
+        "unit=\"bearing\", or unused=\"bearing\" if that is so"]
+    assert not warned(ww.bearing, inspections, "depth_um", unit="bearing", **bearing)
+
+
 @pytest.mark.parametrize("name", ["unit", "machine", "Serial", "id", "machine_id", "serial number"])
 def test_units_that_are_not_used_are_named(name):
     repeated = fleet.assign(**{name: list("AABBCCDDEE")})

@@ -85,3 +85,25 @@ test_that("level takes the place of the default confidence", {
   expect_identical(level_of(ww_degradation(depth ~ km | machine, wear, limit = "100 um", units = c(depth = "um", km = "km"),
                                            predict = list(level = 0.95), fit = FALSE)), 0.95)
 })
+
+test_that("presets name columns that they do not use", {
+  said <- function(code) {
+    found <- character()
+    withCallingHandlers(code, wearwell_column_warning = function(w) {
+      found <<- c(found, conditionMessage(w))
+      invokeRestart("muffleWarning")
+    })
+    found
+  }
+  looks <- data.frame(cycles = c(1, 100, 1000, 5000), V = c(1.59, 2.57, 8.10, 24.48), joint = c("A", "A", "B", "B"))
+  joint <- function(...) ww_joint(looks, "V", "cycles", work_per_cycle = "5.966 N m", units = c(V = "mm^3"), fit = FALSE, ...)
+  expect_identical(said(joint()), paste0(
+    "column 'joint' looks like a label of units with several rows each and is not used, so all rows count as those of one joint: write ",
+    "ww_degradation(..., unit = \"joint\"), whose rate differs from unit to unit, or unused = \"joint\" if that is so"))
+  expect_length(said(joint(unused = "joint")), 0)
+  worn <- read.csv(example("bearing", "inspections.csv"))
+  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", contact = "stationary", radius = "10 mm", clearance = "25 um",
+                                      pressure = "1 MPa", units = c(depth_um = "um"), fit = FALSE, ...)
+  expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write bearing = \"bearing\", or unused = \"bearing\" if that is so")
+  expect_length(said(bearing(bearing = "bearing")), 0)
+})
