@@ -38,7 +38,7 @@ test_that("the page for users of brms agrees with a published fit of brms", {  #
   space <- run_blocks("how-to", "coming-from-brms.md")
   expect_match(space$between$text, "lower", fixed = TRUE)
   expect_match(space$late$text, "entry", fixed = TRUE)
-  expect_match(space$study$text, "shape = { distribution = \"gamma\", shape = 4, scale = 0.5 }", fixed = TRUE)
+  expect_match(space$study$text, "slope = { distribution = \"gamma\", shape = 4, scale = 0.5 }", fixed = TRUE)
 })
 
 test_that("the page for users of WeibullR compares with survival", {
