@@ -29,7 +29,7 @@ def table_of(path):
 
 @functools.lru_cache(maxsize=None)
 def _fitted(function, arguments, options):
-    data = {"pumps": pumps, "bearings": table_of("life/bearings.csv"), "devices": table_of("accelerated/device_a.csv"), "wear": wear}
+    data = {"pumps": pumps, "counts": pd.DataFrame({"hours": [300, 500, 700], "failed": [1, 1, 0], "count": [4, 6, 20]}), "bearings": table_of("life/bearings.csv"), "devices": table_of("accelerated/device_a.csv"), "wear": wear}
     name, *rest = arguments
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
@@ -59,6 +59,8 @@ tasks = {
     "exponential": ("pumps", "hours", {"event": "failed", "family": "exponential"}),
     "interval": ("pumps", ("last_ok", "first_failed"), {"unused": "failed"}),
     "entry": ("pumps", "hours", {"event": "failed", "entry": "since"}),
+    "counts": ("counts", "hours", {"event": "failed", "count": "count"}),
+    "groups": ("pumps", "hours", {"event": "failed", "by": "supplier"}),
     "arrhenius": ("devices", "hours", {"event": "status", "count": "count", "family": "lognormal", "stress": {"temperature_C": "arrhenius"},
                                        "units": {"temperature_C": "degC"}}),
 }
