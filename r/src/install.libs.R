@@ -2,5 +2,5 @@
 build <- Sys.getenv("WEARWELL_BUILD", readLines("build.txt"))
 libs <- file.path(R_PACKAGE_DIR, paste0("libs", R_ARCH))
 dir.create(libs, recursive = TRUE, showWarnings = FALSE)
-status <- system2("cmake", c("--install", shQuote(build), "--component", "r", "--strip", "--prefix", shQuote(libs)), stdout = FALSE)
+status <- system2("cmake", c("--install", shQuote(build), "--component", "r", "--prefix", shQuote(libs)), stdout = FALSE)
 if (status != 0) stop("cmake --install ", build, " ends with ", status)
