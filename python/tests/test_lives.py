@@ -251,8 +251,17 @@ def test_weibull_lives_given_that_they_were_reached():
         assert (outlasts(60 + value).mean() / outlasts(60).mean()) == pytest.approx(1 - p, abs=0.01)
     with pytest.raises(ValueError, match="survived is 60 without a unit, and life is in '1e6 cycles'"):
         life.life(survived=60)
-    with pytest.raises(ValueError, match="a new item survives to"):
-        life.life(survived="900e6 cycles")
+    # Where the library determines no life, the number is NaN or refused, never infinite; a little earlier it is determined.
+    for place, determined in (("250e6 cycles", True), ("280e6 cycles", False), ("900e6 cycles", False)):
+        later = life.ask({"survived": place})["quantities"]
+        assert [each.get("undetermined", False) for each in later if "remaining" in each["name"]] == 3 * [not determined], place
+        for ask in (life.life, life.conditional):
+            if determined:
+                assert np.isfinite(ask(survived=place)["q50"]).all()
+                continue
+            with pytest.raises(ValueError, match=f"survived: a new item survives to {place} with a probability of 0?.?[0-9e.-]+ %; lives from "
+                                                 "there on need at least 0.1 %"):
+                ask(survived=place)
 
 
 def test_studies_of_other_models_are_refused_in_words():

@@ -2,6 +2,7 @@
 
 import copy
 import functools
+import json
 import os
 import pickle
 import tomllib
@@ -28,7 +29,7 @@ def table_of(path):
 
 @functools.lru_cache(maxsize=None)
 def _fitted(function, arguments, options):
-    data = {"pumps": pumps, "bearings": table_of("life/bearings.csv"), "devices": table_of("accelerated/device_a.csv"), "wear": wear}
+    data = {"pumps": pumps, "counts": pd.DataFrame({"hours": [300, 500, 700], "failed": [1, 1, 0], "count": [4, 6, 20]}), "bearings": table_of("life/bearings.csv"), "devices": table_of("accelerated/device_a.csv"), "wear": wear}
     name, *rest = arguments
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
@@ -58,6 +59,8 @@ tasks = {
     "exponential": ("pumps", "hours", {"event": "failed", "family": "exponential"}),
     "interval": ("pumps", ("last_ok", "first_failed"), {"unused": "failed"}),
     "entry": ("pumps", "hours", {"event": "failed", "entry": "since"}),
+    "counts": ("counts", "hours", {"event": "failed", "count": "count"}),
+    "groups": ("pumps", "hours", {"event": "failed", "by": "supplier"}),
     "arrhenius": ("devices", "hours", {"event": "status", "count": "count", "family": "lognormal", "stress": {"temperature_C": "arrhenius"},
                                        "units": {"temperature_C": "degC"}}),
 }
@@ -474,6 +477,25 @@ def test_other_columns_are_no_counts(column):
     assert not warned(ww.life, fleet.assign(n=column), "hours", **in_hours)
 
 
+def test_presets_name_columns_that_they_do_not_use():
+    tests = {"S [MPa]": [300, 315, 330, 315, 300, 315, 300, 285, 300, 315], "broke": [0, 0, 1, 1, 0, 1, 1, 0, 0, 1], "n": [1, 2] * 5}
+    of_counts = ["column 'n' looks like a number of equal rows and is not used: write count=\"n\", or unused=\"n\" if it says something else"]
+    assert warned(ww.staircase, tests, "S", "broke") == of_counts
+    assert not warned(ww.staircase, tests, "S", "broke", unused="n") and not warned(ww.staircase, tests, "S", "broke", count="n")
+    looks = {"cycles": [1, 100, 1000, 5000], "V": [1.59, 2.57, 8.10, 24.48], "joint": ["A", "A", "B", "B"], "n": [1, 2, 1, 2]}
+    joint = dict(work_per_cycle="5.966 N m", units={"V": "mm^3"})
+    assert warned(ww.joint, looks, "V", "cycles", **joint) == [*of_counts, (
+        "column 'joint' looks like a label of units with several rows each and is not used, so all rows count as those of one joint: write "
+        "wearwell.degradation(..., unit=\"joint\"), whose rate differs from unit to unit, or unused=\"joint\" if that is so")]
+    assert not warned(ww.joint, looks, "V", "cycles", unused=["n", "joint"], **joint)
+    inspections = table_of("bearing/inspections.csv")
+    bearing = dict(contact="stationary", radius="10 mm", clearance="25 um", revolutions="revolutions", pressure="1 MPa", units={"depth_um": "um"})
+    assert warned(ww.bearing, inspections, "depth_um", **bearing) == [
+        "column 'bearing' looks like a label of units with several rows each and is not used, so all rows count as independent: write "
+        "unit=\"bearing\", or unused=\"bearing\" if that is so"]
+    assert not warned(ww.bearing, inspections, "depth_um", unit="bearing", **bearing)
+
+
 @pytest.mark.parametrize("name", ["unit", "machine", "Serial", "id", "machine_id", "serial number"])
 def test_units_that_are_not_used_are_named(name):
     repeated = fleet.assign(**{name: list("AABBCCDDEE")})
@@ -567,3 +589,13 @@ def test_cells_of_events_and_lives():
     said = refusal(ww.life, fleet.assign(hours=[-5.0] + [100.0] * 9), "hours", event="failed")
     assert said == "data, row 1, column 'hours': -5 must be positive for the weibull family"
     assert "bool" in refusal(ww.life, fleet.assign(failed=[True, "x"] * 5), "hours", event="failed")
+
+
+def test_parameters_and_default_priors_are_those_of_the_r_package():
+    """tests/golden/life_families.json is what both make of the same nine lives; r/tests/testthat/test-life.R reads it too."""
+    pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
+    with open(os.path.join(source, "tests", "golden", "life_families.json")) as file:
+        expected = json.load(file)
+    for family, of in expected.items():
+        study = tomllib.loads(made(ww.life, pumps, "hours", event="failed", family=family, units={"hours": "h"}).toml)
+        assert study["likelihood"]["hours"] == of["likelihood"] and study["prior"] == of["prior"], family

@@ -1,23 +1,43 @@
 """Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.
 
+A table goes in, a fit comes out, and ``help`` of each name has its arguments and examples: ``help(wearwell.life)``.
+
 One line for a table, with default priors that ``fit.study.toml`` states:
 
 ======================  ======================================================================================
-``life``                lives, censored or not: a distribution, by group, under stress
+``life``                lives, censored or not: a distribution, by group, under stress, failure modes
 ``degradation``         paths of wear or of another loss to a failure threshold, unit by unit
 ``sn``, ``staircase``   S-N curves with run-outs; fatigue limits of up-and-down tests
 ``joint``, ``bearing``  wear coefficients of joints and of journal bearings from inspections
 ``clutch``              the wear model of a dry clutch from a campaign
 ``repairable``          failures of units that are repaired: power law, renewal, phases of a growth test
 ``returns``             warranty returns: a returns triangle, or units with their dates
+``Study``, ``fit``      your own formula, data and priors; a study file of the program
 ======================  ======================================================================================
 
-All lead to a ``Fit``: ``trusted`` and ``checks``, ``summary``, ``lives``, ``plot("life")``, ``predict``, ``percentile``,
-``survival_function``, ``report``. ``Study`` makes a study of your own formula, data and priors, and ``fit`` fits it or a
-study file. ``compare`` ranks fits, ``select`` finds the terms of a regression, ``rainflow`` and ``spectrum`` count cycles,
-``damage`` sums their damage along an S-N curve, ``design`` finds design curves, ``plan`` plans tests, ``decide``
-replacements; ``update`` adds rows to a fit, ``track`` follows one unit by its readings, ``backtest`` checks forecasts, ``export_c`` and
-``export_sql`` write a formula as code, ``Monitor`` asks a running monitor; ``bearing`` and ``clutch`` have the formulas of these parts too. Numbers are those of the program ``wearwell``, to the bit.
+What a ``Fit`` answers:
+
+=====================================================  =======================================================
+``trusted``, ``checks``, ``require_trusted``           whether its numbers can be used, and why not
+``parameters``, ``summary``, ``lives``                 estimates with 90 % intervals; B-lives with lower bounds
+``life``, ``percentile``, ``conditional``              lives at any level, of one unit, of survivors
+``survival_function``, ``hazard``, ``predict``         curves and predictions under conditions
+``plot``, ``report``, ``write``, ``to_datatree``       pictures, a page, the folder of the program, ArviZ
+``compare``, ``against``, ``update``, ``track``        other models, another fit's life, new rows, one unit
+=====================================================  =======================================================
+
+Further work:
+
+=====================================================  =======================================================
+``compare``, ``backtest``                              rank models by prediction; check forecasts of lives
+``decide``, ``plan``                                   when to replace or inspect; which tests to run
+``rainflow``, ``spectrum``, ``damage``, ``design``     load cycles, damage along an S-N curve, design curves
+``select``                                             the terms of a regression
+``export_c``, ``export_sql``, ``Monitor``              one unit in C, a formula in SQL, a running monitor
+``lognormal``, ``normal``, ``flat``, ...               priors
+=====================================================  =======================================================
+
+``bearing`` and ``clutch`` also hold the formulas of these parts. Numbers are those of the program ``wearwell``, to the bit.
 
 Examples
 --------
@@ -69,10 +89,18 @@ _make_callable(bearing.__name__, _fit_bearings)
 _make_callable(clutch.__name__, _fit_clutch)
 
 __all__ = [
-    "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "repairable", "returns", "fit", "Study", "Fit", "Plot", "Check", "compare", "Comparison",
-    "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "export_c", "export_sql", "Monitor",
-    "select", "Selection", "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "decide", "plan", "Plan", "LivesAgainst", "table", "arrow", "ArrowTable",
-    "flat", "uniform", "normal", "lognormal", "half_normal", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
+    # One line for a table.
+    "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "repairable", "returns",
+    "Study", "fit", "Fit", "Check", "Plot",
+    # Of fits.
+    "compare", "Comparison", "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "LivesAgainst", "decide", "plan", "Plan",
+    "export_c", "export_sql", "Monitor",
+    # Tools.
+    "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "select", "Selection",
+    "table", "arrow", "ArrowTable",
+    # Priors.
+    "lognormal", "normal", "half_normal", "uniform", "flat", "half_cauchy", "exponential", "gamma", "inverse_gamma", "student_t", "beta",
     "jeffreys", "prior", "default",
+    # Errors and warnings.
     "InputError", "MissingFileError", "MachineError", "NotTrusted", "CheckWarning",
 ]

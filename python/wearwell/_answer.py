@@ -9,9 +9,10 @@ from json import loads
 from . import _core
 from ._messages import in_arguments
 from ._notebook import html_of_plan
+from ._report import Report
 
 
-class Answer:
+class Answer(Report):
     """What plans, decisions, damage and design curves have in common."""
 
     _file = "plan"  # name of the JSON file
@@ -43,32 +44,6 @@ class Answer:
             header = next(csv.reader(io.StringIO(content)), None)
             found[name] = pandas.read_csv(io.StringIO(content), float_precision="round_trip") if header else pandas.DataFrame()
         return found
-
-    def report(self, path):
-        """Write the report, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "plan.html".
-
-        Raises
-        ------
-        InputError
-            If the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> page = os.path.join(tempfile.mkdtemp(), "plan.html")
-        >>> ww.plan.demonstrate("B10 >= 1e6 cycles").report(page)
-        >>> os.path.getsize(page) > 10_000
-        True
-        """
-        _core.write_file(os.fspath(path), self._page)
 
     def write(self, folder):
         """Write the folder that the command writes with ``-o``: its JSON file, tables and report, whole or not at all.

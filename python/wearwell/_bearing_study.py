@@ -9,7 +9,7 @@ from ._preset_study import Preset, level_of_bounds, percentages, quantities
 @fits
 def bearing(data, depth, *, contact, radius, clearance, unit=None, revolutions=None, time=None, speed=None, pressure=None, force=None,
             length=None, limit=None, risk=None, at=None, depth_error=None, family="normal", count=None, units=None, priors=None,
-            b=(1, 10), confidence=0.9, predict=None, title=None, seed=None, method=None, chains=None, warmup=None, draws=None,
+            b=(1, 10), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None, chains=None, warmup=None, draws=None,
             threads=0, report=True, progress=None):
     """Fit the wear rate of journal bearings to inspections of their wear depth, and the life to a failure threshold.
 
@@ -59,6 +59,8 @@ def bearing(data, depth, *, contact, radius, clearance, unit=None, revolutions=N
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a bearing study, such as ``{"pressure": "1.5 MPa", "speed": "60 rpm"}``.
+    unused : str or sequence of str, optional
+        Columns that look like a number of equal rows or like labels of bearings and are none.
     <what all fits share>
 
     Examples
@@ -91,5 +93,6 @@ def bearing(data, depth, *, contact, radius, clearance, unit=None, revolutions=N
     if limit is not None:
         asked.update({"b_lives": percentages(b), **level_of_bounds(confidence, predict)})
     likelihood = {"family": family, **({} if depth_error is None else {"depth_error": _toml.quantity(depth_error, "depth_error")})}
-    made = study.study(title or f"Bearing wear: {depth}", {"likelihood": likelihood}, priors, {**asked, **(predict or {})})
+    made = study.study(title or f"Bearing wear: {depth}", {"likelihood": likelihood}, priors, {**asked, **(predict or {})}, unused,
+                       may_have_counts=True, units=unit is None, noun="bearing")
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -128,21 +128,22 @@ class Columns:
         """(whether a straight path begins at 0, whether it falls, its rate)"""
         return _core.straight_line(self._read(), axis, measured, unit)
 
-    def warn_of_idle(self, unused, counts=False, units=False, instead="", otherwise=None):
+    def warn_of_idle(self, unused, counts=False, units=False, instead="", otherwise=None, noun="", count_as="independent"):
         """Warns of columns that are neither used nor in ``unused`` and look like counts or units, where a study takes such and has none.
 
         ``instead``: the argument that has no place beside unit; ``otherwise``: what says that all rows are independent, by default unused.
+        ``noun``: what units are called here; ``count_as``: what the rows are without their units.
         """
         left = {h: _bracket.sub("", h).strip() for h in self.headings if h not in self._names and h not in unused}
         of_counts = [h for h, name in left.items() if counts and may_be_counts(name) and h == name and not self._units.get(h)]
-        of_units = [h for h, name in left.items() if units and may_be_units(name)]
+        of_units = [h for h, name in left.items() if units and may_be_units(name, noun)]
         values = self._values_of(of_counts + of_units)
         for heading in of_counts:
             if heading in values and are_counts(values[heading]):
                 warn_of_counts(heading)
         for heading in of_units:
             if heading in values and are_units(values[heading]):
-                warn_of_units(heading, instead, otherwise or f'unused="{heading}"')
+                warn_of_units(heading, instead, otherwise or f'unused="{heading}"', count_as)
 
     def _values_of(self, headings):
         if self._whole is None:

@@ -8,9 +8,10 @@ from ._errors import InputError, missing_files, warn
 from ._fitted import named_folders
 from ._messages import in_arguments, in_python
 from ._progress import reporter
+from ._report import Report
 
 
-class Comparison:
+class Comparison(Report):
     """Fits side by side, as ``compare`` makes them.
 
     Parameters
@@ -63,34 +64,6 @@ class Comparison:
 
         rows = [{"family": each["study"], **life} for each in self.summary["studies"] for life in each.get("b_lives", ())]
         return pandas.DataFrame(rows, columns=["family", "name", "of", "at", "unit", "q05", "q50", "q95"])
-
-    def report(self, path):
-        """Write the comparison, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "comparison.html".
-
-        Raises
-        ------
-        InputError
-            If the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> normal = ww.fit("examples/joint/normal_flat.toml", seed=1, method="exact", draws=100, report=False)
-        >>> lognormal = ww.fit("examples/joint/lognormal_flat.toml", seed=1, method="exact", draws=100, report=False)
-        >>> page = os.path.join(tempfile.mkdtemp(), "comparison.html")
-        >>> ww.compare(normal, lognormal).report(page)
-        >>> os.path.exists(page)
-        True
-        """
-        _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):
         return in_arguments(self._text)

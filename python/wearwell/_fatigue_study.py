@@ -101,8 +101,8 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
 
 @fits
 def staircase(data, stress, event, *, count=None, limit_family="normal", units=None, priors=None, reliability=("50 %", "90 %"),
-              confidence=0.9, predict=None, title=None, seed=None, method=None, chains=None, warmup=None, draws=None, threads=0,
-              report=True, progress=None):
+              confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None, chains=None, warmup=None, draws=None,
+              threads=0, report=True, progress=None):
     """Fit the fatigue limit and its scatter to an up-and-down test.
 
     Parameters
@@ -127,6 +127,8 @@ def staircase(data, stress, event, *, count=None, limit_family="normal", units=N
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a staircase.
+    unused : str or sequence of str, optional
+        Columns that look like a number of equal tests and are none.
     <what all fits share>
 
     Examples
@@ -145,5 +147,5 @@ def staircase(data, stress, event, *, count=None, limit_family="normal", units=N
     study.column("count", "count", count)
     law = {"limit_family": limit_family} if limit_family != "normal" else {}
     asked = {"reliability": quantities(reliability, "reliability"), "credible_level": confidence, **(predict or {})}
-    made = study.study(title or f"Fatigue limit: {stress}", {"law": law}, priors, asked)
+    made = study.study(title or f"Fatigue limit: {stress}", {"law": law}, priors, asked, unused, may_have_counts=True)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

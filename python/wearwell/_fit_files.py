@@ -7,10 +7,13 @@ import tempfile
 
 from . import _core
 from ._errors import InputError
+from ._report import Report
 
 
-class FitFiles:
+class FitFiles(Report):
     """Results, report and NetCDF. Part of ``Fit``."""
+
+    _no_page = "this fit was made with report=False; fit it again with a report"
 
     def _files(self):
         if self._kept is None:
@@ -44,41 +47,13 @@ class FitFiles:
         """
         files = self._files()
         if "report.json" in files:
-            files = {**files, "report.html": self._page()}
+            files = {**files, "report.html": self._html()}
         _core.write_folder(os.fspath(folder), list(files.items()))
 
+    @property
     def _page(self):
         files = self._files()
-        if "report.json" not in files:
-            raise InputError("this fit was made with report=False; fit it again with a report")
-        return _core.page_of(files["summary.json"], files["report.json"])
-
-    def report(self, path):
-        """Write the report, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "report.html".
-
-        Raises
-        ------
-        InputError
-            If the fit was made with ``report=False``, or the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> fit = ww.fit("examples/joint/study.toml", seed=1)
-        >>> page = os.path.join(tempfile.mkdtemp(), "report.html")
-        >>> fit.report(page)
-        >>> os.path.getsize(page) > 10_000
-        True
-        """
-        _core.write_file(os.fspath(path), self._page())
+        return _core.page_of(files["summary.json"], files["report.json"]) if "report.json" in files else None
 
     @functools.cached_property
     def _figures(self):
@@ -86,7 +61,7 @@ class FitFiles:
 
         files = self._files()
         if "report.json" not in files:
-            raise InputError("this fit was made with report=False; fit it again with a report")
+            raise InputError(self._no_page)
         return figures_of(json.loads(files["report.json"]))
 
     @property

@@ -53,9 +53,10 @@ def _lives_and_quantities(summary):
     rows = []
     for each in summary.get("quantities", []):
         is_life = "b10" in each
+        null_is_never = is_life and not each.get("undetermined")
         rows.append({
             "name": each["name"], "of": each["of"], "at": each["at"], "unit": each["unit"], "is_life": is_life,
-            **{q: (_life if is_life else _number)(each[q]) if q in each else _nan for q in _quantiles},
+            **{q: (_life if null_is_never else _number)(each[q]) if q in each else _nan for q in _quantiles},
             "predictive": _number(each.get("predictive")), "bound": _number(each.get("bound")), "upper_bound": _number(each.get("upper_bound")),
             "credible_level": _number(each.get("credible_level")), "mean": _number(each.get("mean"))})
     return rows

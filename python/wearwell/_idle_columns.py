@@ -15,8 +15,9 @@ def may_be_counts(name):
     return _counts.match(name) is not None
 
 
-def may_be_units(name):
-    return _units.match(name) is not None
+def may_be_units(name, noun=""):
+    """``noun``: what else a column of units is called, such as "bearing"."""
+    return _units.match(name) is not None or (noun != "" and re.match(f"{noun}s?([ ._-]?(id|no|nr|number))?\\Z", name, re.IGNORECASE) is not None)
 
 
 def are_counts(values):
@@ -39,7 +40,9 @@ def warn_of_counts(heading):
          "something else")
 
 
-def warn_of_units(heading, instead, otherwise):
-    """``instead``: the argument that has no place beside unit; ``otherwise``: what to write if the rows are independent."""
-    warn(f"column '{heading}' looks like a label of units with several rows each and is not used, so all rows count as independent: write "
-         f"unit=\"{heading}\"{f' in place of {instead}' if instead else ''}, or {otherwise} if that is so")
+def warn_of_units(heading, instead, otherwise, count_as="independent"):
+    """``instead``: the argument that has no place beside unit; ``otherwise``: what to write if the rows are what they count as."""
+    write = f'unit="{heading}"{f" in place of {instead}" if instead else ""}' if count_as == "independent" else (
+        f'wearwell.degradation(..., unit="{heading}"), whose rate differs from unit to unit')
+    warn(f"column '{heading}' looks like a label of units with several rows each and is not used, so all rows count as {count_as}: write "
+         f"{write}, or {otherwise} if that is so")

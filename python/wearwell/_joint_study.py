@@ -8,7 +8,7 @@ from ._preset_study import Preset, level_of_bounds, percentages, quantities
 
 @fits
 def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, slip=None, limit=None, risk=None, at=None,
-          family="normal", count=None, units=None, priors=None, b=(1, 10), confidence=0.9, predict=None, title=None, seed=None,
+          family="normal", count=None, units=None, priors=None, b=(1, 10), confidence=0.9, predict=None, unused=None, title=None, seed=None,
           method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the wear coefficient of a joint to inspections of its worn volume, and the cycles to a failure threshold.
 
@@ -47,6 +47,8 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a joint.
+    unused : str or sequence of str, optional
+        Columns that look like a number of equal rows or like labels of several joints and are none.
     <what all fits share>
 
     Examples
@@ -81,5 +83,6 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
     study.column("count", "count", count)
     if limit is not None:
         asked.update({"b_lives": percentages(b), **level_of_bounds(confidence, predict)})
-    made = study.study(title or f"Joint wear: {volume} against {cycles}", {"likelihood": {"family": family}}, priors, {**asked, **(predict or {})})
+    made = study.study(title or f"Joint wear: {volume} against {cycles}", {"likelihood": {"family": family}}, priors,
+                       {**asked, **(predict or {})}, unused, may_have_counts=True, units=True, noun="joint", count_as="those of one joint")
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -1,5 +1,6 @@
 """Lives that are asked of a fit later, at any level."""
 
+import math
 import re
 
 from . import _toml
@@ -9,7 +10,6 @@ from ._lives_of import require_lives
 from ._messages import in_python
 
 _inf, _nan = float("inf"), float("nan")
-_least = 0.1  # percent: of items that survive more rarely nothing is known from then on
 _b_life = re.compile(r"B(\S+) (?:remaining useful )?life\Z")
 # What each other model's [predict] has that a life needs.
 _kept = {"archard-joint": ("limit", "risk", "work_per_cycle"),
@@ -101,14 +101,16 @@ def _row(each, unit=None):
     return {"name": each["name"], "of": each["of"], "at": each["at"], "unit": unit or each["unit"],
             **{q: _number(each[q]) for q in ("q05", "q50", "q95")},
             "predictive": _number(each["predictive"]) if "predictive" in each else _nan,
-            "bound": _number(each["bound"]) if "bound" in each else _nan}
+            "bound": _number(each["bound"]) if "bound" in each else _nan, "undetermined": each.get("undetermined", False)}
 
 
-def _require_survival(rows, what, survived):
-    for row in rows:
-        if row["name"].startswith("survival to ") and not row["q50"] >= _least:
-            raise InputError(f"survived: {what} survives to {survived} with a probability of {row['q50']:.2g} %; lives from there on "
-                             "need more than 0.1 %")
+def require_determined(rows, what, survived):
+    """No row begins where hardly any survive: the library determines no life from there on."""
+    if any(row.get("undetermined") for row in rows):
+        left = min(row["q50"] if math.isnan(row.get("predictive", _nan)) else row["predictive"]
+                   for row in rows if row["name"].startswith("survival to "))
+        raise InputError(f"survived: {what} survives to {survived} with a probability of {max(0.0, left):.2g} %; lives from there on "
+                         "need at least 0.1 %")
 
 
 def life(fit, limit, b, confidence, unit, survived, along, given):
@@ -147,7 +149,7 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
     rows = [row for row in rows if mine(row) and (row["name"] == wanted or row["name"].startswith("survival to ")
                                                   or (_b_life.match(row["name"]) and row["name"].endswith(" " + wanted)
                                                       and ("remaining" in row["name"]) == (wanted != "life")))]
-    _require_survival(rows, unit if unit is not None else "a new item", survived)
+    require_determined(rows, unit if unit is not None else "a new item", survived)
     # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
     one = formula and limit is not None and (unit is not None or not ("random_effects" in study or any(
         slots["family"].endswith("process") for slots in study["likelihood"].values()))) or study["model"] == "archard-joint"

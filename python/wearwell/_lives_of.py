@@ -230,6 +230,8 @@ def percentile(fit, p, given, confidence):
 
 
 def conditional(fit, survived, b, given, confidence):
+    from ._lives import require_determined
+
     study = _study_of_lives(fit, "conditional")
     b = _percentages(b)
     require_lives(study, [survived], "survived")
@@ -240,11 +242,8 @@ def conditional(fit, survived, b, given, confidence):
     for labels, values in found:
         answers = _asked_of(fit, values, {"survived": _written(survived, unit), "b_lives": b, "mean_life": True, "credible_level": confidence},
                             {"survived": ("survived", survived, _units_of_lives(name, unit)), "credible_level": ("confidence", confidence, "")})
+        require_determined(answers, "a new item", survived)
         wanted = [each for each in answers if each["name"].startswith("survival to ")]
-        for each in wanted:
-            left = each["predictive"] / (100 if each["unit"] == "%" else 1)
-            if left < 1e-3:
-                raise InputError(f"survived is {survived!r}: by this fit {100 * left:.2g} % live so long, and what is left to fewer than 0.1 % is not determined")
         wanted += [each for each in answers if each["name"] == "mean remaining useful life"]
         wanted += [each for each in answers if each["name"].startswith("B") and each["name"].endswith(" remaining useful life")]
         rows += [(labels, each["name"], {"unit": each["unit"], **_life_row(each, keys)}) for each in wanted]

@@ -22,7 +22,7 @@ def html_of(fit):
             float_format=lambda x: f"{x:.4g}", border=0, index=False))
     out.append("</div>")
     if "report.json" in fit._files():
-        out.append(_page_on_request(fit._page()))
+        out.append(_page_on_request(fit._html()))
     return "".join(out)
 
 

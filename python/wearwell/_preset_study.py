@@ -42,16 +42,17 @@ class Preset:
         self.rows["status"] = entry
         self.arguments["data.columns.status"] = "event"
 
-    def study(self, title, tables, priors, predict, unused=None, may_have_counts=False):
-        """``tables``: further tables of the study by name, such as [law]. ``may_have_counts``: the caller has an argument count."""
+    def study(self, title, tables, priors, predict, unused=None, may_have_counts=False, **units):
+        """``tables``: further tables of the study by name, such as [law]. ``may_have_counts``: the caller has an argument count.
+        ``units``: of ``Columns.warn_of_idle``, if rows may be of several units."""
         unused = [self.columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
-        self.columns.warn_of_idle(unused, counts=may_have_counts and "count" not in self.rows)
+        self.columns.warn_of_idle(unused, counts=may_have_counts and "count" not in self.rows, **units)
         for name, prior in (priors or {}).items():
             if not isinstance(prior, dict):
                 raise InputError(f"priors: {name} is {type(prior).__name__}; wearwell.lognormal(...) and its like make one")
         predict = {key: each for key, each in predict.items() if each is not None}
         parts = [_toml.table("", {"title": title, "model": self.model, **self.choices}),
-                 _toml.table("data", {"file": "data", **({"unused": unused} if unused else {}), **self.of_data}),
+                 _toml.table("data", {"file": "data", **({"unused": unused} if unused and self.model == "sn" else {}), **self.of_data}),
                  _toml.table("data.columns", self.rows)]
         if self.conditions:
             parts.append(_toml.table("conditions", self.conditions))

@@ -8,9 +8,10 @@ from ._data import headings_of, table_of
 from ._errors import InputError, warn_of
 from ._messages import in_arguments
 from ._check import checks_of
+from ._report import Report
 
 
-class Selection:
+class Selection(Report):
     """The best terms of a regression, as ``select`` finds them.
 
     Parameters
@@ -34,6 +35,8 @@ class Selection:
     >>> found.models.loc[0, "terms"], found.trusted
     ('1 Td*Td Td*n n*n', True)
     """
+
+    _no_page = "there is no page: select again with report=True"
 
     def __init__(self, summary, text, models, page):
         self.summary = json.loads(summary)
@@ -66,35 +69,6 @@ class Selection:
         import pandas
 
         return pandas.read_csv(io.StringIO(self._models))
-
-    def report(self, path):
-        """Write the report of the selection, one HTML page that needs no network.
-
-        Parameters
-        ----------
-        path : str or path
-            The file, such as "selection.html".
-
-        Raises
-        ------
-        InputError
-            If the selection was made without ``report=True``, or the path cannot be written (no folder, no permission).
-        MachineError
-            If the disk fails.
-
-        Examples
-        --------
-        >>> import os, tempfile
-        >>> import wearwell as ww
-        >>> found = ww.select("examples/select/wear.csv", "w", inputs=["Td", "n"], degree=2, report=True)
-        >>> page = os.path.join(tempfile.mkdtemp(), "selection.html")
-        >>> found.report(page)
-        >>> os.path.getsize(page) > 10_000
-        True
-        """
-        if not self._page:
-            raise InputError("there is no page: select again with report=True")
-        _core.write_file(os.fspath(path), self._page)
 
     def __str__(self):
         return in_arguments(self._text)

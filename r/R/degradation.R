@@ -81,7 +81,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   likelihood <- switch(family,
     normal = list(family = family, mean = middle, sd = "sigma"),
     lognormal = list(family = family, median = middle, log_sd = "sigma"),
-    list(family = family, mean = middle, scale = "scale"))
+    list(family = family, mean = middle, scale = "step_ratio"))
   entries <- if (!is.null(label) && !process) {
     stats::setNames(list(c(list(rate = list(distribution = "lognormal", log_sd = "rate_scatter")),
                            if (start) list(start = list(distribution = "normal", sd = "start_scatter")))), label)
@@ -102,7 +102,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   known <- list(path = path, family = family, start = start, differs = length(entries) > 0, along = along, power_of = power_unit(along),
                 item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
                 effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
-                units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "scale", if (family == "normal") "sigma")], unit_of_prior))
+                units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "step_ratio", if (family == "normal") "sigma")], unit_of_prior))
   one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit))
 }
 
@@ -120,7 +120,7 @@ path_of_degradation <- function(path, start, axis, unit, along, effects) {
   if (path == "power") {
     if (any(along < 0)) stop_input("path = \"power\" needs an axis from 0 on, and data, row ", which(along < 0)[1], " is at ", along[along < 0][1])
     one <- if (unit == "") number_text(power_unit(along)) else paste0(number_text(power_unit(along)), " [", unit, "]")
-    grown <- paste0(rate, " * ", one, " * (", axis, "/", if (unit == "") one else paste0("(", one, ")"), ")^exponent")
+    grown <- paste0(rate, " * ", one, " * (", axis, "/", if (unit == "") one else paste0("(", one, ")"), ")^power")
   } else {
     grown <- paste0(rate, " * ", axis)
   }
@@ -144,14 +144,14 @@ degradation_priors <- function(y, x, y_unit, x_unit, path, start, family, differ
   unit <- if (y_unit == "" && x_unit == "") "" else if (x_unit == "") y_unit else paste0(if (y_unit == "") "1" else y_unit, "/(", x_unit, ")")
   if (grepl("^[A-Za-z%]+$", x_unit)) unit <- sub("\\((.*)\\)$", "\\1", unit)
   all <- list(rate = ww_lognormal(quantity_text(rounded_up(slope), unit), log_sd = 2))
-  if (path == "power") all$exponent <- ww_lognormal(1, log_sd = 0.5)
+  if (path == "power") all$power <- ww_lognormal(1, log_sd = 0.5)
   if (start) {
     all$start <- ww_normal(quantity_text(0, y_unit), quantity_text(size, y_unit))
     if (differs) all$start_scatter <- ww_half_normal(quantity_text(size, y_unit))
   }
   if (family == "normal") all$sigma <- ww_half_normal(quantity_text(size, y_unit))
   if (family == "lognormal") all$sigma <- ww_half_normal(1)
-  if (endsWith(family, "process")) all$scale <- ww_lognormal(quantity_text(rounded_up(max(abs(y)) / 100), y_unit), log_sd = 2)
+  if (endsWith(family, "process")) all$step_ratio <- ww_lognormal(quantity_text(rounded_up(max(abs(y)) / 100), y_unit), log_sd = 2)
   if (differs && !endsWith(family, "process")) all$rate_scatter <- ww_half_normal(1)
   c(all, effects$priors)
 }

@@ -108,12 +108,12 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
   columns <- given_arguments(sold = sold, quantity = quantity, returned = returned, until = until, period = period, ages = one_text(ages, "ages"),
                              delay_to_use = delay_of(delay_to_use, "delay_to_use"), delay_of_report = delay_of(delay_of_report, "delay_of_report"),
                              warranty = time(warranty, "warranty"), hold_out = time(hold_out, "hold_out"))
-  parameters <- life_families[[family]]
-  length <- if (is.null(returned) || !is.null(priors[[parameters[[1]]]])) max(1, ncol(data) - 2) else months_of(data, c(sold, returned), until)
+  parameters <- parameters_of_family(family)
+  length <- if (is.null(returned) || !is.null(priors[[parameters[1]]])) max(1, ncol(data) - 2) else months_of(data, c(sold, returned), until)
   unit <- if (is.null(period)) "month" else period
-  proposed <- stats::setNames(lapply(names(parameters), function(slot) life_prior(family, slot, 10 * length, unit)), parameters)
-  if (family == "weibull") proposed$shape <- ww_lognormal(1.2, log_sd = 0.5)
-  own <- checked_priors(priors, as.character(parameters))
+  proposed <- life_priors(family, 10 * length, unit)
+  if (family == "weibull") proposed$slope <- ww_lognormal(1.2, log_sd = 0.5)
+  own <- checked_priors(priors, parameters)
   shown <- proposed[setdiff(names(proposed), names(own))]
   proposed[names(own)] <- own
   asked <- predict_of(predict, given_arguments(`next` = ahead, cost_per_return = cost_per_return, b_lives = c(1, 10, 50),
@@ -124,7 +124,7 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
   tables <- lapply(frames, function(frame) list(data = frame, units = NULL, only = NULL))
   text <- c(toml_table("", list(title = one_text(title, "title"), model = "formula")), toml_table("data", list(file = "data")),
             toml_table("data.returns", columns),
-            toml_table("likelihood.life", c(list(family = family), stats::setNames(as.list(unname(parameters)), names(parameters)))),
+            toml_table("likelihood.life", life_slots(family, parameters[1])),
             toml_table("prior", proposed), toml_table("predict", asked))
   one_line(paste(text, collapse = "\n"), NULL, shown, NULL, fit, call, ..., tables = tables)
 }

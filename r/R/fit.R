@@ -123,7 +123,7 @@ quantities_of <- function(summary) {
                             unit = column(rows, "unit", ""), is_life = is_life),
                  numbers_of(rows, c(quantiles, "predictive", "bound", upper, "credible_level", "mean")))
   for (key in quantiles) {
-    never <- is_life & vapply(rows, function(row) !is.null(row[[key]]) && is.na(row[[key]]), NA)
+    never <- is_life & vapply(rows, function(row) !is.null(row[[key]]) && is.na(row[[key]]) && !isTRUE(row$undetermined), NA)
     frame[[key]][never] <- Inf
   }
   frame

@@ -1,25 +1,5 @@
 # Lives in one line: a formula model with the priors of `wearwell new`.
 
-# Of a family: its parameters, the location first, by the names of the study's parameters.
-life_families <- list(
-  weibull = c(scale = "eta", shape = "shape"),
-  lognormal = c(median = "median", log_sd = "sigma"),
-  loglogistic = c(scale = "median", shape = "shape"),
-  frechet = c(scale = "eta", shape = "shape"),
-  exponential = c(mean = "mean"),
-  gamma = c(scale = "scale", shape = "shape"),
-  `inverse-gaussian` = c(mean = "mean", shape = "shape"),
-  `birnbaum-saunders` = c(scale = "median", shape = "shape"),
-  `generalized-gamma` = c(scale = "scale", sigma = "sigma", lambda = "lambda"))
-
-# Weak priors from the size of the data.
-life_prior <- function(family, slot, largest, unit) {
-  if (slot == names(life_families[[family]])[1] || (family == "inverse-gaussian" && slot == "shape")) {
-    return(ww_lognormal(quantity_text(rounded_up(largest), unit), log_sd = 2))
-  }
-  switch(slot, shape = ww_lognormal(1.5, log_sd = 0.7), log_sd = , sigma = ww_half_normal(2), lambda = ww_normal(0, 1.5))
-}
-
 ww_life <- function(x, ...) UseMethod("ww_life")
 
 ww_life.default <- function(x, ...) {
@@ -61,8 +41,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
   if (!length(columns) || length(columns[[1]]$values) == 0) stop_input("data has no rows")
-  parameters <- life_families[[family]]
-  location <- parameters[[1]]
+  parameters <- parameters_of_family(family)
+  location <- parameters[1]
   reader <- list(x = x, location = location, by = by, mode = mode, stress = stress_laws(stress), units = units, weights = weights, unused = unused)
   read <- read_lives(reader, columns)
   study <- read$columns
@@ -74,9 +54,9 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   index <- if (!is.null(c(by$name, modes$name))) paste0("[", c(by$name, modes$name), "]") else ""
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
-  likelihood <- c(list(family = family), stats::setNames(as.list(c(middle, paste0(parameters[-1], if (has_own_shapes(shape, by, modes)) index)[seq_along(parameters[-1])])), names(parameters)))
+  likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes)) index else "")
   largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
-  proposed <- stats::setNames(lapply(names(parameters), function(slot) life_prior(family, slot, largest, lives$unit)), parameters)
+  proposed <- life_priors(family, largest, lives$unit)
   proposed <- c(proposed, effects$priors, effect$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(
@@ -255,10 +235,13 @@ flat_of <- function(default) {
 }
 
 checked_priors <- function(own, known) {
-  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(shape = ww_lognormal(2, log_sd = 0.5)), or \"flat\"")
+  if (length(own) && (!is.list(own) || is.null(names(own)))) stop_input("priors is ", kind_of(own), "; it is a list like list(slope = ww_lognormal(2, log_sd = 0.5)), or \"flat\"")
   for (name in names(own)) {
     if (!is.list(own[[name]])) stop_input("priors: ", name, " is ", kind_of(own[[name]]), "; ww_lognormal(...) and its like make one")
-    if (!is.null(known) && !sub("[[].*", "", name) %in% known) {
+    base <- sub("[[].*", "", name)
+    if (!is.null(known) && !base %in% known) {
+      now <- intersect(called_before[[base]], known)
+      if (length(now)) stop_input("priors: '", name, "' is called '", now[1], "'")
       stop_input("priors: the model has no parameter '", name, "' (parameters: ", words(known), ")")
     }
   }

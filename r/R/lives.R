@@ -1,6 +1,5 @@
 # Lives that are asked of a fit later, at any level.
 
-least_survival <- 0.1  # percent: of items that survive more rarely nothing is known from then on
 # What each other model's [predict] has that a life needs.
 kept_of <- list(`archard-joint` = c("limit", "risk", "work_per_cycle"),
                 `bearing-wear` = c("limit", "risk", "pressure", "speed", "contact", "radius", "clearance"),
@@ -117,7 +116,7 @@ ww_life.ww_fit <- function(x, limit = NULL, b = c(1, 10), confidence = 0.9, unit
   keep <- mine & (rows$name == wanted | startsWith(rows$name, "survival to ") | of_all)
   rows <- rows[keep, ]
   of_all <- of_all[keep]
-  require_survival(rows, if (is.null(unit)) "a new item" else unit, survived)
+  require_determined(rows, if (is.null(unit)) "a new item" else unit, survived)
   # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
   spread <- function() !is.null(study$random_effects) || any(vapply(study$likelihood, is_process, NA))
   one <- study$model == "archard-joint" || (formula && !is.null(limit) && (!is.null(unit) || !spread()))
@@ -142,11 +141,12 @@ life_rows <- function(answers, model) {
   never <- function(key) vapply(of, function(row) if (is.null(row[[key]])) NA_real_ else life(row[[key]]), 0)
   rows <- data.frame(name = column(of, "name", ""), of = column(of, "of", ""), at = column(of, "at", ""), unit = column(of, "unit", ""))
   for (key in c("q05", "q50", "q95", "predictive", "bound")) rows[[key]] <- never(key)
+  rows$undetermined <- vapply(of, function(row) isTRUE(row$undetermined), NA)
   if (model != "archard-joint" || is.null(answers$life)) return(rows)
   answer <- answers$life
   first <- data.frame(name = "life", of = if (is.null(answer$of) || answer$of == "") "joint" else answer$of,
                       at = paste("to", format(answer$limit, digits = 6), answer$limit_unit), unit = answer$unit, q05 = life(answer$q05),
-                      q50 = life(answer$b50), q95 = life(answer$q95), predictive = NA_real_, bound = NA_real_)
+                      q50 = life(answer$b50), q95 = life(answer$q95), predictive = NA_real_, bound = NA_real_, undetermined = FALSE)
   rbind(first, rows)
 }
 
@@ -158,10 +158,11 @@ require_after <- function(rows, wanted, mine, is_new, unit, survived) {
              "life counts from the last row")
 }
 
-require_survival <- function(rows, what, survived) {
-  rare <- startsWith(rows$name, "survival to ") & !(rows$q50 >= least_survival)
-  if (any(rare)) {
-    stop_input("survived: ", what, " survives to ", survived, " with a probability of ", format(rows$q50[rare][1], digits = 2),
-               " %; lives from there on need more than 0.1 %")
-  }
+# No row begins where hardly any survive: the library determines no life from there on.
+require_determined <- function(rows, what, survived) {
+  if (!any(rows$undetermined)) return()
+  survival <- rows[startsWith(rows$name, "survival to "), ]
+  left <- max(0, min(ifelse(is.na(survival$predictive), survival$q50, survival$predictive)))
+  stop_input("survived: ", what, " survives to ", survived, " with a probability of ", format(left, digits = 2),
+             " %; lives from there on need at least 0.1 %")
 }

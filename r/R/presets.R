@@ -118,7 +118,8 @@ ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, f
     if (is.null(work) && is.null(force)) constants$work_per_cycle <- quantity(work_per_cycle, "work_per_cycle") else
       asked$work_per_cycle <- quantity(work_per_cycle, "work_per_cycle")
   }
-  look_at_unused(columns, c(volume, cycles, work, force, slip), TRUE, unused, "")
+  look_at_unused(columns, c(volume, cycles, work, force, slip), TRUE, unused, "", noun = "joint", count_as = "those of one joint",
+                 units = "ww_degradation(..., unit = \"%s\"), whose rate differs from unit to unit")
   extra <- list(conditions = constants, likelihood = list(family = one_text(family, "family")), predict = predict_of(predict, asked))
   if (one_truth(stages, "stages")) extra$update <- list(stages = "row")
   one_line(preset_text("archard-joint", one_text(title, "title"), study, extra, priors), study, NULL,
@@ -147,7 +148,8 @@ ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pre
     if (!is.null(found$column)) study <- c(study, preset_study(columns, stats::setNames(list(found$column), name))) else
       constants[[name]] <- found$constant
   }
-  look_at_unused(columns, c(depth, revolutions, bearing, unlist(arguments)), TRUE, unused, "")
+  look_at_unused(columns, c(depth, revolutions, bearing, unlist(arguments)), TRUE, unused, "", noun = "bearing",
+                 units = if (is.null(bearing)) "bearing = \"%s\"")
   likelihood <- if (!is.null(depth_error)) list(depth_error = quantity(depth_error, "depth_error")) else list()
   notes <- NULL
   if (!is.null(bearing) && is.null(priors$k_scatter)) {

@@ -262,16 +262,17 @@ looks_like_counts <- function(each) {
 }
 
 # Several labels, one of which stands in several rows.
-looks_like_units <- function(each) {
+looks_like_units <- function(each, noun = NULL) {
   values <- if (is.factor(each$values)) as.character(each$values) else each$values
-  if (!grepl(of_units, bare_heading(each), ignore.case = TRUE) || !is.atomic(values)) return(FALSE)
+  called <- c(of_units, if (!is.null(noun)) paste0("^", noun, "s?([ ._-]?(id|no|nr|number))?$"))
+  if (!any(vapply(called, grepl, NA, bare_heading(each), ignore.case = TRUE)) || !is.atomic(values)) return(FALSE)
   values <- values[!is.na(values) & values != ""]
   length(unique(values)) > 1 && anyDuplicated(values) > 0
 }
 
 # `counts` and `units`: what to write for a column of them, such as "weights = \"%s\""; none where the model has no such argument, or has
-# one in use.
-look_at_unused <- function(columns, used, known, unused, call, counts = NULL, units = NULL) {
+# one in use. `noun`: what units are called here, such as "bearing"; `count_as`: what rows are without their units.
+look_at_unused <- function(columns, used, known, unused, call, counts = NULL, units = NULL, noun = NULL, count_as = "independent") {
   unknown <- setdiff(unused, c(names(columns), vapply(columns, `[[`, "", "heading")))
   if (length(unknown)) stop_input("unused: ", table_name(columns), " has no column '", unknown[1], "' (columns: ", words(names(columns)), ")")
   left <- columns[!names(columns) %in% c(used, unused)]
@@ -287,8 +288,8 @@ look_at_unused <- function(columns, used, known, unused, call, counts = NULL, un
     for (name in names(left)[vapply(left, looks_like_counts, NA)]) warn_of_column(name, "looks like a number of equal rows", counts)
   }
   if (!is.null(units)) {
-    for (name in names(left)[vapply(left, looks_like_units, NA)]) {
-      warn_of_column(name, "looks like a label of units with several rows each", units, ", so all rows count as independent")
+    for (name in names(left)[vapply(left, looks_like_units, NA, noun = noun)]) {
+      warn_of_column(name, "looks like a label of units with several rows each", units, paste0(", so all rows count as ", count_as))
     }
   }
 }

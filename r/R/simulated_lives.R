@@ -21,7 +21,7 @@ shift_of <- function(draw, lives) {
   shift
 }
 
-# "wear" and "seal" of eta[wear] and eta[seal].
+# "wear" and "seal" of characteristic[wear] and characteristic[seal].
 levels_among <- function(names, parameter) {
   own <- names[startsWith(names, paste0(parameter, "["))]
   substr(own, nchar(parameter) + 2, nchar(own) - 1)
@@ -59,14 +59,15 @@ random_life <- function(family, u, location, other) {
     loglogistic = location * (u / (1 - u))^(1 / other[[1]]),
     frechet = location * (-log(u))^(-1 / other[[1]]),
     exponential = -location * log1p(-u),
-    gamma = stats::qgamma(u, other[[1]]) * location,
+    gamma = stats::qgamma(u, other[[1]]) / other[[1]] * location,
     `birnbaum-saunders` = {
       w <- other[[1]] * stats::qnorm(u) / 2
       location * (w + sqrt(w^2 + 1))^2
     },
     `inverse-gaussian` = {  # Michael, Schucany and Haas 1976
       y <- stats::qnorm(u)^2
-      x <- location + location^2 * y / (2 * other[[1]]) - location / (2 * other[[1]]) * sqrt(4 * location * other[[1]] * y + location^2 * y^2)
+      shape <- location / other[[1]]^2
+      x <- location + location^2 * y / (2 * shape) - location / (2 * shape) * sqrt(4 * location * shape * y + location^2 * y^2)
       ifelse(stats::runif(length(u)) <= location / (location + x), x, location^2 / x)
     },
     `generalized-gamma` = {

@@ -7,30 +7,30 @@ new_readings_at <- function(draw, known) {
   log_rate <- log(draw[["rate"]])
   for (each in known$effects) log_rate <- log_rate + draw[[each$parameter]] * each$value
   if (known$differs) log_rate <- log_rate + of_unit("rate_scatter")
-  grown <- if (known$path == "power") known$power_of * (known$along / known$power_of)^draw[["exponent"]] else known$along
+  grown <- if (known$path == "power") known$power_of * (known$along / known$power_of)^draw[["power"]] else known$along
   mean <- exp(log_rate) * grown
   if (known$start) mean <- mean + draw[["start"]] + if (known$differs) of_unit("start_scatter") else 0
   switch(known$family,
     normal = mean + draw[["sigma"]] * stats::rnorm(known$rows),
     lognormal = mean * exp(draw[["sigma"]] * stats::rnorm(known$rows)),
-    process_readings(known$family, mean, draw[["scale"]], known))
+    process_readings(known$family, mean, draw[["step_ratio"]], known))
 }
 
-# Sums of independent increments of each unit, from 0 on. Their variance is `scale` times their mean.
-process_readings <- function(family, mean, scale, known) {
+# Sums of independent increments of each unit, from 0 on. Their variance is `ratio` times their mean.
+process_readings <- function(family, mean, ratio, known) {
   found <- numeric(known$rows)
   for (rows in split(seq_len(known$rows), known$item)) {
     rows <- rows[order(known$along[rows])]
-    found[rows] <- cumsum(increments(family, pmax(diff(c(0, mean[rows])), 0), scale))
+    found[rows] <- cumsum(increments(family, pmax(diff(c(0, mean[rows])), 0), ratio))
   }
   found
 }
 
-increments <- function(family, mean, scale) {
+increments <- function(family, mean, ratio) {
   count <- length(mean)
   drawn <- switch(family,
-    `wiener-process` = mean + sqrt(scale * mean) * stats::rnorm(count),
-    `gamma-process` = stats::rgamma(count, shape = mean / scale, scale = scale),
-    `inverse-gaussian-process` = random_life("inverse-gaussian", stats::runif(count), mean, list(mean^2 / scale)))
+    `wiener-process` = mean + sqrt(ratio * mean) * stats::rnorm(count),
+    `gamma-process` = stats::rgamma(count, shape = mean / ratio, scale = ratio),
+    `inverse-gaussian-process` = random_life("inverse-gaussian", stats::runif(count), mean, list(sqrt(ratio / mean))))
   ifelse(mean > 0, drawn, 0)
 }

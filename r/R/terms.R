@@ -168,13 +168,12 @@ effects_of <- function(fixed, columns, stress, what, fitted = FALSE) {
   for (condition in conditions) {
     if (!condition$label) effects$constants[[reference_name(condition)]] <- quantity_text(condition$reference, condition$unit)
   }
-  for (name in names(stress)) effects <- with_stress(effects, conditions[[name]], stress[[name]], several = length(stress) > 1)
+  for (name in names(stress)) effects <- with_stress(effects, conditions[[name]], stress[[name]])
   effects
 }
 
-with_stress <- function(effects, condition, law, several) {
+with_stress <- function(effects, condition, law) {
   if (condition$label) stop_input("stress: column '", condition$source, "' holds texts; the ", law, " law needs numbers")
-  named <- function(base) if (several) paste0(base, "_", condition$name) else base
   reference <- reference_name(condition)
   if (law %in% c("arrhenius", "eyring")) {
     if (!condition$unit %in% c("degC", "degF", "K")) {
@@ -182,11 +181,11 @@ with_stress <- function(effects, condition, law, several) {
                  if (condition$unit == "") "no unit" else paste0("the unit ", condition$unit), ": units = c(", condition$source,
                  " = \"degC\") states it, or \"K\"")
     }
-    parameter <- named("energy")
+    parameter <- if ("energy" %in% names(effects$priors)) paste0(condition$name, "_energy") else "energy"
     effects$constants$boltzmann <- "8.617333262e-5 eV/K"
     effects$terms <- c(effects$terms, paste0(parameter, "/boltzmann * (1/", condition$name, " - 1/", reference, ")"))
     if (law == "eyring") effects$terms <- c(effects$terms, paste0("log(", reference, "/", condition$name, ")"))
-    effects$priors[[parameter]] <- ww_normal("0.7 eV", "0.4 eV")
+    effects$priors[[parameter]] <- ww_normal("0.7 eV", "0.3 eV")
     kelvin <- kelvin_of(condition$values, condition$unit)
     at <- kelvin_of(condition$reference, condition$unit)
     effects$values[[parameter]] <- (1 / kelvin - 1 / at) / 8.617333262e-5
@@ -196,9 +195,9 @@ with_stress <- function(effects, condition, law, several) {
       stop_input("stress: the inverse power law needs values above 0, and ", place_of_row(condition, which(condition$values <= 0)[1]), " is ", condition$values[condition$values <= 0][1])
     }
     if (condition$unit %in% c("degC", "degF")) stop_input("stress: the inverse power law of a temperature in ", condition$unit, ": \"arrhenius\" is usual")
-    parameter <- named("n")
+    parameter <- paste0(condition$name, "_power")
     effects$terms <- c(effects$terms, paste0("-", parameter, " * log(", condition$name, "/", reference, ")"))
-    effects$priors[[parameter]] <- ww_lognormal(5, log_sd = 1)
+    effects$priors[[parameter]] <- ww_normal(5, 5)
     effects$values[[parameter]] <- -log(condition$values / condition$reference)
   } else {
     piece <- pieces_of(condition)[[1]]

@@ -14,7 +14,7 @@ done
 "$r" --vanilla CMD check --no-manual --no-tests --no-vignettes wearwell_*.tar.gz >check.log 2>&1 || { cat check.log; exit 1; }
 if grep -E 'WARNING|ERROR' check.log; then cat check.log; exit 1; fi
 grep '^Status' check.log
-# The module finds the DuckDB beside it, wherever the package is, and loads NetCDF when it is asked for.
+# The module finds the DuckDB of its package, wherever the package is, and loads NetCDF when it is asked for.
 linked=$(ldd wearwell.Rcheck/wearwell/libs/wearwell.so)
 case $linked in *"not found"* | *netcdf*) echo "$linked"; exit 1 ;; esac
-case $linked in *wearwell.Rcheck/wearwell/libs/libduckdb.so*) ;; *) echo "$linked"; exit 1 ;; esac
+case $linked in *wearwell.Rcheck/wearwell/*duckdb/libduckdb.so*) ;; *) echo "$linked"; exit 1 ;; esac

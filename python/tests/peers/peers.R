@@ -28,6 +28,10 @@ loss <- function(p) {
 }
 p <- optim(c(6.5, 0.5), loss, control = list(reltol = 1e-15, maxit = 5000))$par
 say("entry", characteristic = exp(p[1]), slope = exp(p[2]))
+counts <- data.frame(hours = c(300, 500, 700), failed = c(1, 1, 0), count = c(4, 6, 20))
+weibull("counts", survreg(Surv(hours, failed) ~ 1, counts, weights = count, dist = "weibull", control = tight))
+groups <- survreg(Surv(hours, failed) ~ 0 + supplier, pumps, dist = "weibull", control = tight)
+do.call(say, c(list("groups"), setNames(as.list(c(exp(coef(groups)), 1 / groups$scale)), c("characteristic[A]", "characteristic[B]", "slope"))))
 boltzmann <- 8.617333262e-5
 devices$x <- 1 / (boltzmann * (devices$temperature_C + 273.15)) - 1 / (boltzmann * (80 + 273.15))
 fit <- survreg(Surv(hours, status == "failure") ~ x, devices, weights = count, dist = "lognormal", control = tight)

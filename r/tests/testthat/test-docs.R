@@ -30,7 +30,7 @@ test_that("every block of the reference runs", {
 test_that("the page for users of survival compares both", {  # in its blocks
   skip_if_not_installed("survival")
   space <- run_blocks("how-to", "coming-from-survival.md")
-  expect_match(space$study$text, "eta = { distribution = \"lognormal\", log_sd = \"eta_scatter\" }", fixed = TRUE)
+  expect_match(space$study$text, "characteristic = { distribution = \"lognormal\", log_sd = \"characteristic_scatter\" }", fixed = TRUE)
 })
 
 test_that("the page for users of brms agrees with a published fit of brms", {  # in its blocks
@@ -38,7 +38,7 @@ test_that("the page for users of brms agrees with a published fit of brms", {  #
   space <- run_blocks("how-to", "coming-from-brms.md")
   expect_match(space$between$text, "lower", fixed = TRUE)
   expect_match(space$late$text, "entry", fixed = TRUE)
-  expect_match(space$study$text, "shape = { distribution = \"gamma\", shape = 4, scale = 0.5 }", fixed = TRUE)
+  expect_match(space$study$text, "slope = { distribution = \"gamma\", shape = 4, scale = 0.5 }", fixed = TRUE)
 })
 
 test_that("the page for users of WeibullR compares with survival", {

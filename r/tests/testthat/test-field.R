@@ -28,7 +28,7 @@ test_that("returns in one line are those of the study file", {
   triangle <- read.csv(example("warranty", "returns.csv"), check.names = FALSE)
   planned <- read.csv(example("warranty", "planned_sales.csv"))
   fit <- quiet(ww_returns(triangle, sold = "sold", quantity = "shipped", warranty = "36 month", cost_per_return = "180 EUR",
-                                     planned_sales = planned, survival_to = "36 month", priors = list(eta = ww_lognormal("200 month", log_sd = 2)),
+                                     planned_sales = planned, survival_to = "36 month", priors = list(characteristic = ww_lognormal("200 month", log_sd = 2)),
                                      seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
   file <- quiet(ww_fit(example("warranty", "study.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
   expect_equal(unname(fit$parameters$q50), unname(file$parameters$q50), tolerance = 1e-12)

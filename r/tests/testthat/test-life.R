@@ -2,7 +2,7 @@
 
 pumps <- data.frame(hours = c(150, 340, 560, 800, 1150, 2470, 100, 900, 300, 700), event = c(1, 1, 1, 1, 0, 1, 1, 1, 1, 0),
                     site = rep(c("A", "B"), 5), load = c(10, 12, 14, 16, 18, 20, 11, 13, 15, 17))
-flat <- list(eta = ww_flat("1"), shape = ww_flat("1"))
+flat <- list(characteristic = ww_flat("1"), slope = ww_flat("1"))
 
 study_of <- function(...) ww_life(..., fit = FALSE)
 data_of <- function(study) as.data.frame(study$given$data$data)
@@ -54,8 +54,8 @@ test_that("conditions are those of survreg", {
   peer <- survival::survreg(survival::Surv(hours, event) ~ load, pumps)
   found <- mode_of(fit)
   expect_equal(unname(found["b_load"]), unname(coef(peer)[2]), tolerance = 1e-3)
-  expect_equal(unname(found["shape"]), 1 / peer$scale, tolerance = 1e-3)
-  expect_equal(unname(log(found["eta"])), unname(coef(peer)[1] + 14.6 * coef(peer)[2]), tolerance = 1e-3)  # at the mean load
+  expect_equal(unname(found["slope"]), 1 / peer$scale, tolerance = 1e-3)
+  expect_equal(unname(log(found["characteristic"])), unname(coef(peer)[1] + 14.6 * coef(peer)[2]), tolerance = 1e-3)  # at the mean load
   expect_equal(as.numeric(logLik(fit)), as.numeric(logLik(peer)), tolerance = 1e-6)
   by_level <- quick(Surv(hours, event) ~ site, pumps, priors = c(flat, list(b_site_B = ww_flat("1"))), family = "weibull")
   expect_equal(unname(mode_of(by_level)["b_site_B"]), unname(coef(survival::survreg(survival::Surv(hours, event) ~ site, pumps))[2]), tolerance = 1e-3)
@@ -63,13 +63,13 @@ test_that("conditions are those of survreg", {
 
 test_that("the study is the formula model that one would write", {
   fit <- quick(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), unused = c("site", "load"))
-  own <- ww_study(formula = "hours = eta", data = data.frame(hours = pumps$hours, status = ifelse(pumps$event == 1, "failure", "runout")),
+  own <- ww_study(formula = "hours = characteristic", data = data.frame(hours = pumps$hours, status = ifelse(pumps$event == 1, "failure", "runout")),
                   units = c(hours = "h"), family = "weibull",
-                  priors = list(eta = ww_lognormal("5000 h", log_sd = 2), shape = ww_lognormal(1.5, log_sd = 0.7)))
+                  priors = list(characteristic = ww_lognormal("5000 h", log_sd = 2), shape = ww_lognormal(1.5, log_sd = 0.7)))  # ww_study's own name
   same <- quiet(ww_fit(own, seed = 1, method = "exact", draws = 100, report = FALSE))
-  expect_identical(as.matrix(fit$parameters[c("mean", "sd", "q05", "q95")]), as.matrix(same$parameters[c("mean", "sd", "q05", "q95")]))
+  expect_identical(unname(as.matrix(fit$parameters[c("mean", "sd", "q05", "q95")])), unname(as.matrix(same$parameters[c("mean", "sd", "q05", "q95")])))
   expect_identical(fit$toml, fit$study$text)
-  expect_output(print(fit), "Default priors.*eta +lognormal, median 5000, sd of the logarithm 2")
+  expect_output(print(fit), "Default priors.*characteristic +lognormal, median 5000, sd of the logarithm 2")
   expect_identical(quiet(ww_life(pumps, "hours", event = "event", units = c(hours = "h"), seed = 1, method = "exact", draws = 100,
                                  report = FALSE))$parameters, fit$parameters)
 })
@@ -77,24 +77,24 @@ test_that("the study is the formula model that one would write", {
 test_that("random effects are those of lme4 and brms", {
   table <- transform(pumps, batch = rep(c("x", "y"), each = 5), lot = as.character(seq_len(10) %% 5))
   text <- function(formula) study_of(formula, table)$text
-  expect_match(text(Surv(hours, event) ~ (1 | batch)), "[random_effects.batch]\neta = { distribution = \"lognormal\", log_sd = \"eta_scatter\" }", fixed = TRUE)
+  expect_match(text(Surv(hours, event) ~ (1 | batch)), "[random_effects.batch]\ncharacteristic = { distribution = \"lognormal\", log_sd = \"characteristic_scatter\" }", fixed = TRUE)
   # The rest is not read as a study, which evaluates its likelihood.
   entries <- function(right) {
     columns <- wearwell:::frame_columns(table, NULL)
     sides <- wearwell:::split_terms(right)
     effects <- wearwell:::effects_of(sides$fixed, columns, list(), "the formula")
-    wearwell:::with_random(wearwell:::random_of(sides$random, "eta", effects, columns, "the formula"), "eta", effects, columns, character(), "the formula")
+    wearwell:::with_random(wearwell:::random_of(sides$random, "characteristic", effects, columns, "the formula"), "characteristic", effects, columns, character(), "the formula")
   }
   slopes <- entries(quote(load + (load | batch)))
   expect_identical(slopes$entries$batch$b_load, list(distribution = "normal", sd = "b_load_scatter"))
   expect_identical(slopes$entries$batch$correlation, "rho")
-  expect_identical(names(slopes$priors), c("eta_scatter", "b_load_scatter", "rho"))
-  expect_identical(names(entries(quote(load + (load || batch)))$entries$batch), c("eta", "b_load"))
+  expect_identical(names(slopes$priors), c("characteristic_scatter", "b_load_scatter", "rho"))
+  expect_identical(names(entries(quote(load + (load || batch)))$entries$batch), c("characteristic", "b_load"))
   expect_identical(names(entries(quote(load + (0 + load | batch)))$entries$batch), "b_load")
   nested <- entries(quote((1 | batch / lot)))
   expect_identical(wearwell:::finest(nested), "batch_lot")
   expect_identical(nested$columns$batch_lot$values[1:2], c("x:1", "x:2"))
-  expect_identical(nested$entries$batch_lot$eta$log_sd, "eta_batch_lot_scatter")
+  expect_identical(nested$entries$batch_lot$characteristic$log_sd, "characteristic_batch_lot_scatter")
   refused(text(Surv(hours, event) ~ (load | batch)), "load is no effect of the formula; it stands beside it")
   refused(text(Surv(hours, event) ~ (1 | id | batch)), "random effects are written (1 | label)")
 })
@@ -102,9 +102,9 @@ test_that("random effects are those of lme4 and brms", {
 test_that("stress laws are written out, by is a level's own scale", {
   hot <- transform(pumps, T = rep(c(40, 60), 5))
   arrhenius <- study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius"), units = c(T = "degC"))$text
-  expect_match(arrhenius, "scale = \"eta * exp(energy/boltzmann * (1/T - 1/T_reference))\"", fixed = TRUE)
-  expect_match(study_of(Surv(hours, event) ~ 1, hot, stress = c(load = "inverse-power"))$text, "-n * log(load/load_reference)", fixed = TRUE)
-  expect_match(study_of(Surv(hours, event) ~ 1, hot, by = "site")$text, "scale = \"eta[site]\"", fixed = TRUE)
+  expect_match(arrhenius, "scale = \"characteristic * exp(energy/boltzmann * (1/T - 1/T_reference))\"", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ 1, hot, stress = c(load = "inverse-power"))$text, "-load_power * log(load/load_reference)", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ 1, hot, by = "site")$text, "scale = \"characteristic[site]\"", fixed = TRUE)
   expect_match(study_of(Surv(hours, event) ~ load * site, hot)$text, "b_load_by_site_B * (load - load_reference) * (site == \\\"B\\\")", fixed = TRUE)
   refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius")), "T has no unit: units = c(T = \"degC\") states it")
   refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arhenius")), "it is one of arrhenius")
@@ -159,15 +159,15 @@ test_that("columns of counts and units that are not used are named", {
 
 test_that("priors = \"flat\", B-lives and marks of defaults are those of Python", {
   study <- study_of(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), priors = "flat")
-  expect_match(study$text, "eta = { distribution = \"flat\", unit = \"h\", lower = \"0 h\" }\nshape = { distribution = \"flat\", unit = \"1\", lower = 0 }\n",
+  expect_match(study$text, "characteristic = { distribution = \"flat\", unit = \"h\", lower = \"0 h\" }\nslope = { distribution = \"flat\", unit = \"1\", lower = 0 }\n",
                fixed = TRUE)
   expect_match(study$text, "b_lives = [1, 10, 50]", fixed = TRUE)
   expect_false(grepl("# default", study$text, fixed = TRUE))
-  mixed <- study_of(Surv(hours, event) ~ 1, pumps, priors = list(shape = ww_lognormal(2, log_sd = 0.5)))$text
-  expect_match(mixed, "\neta = [^\n]*  # default\nshape = [^\n#]*\n")
+  mixed <- study_of(Surv(hours, event) ~ 1, pumps, priors = list(slope = ww_lognormal(2, log_sd = 0.5)))$text
+  expect_match(mixed, "\ncharacteristic = [^\n]*  # default\nslope = [^\n#]*\n")
   refused(study_of(Surv(hours, event) ~ 1, pumps, priors = "flatt"), "or \"flat\"")
   fit <- quick(Surv(hours, event) ~ 1, pumps, priors = "flat")
-  stated <- quick(Surv(hours, event) ~ 1, pumps, priors = list(eta = ww_flat("1", lower = 0), shape = ww_flat("1", lower = 0)))
+  stated <- quick(Surv(hours, event) ~ 1, pumps, priors = list(characteristic = ww_flat("1", lower = 0), slope = ww_flat("1", lower = 0)))
   expect_identical(mode_of(fit), mode_of(stated))
 })
 
@@ -181,8 +181,8 @@ test_that("questions are refused in the words of arguments", {
   wear <- data.frame(km = c(10, 20, 30, 40), wear = c(11, 19, 32, 41))
   refused_as(ww_degradation(wear ~ km, wear, units = c(wear = "um", km = "km"), limit = "100 kg", fit = FALSE),
              "limit: \"100 kg\": unit 'kg' has the wrong dimension (expected one like 'm')")
-  refused_as(study_of(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), priors = list(eta = ww_flat(lower = 0, unit = "day"))),
-             "priors: eta.lower: 0 has no unit (write one like \"0 s\")")
+  refused_as(study_of(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"), priors = list(characteristic = ww_flat(lower = 0, unit = "day"))),
+             "priors: characteristic.lower: 0 has no unit (write one like \"0 s\")")
   refused_as(ww_flat(), "unit is missing: ww_flat(unit = \"h\"), that of the parameter, or ww_flat(unit = \"1\") of a plain number")
 })
 
@@ -196,7 +196,9 @@ test_that("errors name arguments and columns", {
   refused(study_of(Surv(hours, event) ~ load, transform(pumps, load = c(1, NA, load[-(1:2)]))), "data, row 2, column 'load': a value is missing")
   refused(study_of(Surv(hours, event) ~ load, transform(pumps, load = 1)), "column 'load' is 1 in all rows")
   refused(study_of(Surv(hours, event) ~ log(load), pumps), "log(load) is no column; make one of it first")
-  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(beta = ww_lognormal(1, log_sd = 1))), "priors: the model has no parameter 'beta' (parameters: eta, shape)")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(beta = ww_lognormal(1, log_sd = 1))), "priors: the model has no parameter 'beta' (parameters: characteristic, slope)")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(eta = ww_flat("1"))), "priors: 'eta' is called 'characteristic'")
+  refused(study_of(Surv(hours, event) ~ 1, pumps, priors = list(shape = ww_flat("1"))), "priors: 'shape' is called 'slope'")
   refused(study_of(Surv(hours, event) ~ 1, pumps, units = c(hrs = "h")), "units: data has no column 'hrs'")
   spread <- study_of(Surv(hours, event) ~ load, pumps, given = list(load = list(distribution = "uniform", lower = 1, upper = 2)))
   expect_match(spread$text, 'distribution = "uniform"', fixed = TRUE)
@@ -212,9 +214,9 @@ absorbers <- function() read.csv(example("life", "shock_absorbers.csv"), check.n
 
 test_that("failure modes: means of exponential lives in closed form, simulated lives are the earliest", {
   table <- absorbers()
-  fit <- quick(Surv(km) ~ 1, table, mode = "failure mode", family = "exponential", priors = list(mean = ww_flat("1")))
+  fit <- quick(Surv(km) ~ 1, table, mode = "failure mode", family = "exponential", priors = list(mean_life = ww_flat("1")))
   failures <- table(table[["failure mode"]])
-  expect_equal(mode_of(fit), c(`mean[mode 1]` = sum(table$km) / failures[["mode 1"]], `mean[mode 2]` = sum(table$km) / failures[["mode 2"]]), tolerance = 1e-4)
+  expect_equal(mode_of(fit), c(`mean_life[mode 1]` = sum(table$km) / failures[["mode 1"]], `mean_life[mode 2]` = sum(table$km) / failures[["mode 2"]]), tolerance = 1e-4)
   expect_identical(fit$lives$of, c("new unit", "new unit with mode 1 alone", "new unit with mode 2 alone"))
   b10 <- fit$lives$b10[1]
   draws <- unclass(fit$draws)  # of two exponential lives the earliest is exponential
@@ -229,8 +231,8 @@ test_that("failure modes are read from words, codes and events", {
   coded <- study_of(Surv(km) ~ 1, data.frame(km = table$km, cause = code), mode = list(column = "cause", runout = 0))
   beside <- study_of(Surv(km, ended) ~ 1, data.frame(km = table$km, cause = ifelse(code > 0, code, NA), ended = code > 0), mode = "cause")
   for (study in list(coded, beside)) expect_match(ww_description(study), "27 run-outs, 7 failed by 1, 4 failed by 2", fixed = TRUE)
-  expect_match(coded$text, "shape = \"shape[mode]\"", fixed = TRUE)
-  expect_match(study_of(Surv(km) ~ 1, table, mode = "failure mode", shape = "shared")$text, "shape = \"shape\"", fixed = TRUE)
+  expect_match(coded$text, "shape = \"slope[mode]\"", fixed = TRUE)
+  expect_match(study_of(Surv(km) ~ 1, table, mode = "failure mode", shape = "shared")$text, "shape = \"slope\"", fixed = TRUE)
   expect_match(study_of(table, "km", event = NULL, mode = "failure mode")$text, "mode = \"mode\"", fixed = TRUE)
   refused(study_of(Surv(km) ~ 1, table), "or mode = \"failure mode\" of failure modes, or unused")
   refused(study_of(Surv(km) ~ 1, data.frame(km = table$km, cause = code), mode = "cause"), "or write mode = list(column = ..., runout = \"0\")")
@@ -239,7 +241,7 @@ test_that("failure modes are read from words, codes and events", {
   refused(study_of(Surv(km) ~ 1, table, mode = list(columns = "x")), "it is the name of a column, or like list(column = \"cause\", runout = 0)")
   supplied <- transform(table, supplier = rep(c("A", "B"), 19), check.names = FALSE)
   names(supplied)[2] <- "cause"
-  refused(study_of(Surv(km) ~ 1, supplied, mode = "cause", by = "supplier"), "by and mode: each failure mode has its own eta")
+  refused(study_of(Surv(km) ~ 1, supplied, mode = "cause", by = "supplier"), "by and mode: each failure mode has its own characteristic")
   refused(study_of(Surv(km) ~ 1 + (1 | supplier), supplied, mode = "cause"), "mode: failure modes have no random effects")
   refused(study_of(Surv(km) ~ 1, supplied, unused = "cause", shape = "separate"), "shape = 'separate' needs by or mode")
 })
@@ -248,4 +250,26 @@ test_that("a frame with the name of a unit is the formula with a random effect",
   batches <- data.frame(hours = c(210, 340, 460, 610, 150, 190), batch = rep(c("A", "B", "C"), each = 2))
   expect_identical(study_of(batches, "hours", unit = "batch")$text, study_of(hours ~ 1 + (1 | batch), batches)$text)
   refused(study_of(batches, "hours", unit = "lot"), "unit: data has no column 'lot'")
+})
+
+test_that("parameters and default priors are those of the Python package", {  # tests/golden/life_families.json: of both, of the same lives
+  lives <- data.frame(hours = c(312, 480, 510, 640, 700, 700, 150, 260, 420), failed = c(1, 1, 1, 1, 0, 0, 1, 1, 1))
+  text <- paste(readLines(file.path(source_of_project(), "tests", "golden", "life_families.json")), collapse = "\n")
+  expected <- wearwell:::core(wearwell:::C_keys, paste0("families = ", gsub("\": ", "\" = ", gsub("\n", " ", text))))$families
+  expect_setequal(c(names(expected), "generalized-gamma"), names(wearwell:::life_families))
+  by_name <- function(keys) keys[order(names(keys))]
+  for (family in names(expected)) {
+    keys <- wearwell:::core(wearwell:::C_keys, study_of(Surv(hours, failed) ~ 1, lives, family = family, units = c(hours = "h"))$text)
+    expect_equal(by_name(keys$likelihood[[1]]), by_name(expected[[family]]$likelihood), info = family)
+    expect_equal(lapply(by_name(keys$prior), by_name), lapply(by_name(expected[[family]]$prior), by_name), info = family)
+  }
+})
+
+test_that("lives from where hardly any survive are refused, and not infinite in frames", {
+  fit <- quick(Surv(hours, event) ~ 1, pumps, units = c(hours = "h"))
+  refused(ww_life(fit, survived = 1e6), "survived: a new item survives to 1e+06 with a probability of")
+  refused(ww_life(fit, survived = 1e6), "%; lives from there on need at least 0.1 %")
+  answered <- wearwell:::quantities_of(ww_ask(fit, list(survived = "1e6 h", b_lives = 10)))
+  expect_true(all(is.na(answered$q50[grepl("remaining", answered$name)])))
+  expect_true(all(is.finite(ww_life(fit, survived = 3000)$q50)))
 })

@@ -5,21 +5,21 @@ fit <- quiet(ww_life(Surv(hours, event) ~ 1, data = pumps, units = c(hours = "h"
 draws <- wearwell:::draws_matrix(fit)
 
 test_that("estimates are the posterior's", {
-  expect_identical(coef(fit), stats::setNames(fit$parameters$mean, c("eta", "shape")))
-  expect_equal(sqrt(diag(vcov(fit))), stats::setNames(fit$parameters$sd, c("eta", "shape")))
+  expect_identical(coef(fit), stats::setNames(fit$parameters$mean, c("characteristic", "slope")))
+  expect_equal(sqrt(diag(vcov(fit))), stats::setNames(fit$parameters$sd, c("characteristic", "slope")))
   expect_equal(stats::cov2cor(vcov(fit)), stats::cor(draws))
   expect_identical(unname(confint(fit, level = 0.9)), unname(as.matrix(fit$parameters[c("q05", "q95")])))
-  expect_equal(unname(confint(fit, "shape", level = 0.5)[1, ]), unname(stats::quantile(draws[, "shape"], c(0.25, 0.75))))
+  expect_equal(unname(confint(fit, "slope", level = 0.5)[1, ]), unname(stats::quantile(draws[, "slope"], c(0.25, 0.75))))
   expect_identical(colnames(confint(fit)), c("2.5 %", "97.5 %"))
-  refused(confint(fit, "slope"), "parm: the fit has no parameter 'slope' (parameters: eta, shape)")
+  refused(confint(fit, "eta"), "parm: the fit has no parameter 'eta' (parameters: characteristic, slope)")
   refused(confint(fit, level = 95), "level is 95; it lies between 0 and 1")
 })
 
 test_that("the log-likelihood is that at the mode", {
   mode <- vapply(fit$summary$mode$parameters, `[[`, 0, "value")
   ended <- pumps$event == 1
-  own <- sum(stats::dweibull(pumps$hours[ended], mode["shape"], mode["eta"], log = TRUE)) +
-    sum(stats::pweibull(pumps$hours[!ended], mode["shape"], mode["eta"], lower.tail = FALSE, log.p = TRUE))
+  own <- sum(stats::dweibull(pumps$hours[ended], mode["slope"], mode["characteristic"], log = TRUE)) +
+    sum(stats::pweibull(pumps$hours[!ended], mode["slope"], mode["characteristic"], lower.tail = FALSE, log.p = TRUE))
   expect_equal(as.numeric(logLik(fit)), own, tolerance = 1e-8)
   expect_identical(attr(logLik(fit), "df"), 2L)
   expect_equal(AIC(fit), fit$summary$mode$aic)
@@ -30,7 +30,7 @@ test_that("the log-likelihood is that at the mode", {
 test_that("residuals are quantile residuals at 400 draws", {
   kept <- draws[(0:399) * 10 + 1, ]
   ended <- pumps$event == 1
-  below <- outer(seq_len(400), seq_len(10), function(s, i) stats::pweibull(pumps$hours[i], kept[s, "shape"], kept[s, "eta"]))
+  below <- outer(seq_len(400), seq_len(10), function(s, i) stats::pweibull(pumps$hours[i], kept[s, "slope"], kept[s, "characteristic"]))
   below[, !ended] <- (below[, !ended] + 1) / 2
   expect_equal(as.vector(residuals(fit)), apply(stats::qnorm(below), 2, stats::median), tolerance = 1e-6)
   expect_identical(attr(residuals(fit), "censored"), !ended)
@@ -102,20 +102,20 @@ test_that("each family simulates its own quantiles", {
   expect_equal(of("loglogistic", 3), 100 * exp(stats::qlogis(u) / 3))
   expect_equal(of("frechet", 2), 1e4 / stats::qweibull(1 - u, 2, 100))  # the reciprocal of a Weibull life
   expect_equal(of("exponential"), stats::qexp(u, 1 / 100))
-  expect_equal(of("gamma", 2), stats::qgamma(u, 2, scale = 100))
+  expect_equal(of("gamma", 2), stats::qgamma(u, 2, scale = 50))  # mean 100
   expect_equal(of("generalized-gamma", 0.5, 1), stats::qweibull(u, 2, 100))  # lambda 1
   expect_equal(of("generalized-gamma", 0.5, 0), stats::qlnorm(u, log(100), 0.5))  # lambda 0
   x <- of("birnbaum-saunders", 0.7)
   expect_equal(stats::pnorm((sqrt(x / 100) - sqrt(100 / x)) / 0.7), u)
   set.seed(1)
-  wald <- wearwell:::random_life("inverse-gaussian", stats::runif(1e5), 100, 300)
-  expect_equal(mean(wald), 100, tolerance = 0.01)  # mean m, variance m^3/shape
+  wald <- wearwell:::random_life("inverse-gaussian", stats::runif(1e5), 100, sqrt(1 / 3))
+  expect_equal(mean(wald), 100, tolerance = 0.01)  # mean m, variance (m variation)^2
   expect_equal(stats::var(wald), 100^3 / 300, tolerance = 0.03)
 })
 
 test_that("update changes the call", {
   other <- quiet(update(fit, family = "exponential", report = FALSE, draws = 100))
-  expect_identical(names(coef(other)), "mean")
+  expect_identical(names(coef(other)), "mean_life")
   call <- update(fit, . ~ . + load, evaluate = FALSE)
   expect_equal(call$x, Surv(hours, event) ~ load, ignore_formula_env = TRUE)
   refused(update(fit, "family"), "only fits of a formula")
@@ -136,17 +136,17 @@ test_that("broom's and posterior's generics", {
 test_that("the report's figures are drawn from their specifications", {
   grDevices::pdf(NULL)
   on.exit(grDevices::dev.off())
-  for (kind in c("life", "probability", "posterior", "residuals", "hazard", "trace-eta")) expect_identical(plot(fit, kind), fit)
+  for (kind in c("life", "probability", "posterior", "residuals", "hazard", "trace-characteristic")) expect_identical(plot(fit, kind), fit)
   paper <- wearwell:::drawing_of(wearwell:::chosen_figures(fit, "probability")[[1]])
   points <- Filter(function(layer) layer$type == "point", paper$layers)[[1]]$data
   expect_equal(points$x, sort(pumps$hours[pumps$event == 1]))
   expect_true(paper$x$log)
   expect_true("50" %in% sub("[^0-9.].*", "", paper$y$labels))
-  belief <- wearwell:::drawing_of(wearwell:::figures_of(fit)[["belief-eta"]])
+  belief <- wearwell:::drawing_of(wearwell:::figures_of(fit)[["belief-characteristic"]])
   expect_true("before the data (prior)" %in% unlist(lapply(belief$layers, `[[`, "label")))
   refused(plot(fit, "curve"), "this fit has no figure of the kind 'curve'; it has")
   refused(plot(fit, "lives"), "it is one of life, probability, curve, posterior, residuals, or a figure of this fit")
-  refused(plot(fit, "life", which = "eta"), "goes with kind = \"posterior\"")
+  refused(plot(fit, "life", which = "characteristic"), "goes with kind = \"posterior\"")
   bare <- quiet(update(fit, report = FALSE, draws = 100))
   expect_identical(plot(bare), bare)
   refused(plot(bare, "life"), "this fit was made with report = FALSE")
@@ -156,7 +156,7 @@ test_that("ggplot2 draws the same layers", {
   skip_if_not_installed("ggplot2")
   grDevices::pdf(NULL)
   on.exit(grDevices::dev.off())
-  for (kind in c("probability", "hazard", "residuals", "draws-eta-shape")) {
+  for (kind in c("probability", "hazard", "residuals", "draws-characteristic-slope")) {
     plot <- ggplot2::autoplot(fit, kind)
     built <- ggplot2::ggplot_build(plot)
     drawings <- wearwell:::drawings_of(fit, kind)

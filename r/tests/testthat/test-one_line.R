@@ -14,9 +14,9 @@ test_that("degradation is a formula study with a rate of each unit", {
   text <- function(...) ww_degradation(..., data = wear, fit = FALSE)$text
   expect_match(text(depth ~ km | machine, limit = "100 um", units = units), "limit = { path = \"100 um\" }", fixed = TRUE)
   expect_match(text(depth ~ km, unit = "machine"), "[random_effects.machine]", fixed = TRUE)
-  expect_match(text(depth ~ km | machine, path = "power"), "path = \"rate * 50 * (km/50)^exponent\"", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, path = "power"), "path = \"rate * 50 * (km/50)^power\"", fixed = TRUE)
   expect_match(text(depth ~ km | machine, start = TRUE), "start = { distribution = \"normal\", sd = \"start_scatter\" }", fixed = TRUE)
-  expect_match(text(depth ~ km | machine, family = "gamma-process"), "family = \"gamma-process\"\nmean = \"rate * km\"\nscale = \"scale\"", fixed = TRUE)
+  expect_match(text(depth ~ km | machine, family = "gamma-process"), "family = \"gamma-process\"\nmean = \"rate * km\"\nscale = \"step_ratio\"", fixed = TRUE)
   expect_identical(ww_degradation(wear, "depth", "km", unit = "machine", fit = FALSE)$text, text(depth ~ km | machine))
   refused(text(depth ~ km | mashine), "unit: data has no column 'mashine'")
   refused(text(-depth ~ km | machine), "the readings do not rise along the axis")
@@ -84,4 +84,26 @@ test_that("level takes the place of the default confidence", {
   wear <- data.frame(km = c(10, 20, 10, 20), depth = c(9, 19, 11, 22), machine = c("A", "A", "B", "B"))
   expect_identical(level_of(ww_degradation(depth ~ km | machine, wear, limit = "100 um", units = c(depth = "um", km = "km"),
                                            predict = list(level = 0.95), fit = FALSE)), 0.95)
+})
+
+test_that("presets name columns that they do not use", {
+  said <- function(code) {
+    found <- character()
+    withCallingHandlers(code, wearwell_column_warning = function(w) {
+      found <<- c(found, conditionMessage(w))
+      invokeRestart("muffleWarning")
+    })
+    found
+  }
+  looks <- data.frame(cycles = c(1, 100, 1000, 5000), V = c(1.59, 2.57, 8.10, 24.48), joint = c("A", "A", "B", "B"))
+  joint <- function(...) ww_joint(looks, "V", "cycles", work_per_cycle = "5.966 N m", units = c(V = "mm^3"), fit = FALSE, ...)
+  expect_identical(said(joint()), paste0(
+    "column 'joint' looks like a label of units with several rows each and is not used, so all rows count as those of one joint: write ",
+    "ww_degradation(..., unit = \"joint\"), whose rate differs from unit to unit, or unused = \"joint\" if that is so"))
+  expect_length(said(joint(unused = "joint")), 0)
+  worn <- read.csv(example("bearing", "inspections.csv"))
+  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", contact = "stationary", radius = "10 mm", clearance = "25 um",
+                                      pressure = "1 MPa", units = c(depth_um = "um"), fit = FALSE, ...)
+  expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write bearing = \"bearing\", or unused = \"bearing\" if that is so")
+  expect_length(said(bearing(bearing = "bearing")), 0)
 })

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/residual_shape.h"
 #include "wearwell/infer/row_sample.h"
 #include "wearwell/infer/score_tests.h"
@@ -41,7 +42,10 @@ struct OverDraws {
 std::vector<double> each_draw(const std::vector<std::vector<double>>& scores,
                               const ScoreTest& test) {
   std::vector<double> each(scores.size());
-  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t s) { each[s] = test(scores[s]); });
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t s) {
+    check_stop();
+    each[s] = test(scores[s]);
+  });
   return each;
 }
 

@@ -263,6 +263,7 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
                           fewest, most_draws));
   std::vector<std::vector<double>> scores(static_cast<std::size_t>(count)), effects(scores.size());
   tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t s) {
+    check_stop();
     const Eigen::VectorXd x =
         draws.values.row(static_cast<Eigen::Index>(s) * draws.values.rows() / count);
     const std::vector<NormalScore> ends = data.scores(x.data());

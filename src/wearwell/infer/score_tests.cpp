@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/math/normality.h"
 
@@ -52,6 +53,7 @@ double cosine_score(std::span<const double> a, std::span<const double> b, double
 }  // namespace
 
 double shape_score(std::span<const double> z) {
+  check_stop();
   if (z.size() <= most_shapiro_wilk) {
     return std::clamp(-shapiro_wilk_test({z.begin(), z.end()}).score, -farthest, farthest);
   }

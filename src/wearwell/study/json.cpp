@@ -56,6 +56,12 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
   return json;
 }
 
+// NaN, where an infinite life is never reached: both are null.
+bool is_undetermined(const QuantityQuantiles& q) {
+  const auto is_nan = [](const std::optional<double>& x) { return !x || std::isnan(*x); };
+  return std::isnan(q.q50) && is_nan(q.predictive) && is_nan(q.mean);
+}
+
 Json to_json(const QuantityQuantiles& q, bool is_life) {
   Json json = {{"q05", q.q05}, {"q50", q.q50}, {"q95", q.q95}};
   if (is_life) json.update({{"b1", q.b1}, {"b10", q.b10}, {"b50", q.b50}});
@@ -70,6 +76,7 @@ Json to_json(const QuantityQuantiles& q, bool is_life) {
           {{"observed_to", *q.mean_tail->longest}, {"beyond", *q.mean_tail->beyond}});
   }
   if (q.numerical_error) json["numerical_error"] = *q.numerical_error;
+  if (is_undetermined(q)) json["undetermined"] = true;
   return json;
 }
 

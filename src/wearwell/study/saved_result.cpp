@@ -132,11 +132,12 @@ LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder)
 
 QuantityQuantiles read_quantiles(const JsonReader& json) {
   QuantityQuantiles q{number(json, "q05"), number(json, "q50"), number(json, "q95")};
-  if (json.find("b10")) q.b10 = number(json, "b10", never);
-  if (json.find("predictive")) q.predictive = number(json, "predictive", never);
-  if (json.find("bound")) q.bound = number(json, "bound", never);
-  if (json.find("upper_bound")) q.upper_bound = number(json, "upper_bound", never);
-  if (json.find("mean")) q.mean = number(json, "mean", never);
+  const double none = json.find("undetermined") ? unknown : never;
+  if (json.find("b10")) q.b10 = number(json, "b10", none);
+  if (json.find("predictive")) q.predictive = number(json, "predictive", none);
+  if (json.find("bound")) q.bound = number(json, "bound", none);
+  if (json.find("upper_bound")) q.upper_bound = number(json, "upper_bound", none);
+  if (json.find("mean")) q.mean = number(json, "mean", none);
   if (json.find("numerical_error")) q.numerical_error = number(json, "numerical_error");
   if (const auto tail = json.find("mean_tail")) {
     q.mean_tail = MeanTail{number(*tail, "highest"), {}, {}};

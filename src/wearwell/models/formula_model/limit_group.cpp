@@ -36,14 +36,14 @@ struct LimitGroup::Remaining {
   double survival = 1;  // the probability that the unit survives to this point
 
   bool any() const { return lives.mass() > 1e-6; }
-  // If units hardly ever survive to this point, the rest is undetermined; if it is certainly
-  // passed, nothing remains.
+  // If units hardly ever survive to this point, the rest is undetermined; if the limit is
+  // certainly passed, nothing remains.
   double quantile(double p) const {
-    if (any() && survival < 1e-3) return std::nan("");
+    if (survival < 1e-3) return std::nan("");
     return any() ? lives.quantile(p) : 0;
   }
   double mean() const {
-    if (any() && survival < 1e-3) return std::nan("");
+    if (survival < 1e-3) return std::nan("");
     return any() ? lives.mean() : 0;
   }
   double cdf(double x) const { return any() ? lives.cdf(x) : 1; }
