@@ -73,8 +73,7 @@ double relative_width(const prognosis::Forecast& forecast) {
 
 void follow(const Guides& guides, const Change& change, bool may_change,
             const std::vector<Shown>& shown, FleetCounts& counts) {
-  const bool from_start = std::string(change.name).starts_with("heavy");
-  const std::size_t changes = from_start ? 0 : changes_after;
+  const std::size_t changes = change.from_start ? 0 : changes_after;
   WatchedGuide guide(guides, "new", may_change);
   ++counts.units;
   const bool changed = shown.size() > changes && change.named[0] != 0;
@@ -90,8 +89,8 @@ void follow(const Guides& guides, const Change& change, bool may_change,
       counts.delay.push_back(static_cast<int>(i - changes) + 1);
     }
     if (after) named |= guide.watch.reason().find(change.named) != std::string::npos;
-    // Forecasts after 6, 8, 10, 12, 15 and 20 readings.
-    if (i != 5 && i != 7 && i != 9 && i != 11 && i != 14 && i != 19) continue;
+    // Forecasts after 6, 8, 10, 12, 15, 20 and 25 readings.
+    if (i != 5 && i != 7 && i != 9 && i != 11 && i != 14 && i != 19 && i != 24) continue;
     const prognosis::Forecast forecast = guide.unit->forecast();
     const bool right = holds(forecast, shown[i].remaining);
     const double width = relative_width(forecast);

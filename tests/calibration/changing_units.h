@@ -125,6 +125,7 @@ struct Change {
   const char* name;
   const char* named;  ///< a part of the right reason; "" if nothing is to be found
   std::function<std::vector<Shown>(Rng&)> readings;
+  bool from_start = false;  ///< from the first reading on
 };
 
 inline constexpr int changes_after = 10, most_readings = 25;
@@ -183,6 +184,8 @@ inline std::vector<Change> changes() {
        of_rate([=](int i) { return after(i) ? std::pow(1.05, i - changes_after) : 1.0; })},
       {"step of 12 um", "a step",
        of_sensor([=](int i, double wear) { return after(i) ? wear + 12 : wear; })},
+      {"step of -12 um", "a step",
+       of_sensor([=](int i, double wear) { return after(i) ? wear - 12 : wear; })},
       {"reset of the sensor", "reset to zero",
        [=](Rng& rng) {
          const double own = Guides::drawn_rate(rng);
@@ -227,7 +230,12 @@ inline std::vector<Change> changes() {
            return Guides::noise * rng.normal() / std::sqrt(square / 3);
          };
          return grown(rng, Guides::drawn_rate(rng), same, true_reading, heavy);
-       }},
+       },
+       true},
+      {"mm from the start", "mm in place of um",
+       of_sensor([=](int, double wear) { return changing::round_to(wear / 1000, 1e-4); }), true},
+      {"tenths of um from the start", "the unit is not",
+       of_sensor([=](int, double wear) { return changing::round_to(10 * wear, 0.1); }), true},
       {"use counter reset", "goes back",
        [=](Rng& rng) {
          std::vector<Shown> all =

@@ -55,6 +55,20 @@ TEST_F(NewLifeTables, TablesThatAreNoSteps) {
   }
 }
 
+// As the tables of Meeker and Escobar have them: the ends say what the indicator says.
+TEST_F(NewLifeTables, IntervalsWithAnIndicatorOfCensoring) {
+  const std::string rows = "50,100,Interval,7\n100,200,Interval,9\n,50,Left,2\n200,,Right,5\n";
+  const std::string said =
+      fitted("t.csv", "Hours Lower,Hours Upper,Censoring Indicator,Count\n" + rows);
+  EXPECT_THAT(said, HasSubstr("'Censoring Indicator' says what the ends of the intervals say"));
+  EXPECT_THAT(content("out/study.toml"), Not(HasSubstr("status")));
+  // Where it says something else it is not left out.
+  write("other.csv",
+        "Hours Lower,Hours Upper,Censoring Indicator,Count\n" + rows + "300,,Left,1\n");
+  here("new --from other.csv other");
+  EXPECT_THAT(content("other/study.toml"), HasSubstr("Censoring Indicator"));
+}
+
 TEST_F(NewLifeTables, RowsOfOneUnitUnderSeveralConditions) {
   write("t.csv",
         "machine,life [h],temperature [degC],status\na,100,80,failed\na,120,60,failed\n"

@@ -15,19 +15,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A tenth of the median life of a new unit, to one digit.
-std::string horizon(const prognosis::Tracker& tracker) {
-  const std::string fresh = "a new " + tracker.noun();
-  const std::string unit =
-      tracker.refusal(fresh).empty() || tracker.seen().empty() ? fresh : tracker.seen().front();
+// The median of what remains to a unit, in the axis's unit; NaN where nothing determines it: the life
+// of a new part needs its load.
+double remaining_of(const prognosis::Tracker& tracker, const std::string& unit) {
   const prognosis::Forecast forecast = tracker.begin(unit)->forecast();
-  const Unit& axis = tracker.axis().unit;
-  double tenth =
-      forecast.remaining.points().empty() ? 1 : forecast.remaining.quantile(0.5) / axis.scale / 10;
-  if (!std::isfinite(tenth) || !(tenth > 0)) tenth = 1;
-  const double power = std::pow(10, std::floor(std::log10(tenth)));
-  return fmt::format("{:.6g} {}", std::max(1.0, std::round(tenth / power)) * power,
-                     axis.text == "1" ? "" : axis.text);
+  if (forecast.remaining.points().empty()) return std::nan("");
+  const double median = forecast.remaining.quantile(0.5) / tracker.axis().unit.scale;
+  return std::isfinite(median) && median > 0 ? median : std::nan("");
+}
+
+// The line of the horizon: a tenth of the median life of a new unit, or of what remains to one of the
+// study, to one digit.
+std::string horizon_line(const prognosis::Tracker& tracker) {
+  const std::string fresh = "a new " + tracker.noun();
+  double median = std::nan("");
+  if (tracker.refusal(fresh).empty()) median = remaining_of(tracker, fresh);
+  for (const std::string& each : tracker.seen()) {
+    if (!std::isnan(median)) break;
+    median = remaining_of(tracker, each);
+  }
+  const std::string unit = tracker.axis().unit.text == "1" ? "" : " " + tracker.axis().unit.text;
+  if (std::isnan(median))
+    return fmt::format("# horizon = {}  # STATE IT: the use until the next inspection",
+                       toml_text("1000" + unit));
+  const double tenth = median / 10, power = std::pow(10, std::floor(std::log10(tenth)));
+  return "horizon = " +
+         toml_text(fmt::format("{:.6g}{}", std::max(1.0, std::round(tenth / power)) * power, unit));
 }
 
 std::string column_lines(const prognosis::Tracker& tracker) {
@@ -57,8 +70,6 @@ std::string free_field(const prognosis::Tracker& tracker, const std::string& nam
 
 std::string configuration(const prognosis::Tracker& tracker, const fs::path& result) {
   const std::string noun = tracker.noun().empty() ? "unit" : tracker.noun();
-  std::string ending = horizon(tracker);
-  if (ending.back() == ' ') ending.pop_back();
   return fmt::format(
       R"(# Readings of {0}s on line: wearwell monitor monitor.toml. Every key: docs/reference/monitor.md
 title  = {1}
@@ -91,9 +102,9 @@ kind = "stdin"            # which a service does not have
 # kind   = "http"         # POST /api/v1/readings
 # format = "influx"       # lines of InfluxDB, of any source; then also precision = "ns"; or "opc ua"
 
-# Risk: the probability that {5} reaches {6:.6g} {7} within the horizon.
+# Risk: the probability that {5} reaches {6:.6g}{7} within the horizon.
 [alarm]
-horizon = {8}
+{8}
 watch   = "5 %"
 act     = "20 %"
 # silence = "2 d"         # without a reading for so long, the state is unknown
@@ -110,7 +121,8 @@ listen = "127.0.0.1:8080"  # the page; beyond this machine with token, certifica
 )",
       noun, toml_text(fmt::format("All {}s", noun)), toml_text(result.generic_string()),
       toml_text(noun), column_lines(tracker), tracker.limited(), tracker.limit().value,
-      tracker.limit().unit.text, toml_text(ending), toml_text(free_field(tracker, "time")),
+      tracker.limit().unit.text == "1" ? "" : " " + tracker.limit().unit.text,
+      horizon_line(tracker), toml_text(free_field(tracker, "time")),
       toml_text(free_field(tracker, "event")));
 }
 

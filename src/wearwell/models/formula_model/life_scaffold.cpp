@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/input/prior.h"
+#include "wearwell/input/status_words.h"
 #include "wearwell/models/formula_model/life_columns.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/models/formula_model/step_columns.h"
@@ -20,15 +21,16 @@ using Found = ColumnRoles::Found;
 constexpr std::string_view stresses[] = {"force", "pressure", "voltage", "alternating_stress"};
 
 struct Lives {
-  bool open_ends = false;  ///< some are written ">5000"
-  std::string columns;     ///< lines of [data.columns]
-  std::string unit;        ///< of a life
-  double largest = 1;      ///< in it
-  double middle = 1;       ///< the median of the written values
-  bool stated = false;     ///< text or a status marks these as lives
-  bool modes = false;      ///< with a column of failure modes
-  std::string runout;      ///< a line of [failure_modes]
-  std::string steps;       ///< the name of the specimens of a step-stress test
+  bool open_ends = false;        ///< some are written ">5000"
+  std::string columns;           ///< lines of [data.columns]
+  std::string unit;              ///< of a life
+  double largest = 1;            ///< in it
+  double middle = 1;             ///< the median of the written values
+  bool stated = false;           ///< text or a status marks these as lives
+  bool modes = false;            ///< with a column of failure modes
+  std::string runout;            ///< a line of [failure_modes]
+  bool ends_are_status = false;  ///< a column of status repeats the ends of the intervals
+  std::string steps;             ///< the name of the specimens of a step-stress test
 };
 
 bool is_interval(const ColumnRoles& roles) {
@@ -40,6 +42,24 @@ bool is_interval(const ColumnRoles& roles) {
     if (b[i] < a[i]) return false;
   }
   return true;
+}
+
+// A column of status that says what the ends of each interval say already.
+const Column* status_of_ends(const ColumnRoles& roles, const Column& lower, const Column& upper) {
+  const auto status = roles.find({"status"});
+  if (!status || status->column->is_number) return nullptr;
+  const auto a = numbers_of(roles.table(), lower), b = numbers_of(roles.table(), upper);
+  for (std::size_t row = 0; row < a.size(); ++row) {
+    const auto seen = censoring_by_word(status->column->text[row]);
+    const bool below = std::isnan(a[row]) || a[row] == 0, above = std::isnan(b[row]);
+    const bool agrees = seen == Censoring::right      ? above
+                        : seen == Censoring::left     ? below && !above
+                        : seen == Censoring::interval ? !above
+                        : seen == Censoring::none     ? !above
+                                                      : false;
+    if (!agrees) return nullptr;
+  }
+  return status->column;
 }
 
 double largest_of(const Table& table, const Column& column) {
@@ -84,6 +104,13 @@ std::optional<Lives> take_lives(ColumnRoles& roles, const std::string& steps = "
   const std::string count = take_count(roles);
   if (is_interval(roles)) {
     const Found lower = *roles.take("lower", {"lower"}), upper = *roles.take("upper", {"upper"});
+    if (const Column* status = status_of_ends(roles, *lower.column, *upper.column)) {
+      roles.taken.push_back(
+          fmt::format("column '{}' says what the ends of the intervals say: it is not "
+                      "needed",
+                      status->name));
+      lives.ends_are_status = true;
+    }
     Found a = lower, b = upper;
     if (a.unit == "1") a.unit = b.unit;
     if (b.unit == "1") b.unit = a.unit;
@@ -119,7 +146,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles, const std::string& steps = "
   }
   const auto mode = roles.find({"mode"});
   lives.columns += take_modes(roles, lives);
-  if (const auto status = roles.take_status(true)) {
+  if (const auto status = lives.ends_are_status ? std::nullopt : roles.take_status(true)) {
     lives.columns += *status;
     lives.stated = true;
   } else if (lives.modes) {
