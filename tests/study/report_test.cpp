@@ -103,7 +103,7 @@ TEST(Report, SaysTheVerdictFirst) {
 // The words above the design values are those of their columns.
 TEST(Report, DesignValuesAreExplainedByTheirSides) {
   PosteriorSummary result = result_of(Verdict::pass);
-  QuantitySummary life{"B10 life", "shaft", "at 400 MPa", "cycles", false, {}};
+  QuantitySummary life{"B10 life", "shaft", "at 400 MPa", "cycles", false, {}, {}};
   life.drawn.q05 = 282500, life.drawn.q50 = 381200, life.drawn.q95 = 480800;
   life.drawn.predictive = 368800;
   life.credible_level = 0.95;
