@@ -63,12 +63,13 @@ function faultsOf(selector) {
     const ground = svg.querySelector('.role-frame .background')?.getBoundingClientRect();
     const texts = [...svg.querySelectorAll('text')].filter((each) => each.textContent.trim() && shown(each)).map(
         (each) => ({word: `"${each.textContent}"`, whole: corners(each, 0), letters: corners(each, inkless),
-                    contrast: contrast(each), within: each.closest('.role-mark') ? ground : null}));
+                    contrast: contrast(each), legend: each.closest('.role-legend') !== null, within: each.closest('.role-mark') ? ground : null}));
     const symbols = [...svg.querySelectorAll('.role-legend-symbol path')].filter(shown).map(
         (each) => ({word: 'a symbol of the legend', whole: corners(each, 0), letters: corners(each, 0)}));
     for (const each of [...texts, ...symbols]) {
       if (!each.whole.flat().every(Number.isFinite)) say(`${each.word} is nowhere`);
       if (outside(each.whole, frame) > slack) say(`${each.word} is cut off by the drawing`);
+      if (each.legend && each.word.endsWith('…"')) say(`${each.word} is shortened in the legend`);
       if (each.contrast < 3) say(`${each.word} is not seen on its ground`);
       // Marks are clipped at the frame of the axes.
       if (each.within && outside(each.letters, each.within) > slack) say(`${each.word} is cut off by the axes`);

@@ -53,6 +53,37 @@ TEST(Number, OneUnitAndOnePowerOfARange) {
   EXPECT_EQ(unit_description("mm^3/(N m)", Script::page), "mm³/(N\u00a0m)");
 }
 
+// A lower end keeps its digits however far away the upper one is, and is never read with its power.
+TEST(Number, EndsDecadesApartHaveTheirOwnPowers) {
+  const auto text = [](double low, double high, int digits) {
+    return range_text(low, high, digits, Script::terminal);
+  };
+  EXPECT_EQ(text(1.64e7, 3.5812e12, 3), "1.64\u00a0×\u00a010^7 to 3.58\u00a0×\u00a010^12");
+  EXPECT_EQ(range_text(1.64e7, 3.5812e12, 4, Script::page),
+            "1.640\u00a0×\u00a010⁷ to 3.581\u00a0×\u00a010¹²");
+  EXPECT_EQ(text(8471, 2.31e7, 3), "8.47\u00a0×\u00a010^3 to 2.31\u00a0×\u00a010^7");
+  EXPECT_EQ(text(5, 3.58e12, 3), "5.00\u00a0×\u00a010^0 to 3.58\u00a0×\u00a010^12");
+  EXPECT_EQ(text(-2e7, 3.58e12, 3), "-2.00\u00a0×\u00a010^7 to 3.58\u00a0×\u00a010^12");
+  EXPECT_EQ(text(-3.21e8, 5, 3), "-3.21\u00a0×\u00a010^8 to 5.00");
+  EXPECT_EQ(text(-5, 2.5e-8, 2), "-5.0\u00a0×\u00a010^0 to 2.5\u00a0×\u00a010^-8");
+  EXPECT_EQ(text(1.3e-9, 4.56e-4, 3), "1.30\u00a0×\u00a010^-9 to 4.56\u00a0×\u00a010^-4");
+  EXPECT_EQ(text(1.3e-9, 12.5, 3), "1.30\u00a0×\u00a010^-9 to 12.5");
+  EXPECT_EQ(text(0, 3.58e12, 3), "0 to 3.58\u00a0×\u00a010^12");
+  EXPECT_EQ(text(1.64e7, std::numeric_limits<double>::infinity(), 3),
+            "1.64\u00a0×\u00a010^7 to inf");
+}
+
+// Within a decade the power of both is written once, with three digits of the smaller end.
+TEST(Number, EndsOfNeighbouringDecadesShareOnePower) {
+  const auto text = [](double low, double high, int digits) {
+    return range_text(low, high, digits, Script::terminal);
+  };
+  EXPECT_EQ(text(8.4712e6, 2.3149e7, 4), "0.847 to 2.315\u00a0×\u00a010^7");
+  EXPECT_EQ(text(8.4712e6, 2.3149e7, 3), "0.847 to 2.31\u00a0×\u00a010^7");
+  EXPECT_EQ(text(-1.2e7, 8e6, 3), "-1.20 to 0.800\u00a0×\u00a010^7");
+  EXPECT_EQ(text(0.0012, 0.0212, 3), "0.00120 to 0.0212");
+}
+
 // A sentence that the program wrote; names of a user's stay as they are.
 TEST(Number, IsFoundInASentence) {
   EXPECT_EQ(powers_text("within 9e-06 of 2e+07, 1e+06 cycles", Script::page),

@@ -37,6 +37,7 @@ TEST(Plot, TicksMayHaveNamesOfTheirOwn) {
   const Json spec = plot("", {"x"}, y, {line({{"x", {1}}, {"y", {-1}}}, {"#123456"})});
   const Json& axis = spec["layer"][0]["encoding"]["y"]["axis"];
   EXPECT_THAT(axis["values"], ElementsAre(-2.25, -0.37));
+  EXPECT_GE(axis["tickCount"], 2);  // fewer drop values
   EXPECT_EQ(axis["labelExpr"],
             R"(abs(datum.value-(-2.25))<1e-9?"10":abs(datum.value-(-0.37))<1e-9?"50":'')");
 }

@@ -45,6 +45,13 @@ TEST(Table, IsShownAsPeopleReadIt) {
   EXPECT_EQ(description(20585, given), "20 585");
 }
 
+// "2 to 3.580 × 10¹²" would be read with one power for both ends.
+TEST(Table, EndsOfLivesDecadesApartAreNotMisread) {
+  EXPECT_EQ(description(Cell(Range{2, 3.58e12}), {"90 %", "h", life(), true}),
+            "2.000\u00a0×\u00a010⁰ to 3.580\u00a0×\u00a010¹²");
+  EXPECT_EQ(description(Cell(Range{2, 1.8e4}), {"90 %", "h", life(), true}), "2 to 18\u202f000");
+}
+
 TEST(Table, LongOnesAreCutWhereTheyAreShown) {
   Table table{"long", "Long", {{"x"}}};
   for (int i = 0; i < 1500; ++i) table.rows.push_back({static_cast<double>(i)});

@@ -100,6 +100,37 @@ TEST(Report, SaysTheVerdictFirst) {
   }
 }
 
+// The words above the design values are those of their columns.
+TEST(Report, DesignValuesAreExplainedByTheirSides) {
+  PosteriorSummary result = result_of(Verdict::pass);
+  QuantitySummary life{"B10 life", "shaft", "at 400 MPa", "cycles", false, {}, {}};
+  life.drawn.q05 = 282500, life.drawn.q50 = 381200, life.drawn.q95 = 480800;
+  life.drawn.predictive = 368800;
+  life.credible_level = 0.95;
+  const auto page = [&](BoundSides sides) {
+    life.sides = sides;
+    life.drawn.bound = has_lower(sides) ? std::optional(304400.0) : std::nullopt;
+    life.drawn.upper_bound = has_upper(sides) ? std::optional(470000.0) : std::nullopt;
+    result.quantities = {life};
+    return html_report(result);
+  };
+  const std::string lower = page(BoundSides::lower), upper = page(BoundSides::upper),
+                    both = page(BoundSides::both);
+  EXPECT_THAT(lower, HasSubstr("At least: the lower bound to design with. With 95 % confidence"));
+  EXPECT_THAT(upper, HasSubstr("At most: the upper bound. With 95 % confidence"));
+  EXPECT_THAT(both, HasSubstr("95 % from, to: the two-sided interval. With 95 % confidence"));
+  EXPECT_THAT(upper, Not(HasSubstr("At least: the lower bound")));
+  EXPECT_THAT(both, Not(HasSubstr("At least: the lower bound")));
+}
+
+TEST(Report, ASkewedParameterIsItsMedian) {
+  PosteriorSummary result = result_of(Verdict::pass);
+  EXPECT_THAT(html_report(result), Not(HasSubstr("median; ")));
+  result.parameters[0].exact = ExactSummary{9e9, 1e12, 1.6e7, 1e8, 3.58e12};
+  EXPECT_THAT(html_report(result),
+              HasSubstr("median; 1.60\u00a0×\u00a010⁷ to 3.58\u00a0×\u00a010¹²"));
+}
+
 TEST(Report, TrustIsAWord) {
   EXPECT_THAT(html_report(result_of(Verdict::pass)), HasSubstr("<strong>Trusted.</strong>"));
   EXPECT_THAT(

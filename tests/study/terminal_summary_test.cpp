@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <sstream>
 
@@ -251,6 +253,33 @@ TEST(TerminalSummary, NamesTheItemThatFailsFirst) {
   EXPECT_THAT(text, HasSubstr("counted from 30 km on"));
   EXPECT_THAT(text, HasSubstr("remaining useful life [km]"));
   EXPECT_THAT(text, Not(HasSubstr("a machine")));
+}
+
+// The mean of a lognormal with a log standard deviation of 3 is 90 medians: no headline.
+TEST(TerminalSummary, OfASkewedParameterTheMedian) {
+  const auto lognormal = [](double median, double s) {
+    const auto at = [&](double z) { return median * std::exp(s * z); };
+    return ExactSummary{median * std::exp(0.5 * s * s), 1, at(-1.6449), median, at(1.6449)};
+  };
+  PosteriorSummary result = sample_result();
+  result.life.reset();
+  result.quantities.clear();
+  result.predictions.clear();
+  ParameterSummary& scale = result.parameters.front();
+  scale.name = "eta";
+  scale.unit = "h";
+  scale.exact = lognormal(7.5e9, 3);
+  EXPECT_THAT(terminal_summary(result, {}),
+              HasSubstr("eta is 7.50\u00a0×\u00a010^9\u00a0h (median); "
+                        "5.40\u00a0×\u00a010^7 to 1.04\u00a0×\u00a010^12\u00a0h (90\u00a0%)"));
+  scale.exact = lognormal(2.0, 0.5);
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 2.00\u00a0h (median)"));
+  // Within 10 % either will do, and the mean has no word.
+  scale.exact = lognormal(2.0, 0.3);
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 2.09\u00a0h; 1.22 to 3.28"));
+  // About zero 10 % of the median is nothing; the width of the interval counts.
+  scale.exact = ExactSummary{0.01, 1, -1.6449, 0.005, 1.6449};
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 0.0100\u00a0h; -1.64 to 1.64"));
 }
 
 // Of a logarithm the number itself.

@@ -29,7 +29,7 @@ std::string unit(const std::string& text);
 /// A number and its unit.
 std::string quantity(double x, const std::string& unit_text, int digits = 4);
 
-/// "6.25 to 9.20 × 10⁻⁴": two numbers with one power of ten.
+/// "6.25 to 9.20 × 10⁻⁴": two numbers, see `range_text`.
 std::string range(double low, double high, int digits = 4);
 
 /// A key figure: name, value and remark.

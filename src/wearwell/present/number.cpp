@@ -38,10 +38,13 @@ std::string times_power(int exponent, Script script) {
   return exponent == 0 ? "" : fmt::format("{0}×{0}{1}", hard_space, power_of_ten(exponent, script));
 }
 
+int decade_of(double x) {
+  return x == 0 || !std::isfinite(x) ? 0 : static_cast<int>(std::floor(std::log10(std::abs(x))));
+}
+
 // The power of ten with which the number is written, if any.
 int exponent_of(double x) {
-  if (x == 0 || !std::isfinite(x)) return 0;
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
+  const int exponent = decade_of(x);
   return exponent < least_exponent || exponent > most_exponent ? exponent : 0;
 }
 
@@ -75,6 +78,13 @@ std::string plain(double x, int digits, Script script) {
   if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole), script);
   const double step = std::pow(10.0, whole - digits);
   return spaced(fmt::format("{:.0f}", std::round(x / step) * step), script);
+}
+
+// "3.500 × 10^5", also of a number that would be written without a power: "5.000 × 10^0".
+std::string with_power(double x, int digits, Script script) {
+  const int exponent = decade_of(x);
+  return fmt::format("{0}{1}×{1}{2}", plain(mantissa(x, exponent), digits, script), hard_space,
+                     power_of_ten(exponent, script));
 }
 
 std::string not_finite(double x, Script script) {
@@ -168,15 +178,23 @@ std::string fixed_text(double x, int decimals, Script script) {
 }
 
 std::string range_text(double low, double high, int digits, Script script) {
+  constexpr int least_kept = 3;  // digits of the smaller end under the power of the larger
   low = rounded(low, digits), high = rounded(high, digits);
-  const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
-  if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
-    return shown_number(low, digits, script) + " to " + shown_number(high, digits, script);
+  const bool finite = std::isfinite(low) && std::isfinite(high);
+  const int apart = low == 0 || high == 0 ? 0 : std::abs(decade_of(high) - decade_of(low));
+  const int shared = apart > 1 ? 0 : exponent_of(std::max(std::abs(low), std::abs(high)));
+  if (finite && shared != 0) {
+    const auto end = [&](double x) {
+      const bool smaller = decade_of(x) < shared;
+      return plain(mantissa(x, shared),
+                   smaller ? std::max(digits - 1, std::min(digits, least_kept)) : digits, script);
+    };
+    return end(low) + " to " + end(high) + times_power(shared, script);
   }
-  const int lost =
-      low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
-  return plain(mantissa(low, exponent), std::max(1, digits - std::max(0, lost)), script) + " to " +
-         plain(mantissa(high, exponent), digits, script) + times_power(exponent, script);
+  // The power of the upper end would seem to be that of both.
+  const bool misread = finite && low != 0 && exponent_of(high) != 0;
+  return (misread ? with_power(low, digits, script) : shown_number(low, digits, script)) + " to " +
+         shown_number(high, digits, script);
 }
 
 namespace {

@@ -22,7 +22,8 @@ int digits_within(double relative_error, int most = 4);
 /// With the given number of decimals: "3 673.0".
 std::string fixed_text(double x, int decimals, Script script);
 
-/// Two numbers with one power of ten: "6.299 to 9.220 × 10⁻⁴".
+/// Two numbers with one power of ten: "6.299 to 9.220 × 10⁻⁴". Each has its own where they lie more
+/// than a decade apart and the upper end needs one: "1.640 × 10⁷ to 3.580 × 10¹²".
 std::string range_text(double low, double high, int digits, Script script);
 
 /// The unit after a number: "mm³/(N m)" for "mm^3/(N m)", "× 10⁵ cycles" for "1e5 cycles"; without

@@ -76,9 +76,10 @@
     const width = plot.clientWidth;
     // As many columns as fit, on paper too, where plots may be narrower than on the screen; 0: all in one row.
     function columns(labels) {
-      const widths = labels.map((label) => 40 + 7 * label.length), room = Math.min(width, 330);
-      if (width > 900 || widths.reduce((sum, each) => sum + each, 0) < room) return 0;
-      return Math.max(Math.floor(room / Math.max(...widths)), width > 400 ? 2 : 1);
+      const widths = labels.map((label) => 40 + 7 * label.length), widest = Math.max(...widths);
+      const room = width > 900 ? width - 60 : Math.min(width, 330);
+      if (widths.reduce((sum, each) => sum + each, 0) < room) return 0;
+      return Math.max(Math.floor(room / widest), width > 400 && 2 * widest < width ? 2 : 1);
     }
     const encodings = specification.layer.map((layer) => layer.encoding ?? {});
     for (const {opacity} of encodings) {  // the scale of a heat map
@@ -87,7 +88,7 @@
     }
     const labels = new Set(encodings.map((encoding) => encoding.color?.datum).filter(Boolean));
     const axis = {...config.axis, labelLimit: width > 700 ? 320 : width > 400 ? 180 : 110};
-    const legend = {...config.legend, columns: columns([...labels]),
+    const legend = {...config.legend, columns: columns([...labels]), labelLimit: width - 50,
                     layout: {top: {direction: width > 400 ? 'horizontal' : 'vertical', margin: 4}}};
     await vegaEmbed(plot, specification, {
       config: {...config, axis, legend},

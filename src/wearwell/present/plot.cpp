@@ -104,7 +104,11 @@ Json named_ticks(const Axis& axis) {
                         label);
   }
   std::sort(values.begin(), values.end());
-  return {{"values", values}, {"labelExpr", label}, {"labelOverlap", "greedy"}};
+  // Of more values than its count Vega keeps every other one.
+  return {{"values", values},
+          {"tickCount", values.size() + 1},
+          {"labelExpr", label},
+          {"labelOverlap", "greedy"}};
 }
 
 Json ticks(const char* channel, const Axis& axis) {

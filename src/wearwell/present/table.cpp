@@ -72,9 +72,15 @@ std::string shown(double x, const Format& format, Script script) {
   return shown_number(x, format.digits, script);
 }
 
+// "2 to 3.580 × 10^12" could be read with one power for both ends.
+bool could_share_power(const Range& range) {
+  return range.low != 0 && std::abs(range.low) < 10 && std::abs(range.high) >= 1e7;
+}
+
 std::string shown(const Range& range, const Format& format, Script script) {
   const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
-  return format.kind == Format::Kind::significant && finite
+  return finite && (format.kind == Format::Kind::significant ||
+                    (format.kind == Format::Kind::life && could_share_power(range)))
              ? range_text(range.low, range.high, format.digits, script)
              : shown(range.low, format, script) + " to " + shown(range.high, format, script);
 }

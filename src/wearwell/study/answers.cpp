@@ -156,8 +156,10 @@ class Clauses {
                       interval(natural->q05, natural->q95, natural->unit)));
       return;
     }
-    all.push_back(fmt::format("the {} {} is {}; {}", first.meaning, first.name,
-                              number(k.mean, first.unit), interval(k.q05, k.q95, first.unit)));
+    const ParameterValue shown = headline_value(k);
+    all.push_back(fmt::format("the {} {} is {}{}; {}", first.meaning, first.name,
+                              number(shown.value, first.unit), shown.is_median ? " (median)" : "",
+                              interval(k.q05, k.q95, first.unit)));
   }
 
  private:
@@ -235,6 +237,15 @@ std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter) 
   return NaturalParameter{
       meaning, has_unit ? unit.substr(prefix.size(), unit.size() - prefix.size() - 1) : "1",
       std::pow(10, x.q05), std::pow(10, x.q50), std::pow(10, x.q95)};
+}
+
+ParameterValue headline_value(const ExactSummary& parameter) {
+  const ExactSummary& p = parameter;
+  const bool has_quantiles = p.q05 < p.q50 && p.q50 < p.q95;
+  const double apart = std::abs(p.mean - p.q50);
+  const bool skewed =
+      has_quantiles && !(apart <= 0.1 * std::abs(p.q50)) && !(apart <= 0.05 * (p.q95 - p.q05));
+  return skewed ? ParameterValue{p.q50, true} : ParameterValue{p.mean, false};
 }
 
 std::string item_text(const std::string& of, bool is_kind) {

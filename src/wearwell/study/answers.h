@@ -24,6 +24,16 @@ struct NaturalParameter {
 /// Empty for a parameter that is not a logarithm.
 std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter);
 
+/// What a headline says of a parameter.
+struct ParameterValue {
+  double value = 0;
+  bool is_median = false;
+};
+
+/// The posterior mean, unless it lies more than 10 % and a twentieth of the 90 % interval from the
+/// median: the median of a skewed distribution.
+ParameterValue headline_value(const ExactSummary& parameter);
+
 /// "a new bearing", "the median bearing", "machine 12"; for a kind of item, "the softer spring".
 std::string item_text(const std::string& of, bool is_kind = false);
 

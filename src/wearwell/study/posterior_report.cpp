@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wearwell/study/answers.h"
+#include "wearwell/study/bound_words.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
@@ -132,8 +133,10 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
                        range(natural->q05, natural->q95, 3) + " (90\u00a0%)"});
       continue;
     }
-    tiles.push_back({titled(p), number(each.mean, 3), unit(p.unit),
-                     range(each.q05, each.q95, 3) + " (90\u00a0%)"});
+    const ParameterValue value = headline_value(each);
+    tiles.push_back(
+        {titled(p), number(value.value, 3), unit(p.unit),
+         (value.is_median ? "median; " : "") + range(each.q05, each.q95, 3) + " (90\u00a0%)"});
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);
@@ -155,6 +158,16 @@ void add_tails(const std::vector<QuantitySummary>& quantities, bool bounds, Sect
     section.add(present::Callout{"warn", "Mean", each});
 }
 
+// What the columns of the table of design values mean.
+std::string design_values_text(const std::vector<QuantitySummary>& quantities) {
+  const auto bounded = std::find_if(quantities.begin(), quantities.end(),
+                                    [](const auto& each) { return each.best().predictive; });
+  return html::capital(
+             bound_sentence(given(100 * *bounded->credible_level) + " %", bounded->sides)) +
+         " 5, 50 and 95 % are quantiles of the same value. Next one: the value for the next item, "
+         "averaged over the posterior (predictive). It has no margin for few tests.";
+}
+
 Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"predictions", "Predictions"};
   std::vector<html::Figure> figures = prediction_figures(result, plots);
@@ -163,11 +176,7 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   if (!result.predictions.empty()) section.add(prediction_table(result));
   if (result.life) section.add(life_table(*result.life));
   if (auto table = bound_table(result.quantities); !table.rows.empty()) {
-    section.add(
-        Prose{"At least: the lower bound to design with. With the stated confidence (Bayesian: "
-              "credible) the true value of the population lies above it; 5, 50 and 95 % are "
-              "quantiles of the same value. Next one: the value for the next item, averaged over "
-              "the posterior (predictive). It has no margin for few tests."});
+    section.add(Prose{design_values_text(result.quantities)});
     if (const std::string never = never_reached(result.quantities); !never.empty())
       section.add(Prose{never});
     section.add(std::move(table));

@@ -107,6 +107,58 @@ TEST_F(FormulaFigures, OfLivesAtEightStresses) {
   EXPECT_EQ(rows_of(shown.front(), 3).size(), 24u);
 }
 
+// Most tests ran at 20 degC; the part is used at 60 degC, where life is a quarter of that. Life against stress is that
+// of use, with the points of use.
+TEST_F(FormulaFigures, OfTwoStressesAreUnderTheConditionsOfUse) {
+  std::string rows = "life [h],stress [MPa],temperature [degC]\n";
+  for (const double temperature : {20., 60.}) {
+    for (const double stress : {100., 120., 140.}) {
+      for (const double z : {-0.8, -0.3, 0.1, 0.3, 0.7}) {
+        if (temperature > 20 && std::abs(z) < 0.2) continue;
+        rows += fmt::format(
+            "{:.6g},{},{}\n",
+            2e5 * std::pow(stress / 100, -5) * (temperature > 20 ? 0.25 : 1) * std::exp(0.3 * z),
+            stress, temperature);
+      }
+    }
+  }
+  write("lives.csv", rows);
+  std::string text = life_of_stress;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), text.npos) << from;
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("stress = \"stress\"", "stress = \"stress\"\ntemperature = \"temperature\"");
+  replace("[formula]", "warm = \"40 K\"\ncold = \"20 degC\"\n[formula]");
+  replace("^(-power)", "^(-power) * exp(-loss * (temperature - cold)/warm)");
+  replace("family = \"lognormal\"", "family = \"weibull\"");
+  replace("median = \"median\"", "scale = \"median\"");
+  replace("log_sd = \"sigma\"", "shape = \"1/sigma\"");
+  replace("[prior]", "[prior]\nloss = { distribution = \"normal\", mean = 1, sd = 2 }");
+  const auto drawn = [&](const std::string& temperature) {
+    std::string asked = text;
+    asked.replace(asked.find("stress = \"50 MPa\""), 17,
+                  "stress = \"100 MPa\", temperature = \"" + temperature + "\"");
+    return figures(asked).at("verdict");
+  };
+  const auto warm = drawn("60 degC");
+  EXPECT_THAT(ids(warm),
+              ElementsAre("life-stress-stress", "life-stress-temperature", "probability-paper"));
+  EXPECT_THAT(warm[0].caption, HasSubstr("at temperature = 60.00\u00a0degC"));
+  EXPECT_NEAR(std::log(rows_of(warm[0], 1).front()[1] / (0.25 * 2e5)), 0, 0.25);
+  EXPECT_EQ(rows_of(warm[0], 3).size(), 12u);
+  // Weibull paper has the share that has failed at the scale.
+  const auto& axis = warm[2].specification["layer"][0]["encoding"]["y"]["axis"];
+  for (const char* share : {"\"10\"", "\"50\"", "\"63.2\"", "\"90\""})
+    EXPECT_THAT(axis["labelExpr"].get<std::string>(), HasSubstr(share));
+  // Between the temperatures of the tests there are no observations to draw.
+  const auto between = drawn("40 degC");
+  EXPECT_THAT(between[0].caption, HasSubstr("no observation was made under them"));
+  EXPECT_NEAR(std::log(rows_of(between[0], 1).front()[1] / (0.5 * 2e5)), 0, 0.25);
+  EXPECT_EQ(between[0].specification["layer"].size(), 3u);
+  EXPECT_EQ(rows_of(between[1], 3).size(), 9u);
+}
+
 TEST_F(FormulaFigures, OfManyConditionsThoseWithTheMostFailuresAreDrawn) {
   write_lives(30);
   const auto shown = figures(life_of_stress).at("verdict");

@@ -144,12 +144,7 @@ class Drawing {
     for (std::size_t g = first; g < end; ++g) add_law(g, g - first, marks);
     for (std::size_t g = first; g < end; ++g) add_points(g, g - first, marks);
     plot::Axis shares{"Failed [%]", false, height(least_), height(most_)};
-    // Axis ticks as on printed probability paper.
-    for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 90., 99., 99.9}) {
-      const double p = percent / 100;
-      if (p >= least_ && p <= most_)
-        shares.ticks.emplace_back(height(p), fmt::format("{:g}", percent));
-    }
+    shares.ticks = share_ticks();
     std::string id = "probability-paper",
                 title = fmt::format("Probability plot on {} paper", paper_.name);
     if (first > 0) id += fmt::format("-{}", first);
@@ -158,6 +153,27 @@ class Drawing {
             plot::plot(
                 fmt::format("Share failed against {}, on {} paper", measured_.column, paper_.name),
                 axis(), shares, marks, 340, true)};
+  }
+
+  // As on printed probability paper, the most read first; a label that would overlap another is
+  // left out. 63.2 % of a Weibull distribution have failed at its scale.
+  std::vector<std::pair<double, std::string>> share_ticks() const {
+    constexpr double least_apart = 0.038;  // of the axis: the height of a label
+    const double span = height(most_) - height(least_);
+    std::vector<std::pair<double, std::string>> ticks;
+    for (const double percent : {10., 50., 1., 90., 63.2, 99., 0.1, 5., 20., 0.01, 99.9}) {
+      const double p = percent / 100;
+      if (p < least_ || p > most_) continue;
+      if (percent == 63.2 && paper_.distribution != StandardDistribution::smallest_extreme_value)
+        continue;
+      const double at = height(p);
+      const bool fits = std::all_of(ticks.begin(), ticks.end(), [&](const auto& each) {
+        return std::abs(each.first - at) >= least_apart * span;
+      });
+      if (fits) ticks.emplace_back(at, fmt::format("{:g}", percent));
+    }
+    std::sort(ticks.begin(), ticks.end());
+    return ticks;
   }
 
   double height(double p) const { return quantile(paper_.distribution, p); }

@@ -19,12 +19,35 @@ constexpr std::size_t stress_points = 24, most_stress_columns = 3;
 // If units vary, a quantile is the root of a mixture.
 constexpr Eigen::Index stress_draws = 400, stress_draws_of_units = 80;
 
+// Equal but for the rounding of units.
+bool is_same(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+}
+
 // Whether all but one column have the values of `held`.
 bool is_held(const Conditions& own, const Conditions& held, const std::string& column) {
   return own.labels == held.labels &&
          std::all_of(held.numbers.begin(), held.numbers.end(), [&](const auto& each) {
-           return each.first == column || own.numbers.at(each.first) == each.second;
+           return each.first == column || is_same(own.numbers.at(each.first), each.second);
          });
+}
+
+// The conditions of use as far as the study states them, otherwise the most frequent ones.
+Conditions conditions_of_use(const FormulaModel& model, const Conditions& most,
+                             const Conditions& given) {
+  Conditions use = most;
+  for (auto& [name, value] : use.numbers) {
+    if (const auto stated = given.numbers.find(name); stated != given.numbers.end())
+      value = stated->second;
+  }
+  for (auto& [name, level] : use.labels) {
+    const auto stated = given.labels.find(name);
+    // One level more than the data have is a new one, which has no name of its own.
+    if (stated != given.labels.end() &&
+        static_cast<std::size_t>(stated->second) < model.data.label(name)->levels.size())
+      level = stated->second;
+  }
+  return use;
 }
 
 std::string words_of_held(const FormulaModel& model, const Conditions& held,
@@ -82,14 +105,16 @@ std::vector<LifeStress> life_stresses(const TomlReader& root,
   if (const auto predict = root.table("predict")) {
     if (const auto table = predict->table("given")) given = read_conditions(*table, *model);
   }
-  for (const auto& [name, value] : most->conditions.numbers) {
+  const Conditions held = conditions_of_use(*model, most->conditions, given);
+  for (const auto& [name, value] : held.numbers) {
     if (stresses.size() == most_stress_columns) break;
-    LifeStress stress{name, most->conditions, {}, {}, {}};
+    LifeStress stress{name, held, {}, {}, {}};
+    stress.of_use = !is_held(most->conditions, held, name);
     std::set<double> values;
     for (const LifeGroup& group : groups) {
-      if (!is_held(group.conditions, most->conditions, name)) continue;
-      values.insert(group.conditions.numbers.at(name));
-      stress.tested.push_back(group);
+      const bool there = is_held(group.conditions, held, name);
+      if (there) stress.tested.push_back(group);
+      if (there || stress.of_use) values.insert(group.conditions.numbers.at(name));
     }
     if (values.size() < 2 || std::isnan(*values.begin())) continue;
     double low = *values.begin(), high = *values.rbegin();
@@ -104,10 +129,10 @@ std::vector<LifeStress> life_stresses(const TomlReader& root,
       high = std::max(high, each.quantile(0.99));
       stress.of_units = description(each);
     }
-    stress.held.words = words_of_held(*model, most->conditions, name);
+    stress.held.words = words_of_held(*model, held, name);
     stress.at = spread_over(low, high);
     for (const double at : stress.at) {
-      Conditions there = most->conditions;
+      Conditions there = held;
       there.numbers[name] = at;
       stress.lives.push_back(life_distribution(root, "likelihood", model, there));
     }
@@ -195,6 +220,9 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
           fmt::format("Posterior medians of the life that half of all outlast, and of B10{}.{}",
                       stress.held.words.empty() ? "" : ", at " + stress.held.words,
                       went_on.x.empty() ? "" : " Arrows: not failed by then.") +
+              (stress.of_use && stress.tested.empty()
+                   ? " These are the conditions of use; no observation was made under them."
+                   : "") +
               (dead ? " Parts dead on arrival have no point." : "") +
               (stress.of_units.empty() ? "" : " In use " + stress.of_units + " over the units."),
           plot::plot(fmt::format("{} against {}", html::capital(measured.column), stress.column),

@@ -15,10 +15,12 @@ struct LifeStress {
   std::vector<std::shared_ptr<const LifeDistribution>> lives;  ///< at each of them
   std::vector<LifeGroup> tested;  ///< observations under the fixed conditions
   std::string of_units = {};      ///< how the column differs between units in use; may be empty
+  bool of_use = false;  ///< the fixed conditions are those of `given`, not the most frequent ones
 };
 
 /// One for each numeric column on which the life depends and that has more than one value among the
-/// observations; all else has its most frequent values. Extends to `given` conditions.
+/// observations; all else has the values of `given`, or its most frequent ones. Extends to `given`
+/// conditions.
 std::vector<LifeStress> life_stresses(const TomlReader& root,
                                       const std::shared_ptr<const FormulaModel>& model,
                                       const std::vector<LifeGroup>& groups);
