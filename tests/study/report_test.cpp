@@ -126,7 +126,7 @@ TEST(Report, DesignValuesAreExplainedByTheirSides) {
 TEST(Report, ASkewedParameterIsItsMedian) {
   PosteriorSummary result = result_of(Verdict::pass);
   EXPECT_THAT(html_report(result), Not(HasSubstr("median; ")));
-  result.parameters[0].exact = ExactSummary{9e9, 1e12, 1.6e7, 1e8, 3.58e12};
+  result.parameters[0].exact = ExactSummary{9e11, 1e13, 1.6e7, 1e8, 3.58e12};
   EXPECT_THAT(html_report(result),
               HasSubstr("median; 1.60\u00a0×\u00a010⁷ to 3.58\u00a0×\u00a010¹²"));
 }
