@@ -21,8 +21,8 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 const std::vector<std::set<std::string>> order = {
     {"base"},
     {"math", "netcdf", "http"},
-    {"formula"},
     {"prob"},
+    {"formula"},
     {"bayes"},
     {"latent"},
     {"infer", "regress"},

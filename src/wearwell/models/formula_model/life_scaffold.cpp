@@ -13,6 +13,7 @@
 #include "wearwell/models/formula_model/step_columns.h"
 #include "wearwell/study/column_values.h"
 
+// Longer than others: what a table of lives can say, one short function for each.
 namespace wearwell::formula_model {
 namespace {
 
