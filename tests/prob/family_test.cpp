@@ -176,7 +176,7 @@ TEST(Family, AThresholdMovesIt) {
     EXPECT_NEAR(quantile(each.family, 0.3, family_parameters.data()),
                 moved + quantile(plain[0], 0.3, without.data()), 1e-11);
   }
-  EXPECT_EQ(tried, 11);
+  EXPECT_EQ(tried, 12);
 }
 
 // By the integral of y times its density; of the loglogistic law `center` is the median.
@@ -197,7 +197,8 @@ TEST(Family, CentersAreMeans) {
                           [&](double u) { return moment(from + std::exp(u)) * std::exp(u); },
                           std::log(low - from), std::log(high - from), 15, 1e-10)
                     : gauss_kronrod<double, 61>::integrate(moment, low, high, 15, 1e-10);
-    EXPECT_NEAR(center(of.family, family_parameters.data()), mean, 1e-7 * mean);
+    // Beyond `high` a heavy tail has some of the mean.
+    EXPECT_NEAR(center(of.family, family_parameters.data()), mean, 1e-7 * mean + 1e-12 * high);
   };
   for (const ResponseForm& each : response_forms()) {
     if (!each.counted && each.name != "loglogistic") expect_mean(each, plausible(each));
