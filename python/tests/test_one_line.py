@@ -354,7 +354,7 @@ def test_warnings_stand_at_the_callers_line():
 
 def test_help_begins_with_what_people_need():
     first = ww.__doc__.split("\n")
-    assert first[2].startswith("One line for a table") and "``life``" in ww.__doc__ and ww.__all__[0] == "life"
+    assert first[4].startswith("One line for a table") and "``life``" in ww.__doc__ and ww.__all__[0] == "life"
 
 
 # ---- Units, failure modes.
