@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::array shifts = {0.5, 1.0, 2.0, 4.0, -0.5, -1.0, -2.0, -4.0};
 constexpr double scatter_shift = 2;       // of z, in both directions: readings that scatter more
-constexpr double quiet = 0.2;             // standard deviation of z about the one before
 constexpr double farthest = 8;            // a larger |z| counts as this one
 constexpr double most_evidence = 1200;    // of one alternative: so doubt can end again
 constexpr double repeats = 0.9;           // the probability that a stuck sensor repeats itself
@@ -56,32 +55,20 @@ double evidence_of_shift(const ScoreRange& z, double shift) {
   return own > 0 ? between(z.low - shift, z.high - shift) / own : 1;
 }
 
-// The likelihood ratio of a z that is nearly the one before. The forecast follows a unit outside the
-// population slowly, so that z is off by about the same amount each time.
-double evidence_of_quiet(const ScoreRange& z, double before) {
-  if (z.low != z.high || std::isnan(before)) return 1;
-  if (std::max(std::abs(z.low), std::abs(before)) >= farthest) return 1;  // bounded, not equal
-  const double change = (z.low - before) / quiet;
-  return std::exp((z.low * z.low - change * change) / 2) / quiet;
-}
-
 }  // namespace
 
 void ChangeTest::add(std::span<const PredictiveTails> tails, double repeat) {
   std::array<double, alternatives> evidence = {};
-  double values = 0, last = std::nan("");
+  double values = 0;
   for (const PredictiveTails& each : tails) {
     const auto z = scores_of(each);
     if (!z) continue;
     ++values;
-    last = tails.size() == 1 && z->low == z->high ? z->low : std::nan("");
     for (std::size_t i = 0; i < shifts.size(); ++i) evidence[i] += evidence_of_shift(*z, shifts[i]);
     evidence[shifts.size()] +=
         0.5 * (evidence_of_shift(*z, scatter_shift) + evidence_of_shift(*z, -scatter_shift));
-    evidence[shifts.size() + 1] += evidence_of_quiet(*z, last_);
   }
   for (double& each : evidence) each = values > 0 ? each / values : 1;
-  if (values > 0) last_ = last;
   evidence.back() = repeat;
   ++readings_;
   const double begun = weight_from(readings_) - weight_from(readings_ + 1);
@@ -90,12 +77,6 @@ void ChangeTest::add(std::span<const PredictiveTails> tails, double repeat) {
   const double now = this->evidence();
   if (now + weight_from(readings_ + 1) >= begins) in_doubt_ = true;
   if (now < ends) in_doubt_ = false;
-}
-
-bool ChangeTest::is_quiet() const {
-  constexpr double far = 2;
-  return std::abs(last_) < far &&
-         sums_[shifts.size() + 1] == *std::max_element(sums_.begin(), sums_.end());
 }
 
 double ChangeTest::evidence() const {
@@ -107,7 +88,6 @@ double ChangeTest::evidence() const {
 void ChangeTest::save(ByteWriter& to) const {
   to.u64(readings_);
   for (const double each : sums_) to.number(each);
-  to.number(last_);
   to.byte(in_doubt_);
 }
 
@@ -117,7 +97,6 @@ void ChangeTest::load(ByteReader& from) {
     each = from.number();
     if (!(each >= 0 && std::isfinite(each))) from.fail("the evidence of a change is not a number");
   }
-  last_ = from.number();
   in_doubt_ = from.flag();
 }
 

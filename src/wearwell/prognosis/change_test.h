@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "wearwell/prognosis/bytes.h"
@@ -13,9 +12,9 @@ namespace wearwell::prognosis {
 /// A sequential test of one unit: whether its readings still follow their predictions.
 ///
 /// The normal score z of a reading's predictive probability is standard normal, independent of the
-/// earlier ones, if the unit is one of its population (Dawid 1984, prequential). Against that, eleven
+/// earlier ones, if the unit is one of its population (Dawid 1984, prequential). Against that, ten
 /// alternatives bet on each reading: a shift of z by 0.5, 1, 2 or 4 in either direction, more
-/// scatter, a z within 0.2 of the one before, and repeated equal values. Each bet is an e-value (its mean is at most 1), and its
+/// scatter, and repeated equal values. Each bet is an e-value (its mean is at most 1), and its
 /// products from reading k on, weighted over k with weights that sum to 1, form a test martingale
 /// (Shafer and Vovk 2019; Ramdas et al. 2023). By Ville's inequality the weighted sum of a right
 /// unit ever reaches 1000 with a probability of at most 1/1000: in its whole life, for any number
@@ -33,18 +32,15 @@ class ChangeTest {
   bool in_doubt() const { return in_doubt_; }
   /// The evidence of a change at some reading.
   double evidence() const;
-  /// Whether that of less scatter is the largest, and the last reading is not far off.
-  bool is_quiet() const;
   std::uint64_t readings() const { return readings_; }
 
   void save(ByteWriter& to) const;
   void load(ByteReader& from);
 
  private:
-  static constexpr std::size_t alternatives = 11;
+  static constexpr std::size_t alternatives = 10;
   std::uint64_t readings_ = 0;
-  std::array<double, alternatives> sums_ = {};              ///< over changes so far, by alternative
-  double last_ = std::numeric_limits<double>::quiet_NaN();  ///< z of the last reading
+  std::array<double, alternatives> sums_ = {};  ///< over changes so far, by alternative
   bool in_doubt_ = false;
 };
 

@@ -203,14 +203,6 @@ std::string ChangeWatch::described_change(const WatchedUnit& of, const History& 
   }
   const ChangeCause cause = cause_of(*since, before_at_, as_new);
   const ReadingColumn& measured = of.tracker.columns()[*of.columns.measured];
-  const bool is_clear = cause.kind == ChangeKind::factor || cause.kind == ChangeKind::replaced ||
-                        cause.kind == ChangeKind::step || cause.kind == ChangeKind::rate;
-  if (test_.in_doubt() && test_.is_quiet() && (before_ == 0 || !is_clear))
-    return fmt::format(
-        "the readings scatter far less than the forecast allows: {} is in a larger unit than in "
-        "the "
-        "study (such as mm in place of um), or its sensor smooths or is stuck",
-        measured.name);
   return description(cause, *since, dropped_, {of.tracker.noun(), measured.unit});
 }
 
