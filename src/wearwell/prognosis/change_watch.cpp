@@ -241,11 +241,7 @@ std::optional<std::vector<ReadingSince>> ChangeWatch::predicted(const WatchedUni
   std::vector<ReadingSince> values;
   for (Since& each : since_) {
     if (std::isnan(each.values.measured)) continue;
-    constexpr double part_of_limit = 1e-2;
-    const double limit = std::abs(of.tracker.limit().si());
-    const double scale =
-        part_of_limit *
-        (of.columns.level && limit > 0 ? limit : std::max(std::abs(each.values.measured), 1e-300));
+    const double scale = scale_of_reading(of.tracker, of.columns, each.values.measured);
     if (!each.predicted && !predict(*reference_, each.reading, of.columns, scale, each.values))
       return {};
     each.predicted = true;

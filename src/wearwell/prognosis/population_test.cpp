@@ -20,7 +20,7 @@ bool is_compared(std::uint64_t n) {
   return std::has_single_bit(n) || (n % 3 == 0 && std::has_single_bit(n / 3));
 }
 
-// "; multiplied by 1000 it fits: ...", or what else it may be.
+// "after multiplication by 1000 it fits: ...", or what else it may be.
 std::string explanation(const TrackedUnit& fresh, const Reading& reading, std::size_t column,
                         const std::string& noun) {
   double best = fits, found = 0;
@@ -55,12 +55,9 @@ void PopulationTest::add(const Tracker& tracker, const WatchedColumns& columns,
   if (p >= false_alarms / (k * (k + 1))) return;
   const ReadingColumn& measured = tracker.columns()[*columns.measured];
   const double value = reading.numbers[*columns.measured];
-  constexpr double part_of_limit = 1e-2;
   ReadingSince values{reading.numbers[columns.axis], value, 0, 0};
-  const double limit = std::abs(tracker.limit().si());
   const bool known =
-      predict(*fresh, watched, columns,
-              columns.level && limit > 0 ? part_of_limit * limit : std::abs(value), values);
+      predict(*fresh, watched, columns, scale_of_reading(tracker, columns, value), values);
   reason_ = fmt::format("{} of {} at {} is outside what such a {} can have there{}; {}",
                         measured.name, reading_text(value, measured.unit),
                         reading_text(values.at, tracker.axis().unit), tracker.noun(),

@@ -33,6 +33,12 @@ Reading alone(const Tracker& tracker, const WatchedColumns& watched, Reading rea
   return reading;
 }
 
+double scale_of_reading(const Tracker& tracker, const WatchedColumns& columns, double measured) {
+  constexpr double part = 1e-2;
+  const double limit = std::abs(tracker.limit().si());
+  return part * (columns.level && limit > 0 ? limit : std::max(std::abs(measured), 1e-300));
+}
+
 bool predict(const TrackedUnit& unit, const Reading& reading, const WatchedColumns& columns,
              double scale, ReadingSince& values) {
   constexpr double one_sd = 0.158655;

@@ -19,6 +19,10 @@ WatchedColumns watched_columns(const Tracker& tracker);
 /// The reading without its measured values but the watched one.
 Reading alone(const Tracker& tracker, const WatchedColumns& watched, Reading reading);
 
+/// The size of a plausible difference of the watched value `measured`: a hundredth of the threshold
+/// where that is of its kind, else of the value.
+double scale_of_reading(const Tracker& tracker, const WatchedColumns& columns, double measured);
+
 /// Fills `expected` and `spread` of the watched value of a reading, to a twentieth of `scale`, SI;
 /// false if nothing predicts it.
 bool predict(const TrackedUnit& unit, const Reading& reading, const WatchedColumns& columns,
