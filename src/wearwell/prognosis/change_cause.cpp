@@ -141,6 +141,10 @@ std::string unit_change(double factor) {
   return small ? "inches in place of mm" : "mm in place of inches";
 }
 
+std::string wrong_unit(double factor) {
+  return fmt::format("the unit is not that of the study ({})", unit_change(factor));
+}
+
 std::string factor_text(double factor) {
   return factor < 1 ? fmt::format("1/{:g}", 1 / factor) : fmt::format("{:g}", factor);
 }

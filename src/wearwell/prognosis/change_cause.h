@@ -49,6 +49,8 @@ ChangeCause cause_of(std::span<const ReadingSince> since, double before,
 std::span<const double> unit_factors();
 /// "such as mm in place of um"; "1/25.4".
 std::string unit_change(double factor);
+/// "the unit is not that of the study (such as mm in place of um)"
+std::string wrong_unit(double factor);
 std::string factor_text(double factor);
 
 /// A value of a reading, SI, in its unit: up to six digits, "100.6 um".

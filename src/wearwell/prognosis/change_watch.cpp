@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/prognosis/predicted_reading.h"
+#include "wearwell/prognosis/reading_bytes.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -92,6 +93,7 @@ UpdateResult ChangeWatch::update(const WatchedUnit& of, const Reading& reading, 
                                  const History& history) {
   const double repeat = late ? 1 : repeat_evidence(of, reading);
   ++taken_;
+  if (!late) factor_.add(of.tracker, of.columns, of.name, of.unit, reading);
   UpdateResult taken = of.unit.update(reading, history);
   if (!taken.counted && !taken.impossible) return taken;
   const bool doubted = test_.in_doubt() || held_;
@@ -170,6 +172,7 @@ std::string ChangeWatch::described(const WatchedUnit& of, const History& history
                        of.tracker.axis().name, reading_text(farthest_at_, unit),
                        reading_text(last_at_, unit), of.tracker.noun());
   }
+  if (factor_.is_found()) return factor_.reason();
   if (repeats_ >= stuck)
     return fmt::format(
         "the last {} readings are all {}: the sensor is stuck, or an old value is "
@@ -279,13 +282,11 @@ void ChangeWatch::save(ByteWriter& to) const {
   to.byte(beyond_);
   to.byte(held_);
   population_.save(to);
+  factor_.save(to);
   for (const std::uint64_t each : {agreeing_, equal_, dropped_, before_}) to.u64(each);
   to.u64(since_.size());
   for (const Since& each : since_) {
-    to.u64(each.reading.numbers.size());
-    for (const double number : each.reading.numbers) to.number(number);
-    to.u64(each.reading.labels.size());
-    for (const std::string& label : each.reading.labels) to.text(label);
+    prognosis::save(to, each.reading);
     for (const double number :
          {each.values.at, each.values.measured, each.values.expected, each.values.spread})
       to.number(number);
@@ -302,6 +303,7 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   beyond_ = from.flag();
   held_ = from.flag();
   population_.load(from);
+  factor_.load(from, tracker);
   for (std::uint64_t* each : {&agreeing_, &equal_, &dropped_, &before_}) *each = from.u64();
   since_.clear();
   reference_.reset();
@@ -310,13 +312,7 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   if (count > most_since) from.fail("it has too many readings since a change");
   for (std::size_t i = 0; i < count; ++i) {
     Since each;
-    each.reading.numbers.resize(from.count(sizeof(double)));
-    for (double& number : each.reading.numbers) number = from.number();
-    each.reading.labels.resize(from.count(sizeof(std::uint64_t)));
-    for (std::string& label : each.reading.labels) label = from.text();
-    if (each.reading.numbers.size() != tracker.columns().size() ||
-        each.reading.labels.size() != tracker.labels().size())
-      from.fail("a reading since a change has other columns");
+    each.reading = read_reading(from, tracker);
     for (double* number :
          {&each.values.at, &each.values.measured, &each.values.expected, &each.values.spread})
       *number = from.number();

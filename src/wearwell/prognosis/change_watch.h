@@ -9,6 +9,7 @@
 
 #include "wearwell/prognosis/change_cause.h"
 #include "wearwell/prognosis/change_test.h"
+#include "wearwell/prognosis/factor_test.h"
 #include "wearwell/prognosis/population_test.h"
 #include "wearwell/prognosis/predicted_reading.h"
 #include "wearwell/prognosis/tracker.h"
@@ -33,7 +34,9 @@ class ChangeWatch {
                       const History& history);
 
   /// Whether the forecast is in doubt.
-  bool in_doubt() const { return is_changed() || is_back() || population_.is_outside(); }
+  bool in_doubt() const {
+    return is_changed() || is_back() || population_.is_outside() || factor_.is_found();
+  }
   /// Why, without a capital and a full stop; empty if it is not in doubt.
   const std::string& reason() const { return reason_; }
   /// Whether the last reading in order measures a level beyond the threshold.
@@ -67,6 +70,7 @@ class ChangeWatch {
   static constexpr double none = -std::numeric_limits<double>::infinity();
   ChangeTest test_;
   PopulationTest population_;
+  FactorTest factor_;
   bool held_ = false;           // the test has ended, but readings do not agree with those before
   std::uint64_t agreeing_ = 0;  // readings in a row that do
   std::string reason_;

@@ -35,8 +35,8 @@ std::string explanation(const TrackedUnit& fresh, const Reading& reading, std::s
         "the sensor, its unit or the counter of use is not that of the study, or the {} is not one "
         "of its population",
         noun);
-  return fmt::format("after multiplication by {} it fits: the unit is not that of the study ({})",
-                     factor_text(found), unit_change(found));
+  return fmt::format("after multiplication by {} it fits: {}", factor_text(found),
+                     wrong_unit(found));
 }
 
 }  // namespace

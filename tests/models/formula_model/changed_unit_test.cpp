@@ -99,6 +99,37 @@ TEST(ChangedUnit, IsNoneOfItsPopulation) {
   EXPECT_THAT(later.watch.reason(), HasSubstr("the counter of use is not that of the study"));
 }
 
+// Five machines do not exclude one that wears a tenth as fast, but its readings scatter a tenth as much, too. A sensor
+// that averages is right.
+TEST(ChangedUnit, ReadsInAnotherUnitFromTheFirstReadingOn) {
+  Rng rng(3, 0);
+  const Guides few(5, rng);
+  ASSERT_TRUE(few.tracker);
+  const auto doubted_at = [&](double factor, double noise, std::string& reason) {
+    WatchedGuide guide(few, "new");
+    for (int i = 1; i <= 20; ++i) {
+      guide.read(150 * i, factor * (3.0 * i + noise * deviations[i % 10]));
+      reason = guide.watch.reason();
+      if (!reason.empty()) return i;
+    }
+    return 0;
+  };
+  std::string reason;
+  for (const auto& [factor, words] :
+       {std::pair(0.001, "by 1000: the unit is not that of the study (such as mm in place of um)"),
+        {0.1, "by 10:"},
+        {1 / 25.4, "by 25.4:"},
+        {10.0, "by 1/10"},
+        {1000.0, "by 1/1000"}}) {
+    const int at = doubted_at(factor, 1, reason);
+    EXPECT_GE(at, 1) << factor;
+    EXPECT_LE(at, 8) << factor;
+    EXPECT_THAT(reason, HasSubstr(words)) << factor;
+  }
+  for (const double noise : {1.0, 0.1, 0.0})
+    EXPECT_EQ(doubted_at(1, noise, reason), 0) << noise << reason;
+}
+
 // Doubt lasts as long as what caused it, although the forecast follows the readings.
 TEST(ChangedUnit, StaysInDoubtUntilItsReadingsAreAsBefore) {
   const auto last = [](const std::function<double(int)>& off) {
@@ -181,11 +212,25 @@ TEST(ChangedUnit, IsTheSameFromASavedState) {
   const auto as_read = [](int i) {
     return 6.0 * i + (i > 6 ? 12.0 * (i - 6) : 0) + deviations[i - 1];
   };
-  for (int cut = 1; cut < 10; ++cut) {
+  // The readings of the second unit are in cm from the first on.
+  for (const auto& [cut, factor] : {std::pair(1, 1.0),
+                                    {2, 1.0},
+                                    {3, 1.0},
+                                    {4, 1.0},
+                                    {5, 1.0},
+                                    {6, 1.0},
+                                    {7, 1.0},
+                                    {8, 1.0},
+                                    {9, 1.0},
+                                    {3, 0.1},
+                                    {4, 0.1},
+                                    {5, 0.1},
+                                    {6, 0.1},
+                                    {7, 0.1}}) {
     WatchedGuide whole(guides(), "M1"), again(guides(), "M1");
     for (int i = 1; i <= 10; ++i) {
-      whole.read(300 * i, as_read(i));
-      again.read(300 * i, as_read(i));
+      whole.read(300 * i, factor * as_read(i));
+      again.read(300 * i, factor * as_read(i));
       if (i != cut) continue;
       prognosis::ByteWriter to;
       again.watch.save(to);
