@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "wearwell/base/trimmed.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/number_text.h"
 
@@ -12,12 +13,6 @@ namespace {
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 std::string capitals(std::string_view text) {

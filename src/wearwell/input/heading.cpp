@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/algorithm/string/trim.hpp>
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 
 namespace wearwell {
 namespace {
-
-std::string trimmed(std::string_view text) {
-  return boost::algorithm::trim_copy(std::string(text));
-}
 
 /// A factor written as a unit, 1000 or 10^6; not the number of a column.
 bool is_power_of_ten(const std::string& text) {
@@ -53,8 +49,8 @@ std::optional<Heading> in_brackets(std::string_view text, char open, char close)
   if (!text.ends_with(close)) return {};
   const std::size_t at = opening(text, open, close);
   if (at == text.npos) return {};
-  return Heading{trimmed(text.substr(0, at)), trimmed(text.substr(at + 1, text.size() - at - 2)),
-                 false};
+  return Heading{std::string(trimmed(text.substr(0, at))),
+                 std::string(trimmed(text.substr(at + 1, text.size() - at - 2))), false};
 }
 
 /// Square brackets followed by words: "depth [um] (left)", but not "a (log10[MPa])".
@@ -74,7 +70,7 @@ std::optional<Heading> within(const std::string& text) {
 }  // namespace
 
 Heading read_heading(std::string_view heading, std::string_view si) {
-  const std::string text = trimmed(heading);
+  const std::string text(trimmed(heading));
   if (auto found = in_brackets(text, '[', ']')) {
     found->unit = bare_unit(found->unit);
     found->certain = true;
@@ -92,8 +88,8 @@ Heading read_heading(std::string_view heading, std::string_view si) {
   for (const std::string_view separator : separators) {
     const std::size_t at = text.find(separator);
     if (at == text.npos || at == 0) continue;
-    const Heading found{trimmed(text.substr(0, at)), bare_unit(text.substr(at + separator.size())),
-                        false};
+    const Heading found{std::string(trimmed(text.substr(0, at))),
+                        bare_unit(text.substr(at + separator.size())), false};
     if (is_unit(found.unit, si)) return found;
   }
   for (std::size_t at = text.find('_'); at != text.npos && at > 0; at = text.find('_', at + 1)) {
@@ -105,7 +101,7 @@ Heading read_heading(std::string_view heading, std::string_view si) {
 }
 
 std::string bare_unit(std::string_view text) {
-  std::string unit = trimmed(text);
+  std::string unit(trimmed(text));
   for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
     if (unit.size() > 1 && unit.front() == open && opening(unit, open, close) == 0)
       unit = trimmed(unit.substr(1, unit.size() - 2));
@@ -114,7 +110,7 @@ std::string bare_unit(std::string_view text) {
 }
 
 bool is_unit_cell(std::string_view cell) {
-  const std::string text = trimmed(cell);
+  const std::string text(trimmed(cell));
   if (text.empty()) return false;
   if (text.front() == '[' && text.back() == ']') return true;
   return is_unit(bare_unit(text), "");

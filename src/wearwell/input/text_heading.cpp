@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
-#include <boost/algorithm/string/trim.hpp>
 #include <map>
 #include <optional>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/input/equal_names.h"
 #include "wearwell/input/number_text.h"
 #include "wearwell/input/text_records.h"
@@ -32,10 +32,6 @@ bool has_number(const Record& record) {
   return std::any_of(record.cells.begin(), record.cells.end(), [](const std::string& cell) {
     return number_form(cell).kind == NumberForm::Kind::number;
   });
-}
-
-std::string trimmed(std::string_view cell) {
-  return boost::algorithm::trim_copy(std::string(cell));
 }
 
 /// The number of values in a record without trailing empty ones.
@@ -80,7 +76,7 @@ std::vector<Record> sample(const TableFile& file, Encoding encoding, const Table
     }
     sampled.push_back({{}, records.line()});
     for (const std::string_view cell : records.cells())
-      sampled.back().cells.push_back(trimmed(cell));
+      sampled.back().cells.emplace_back(trimmed(cell));
   }
   return sampled;
 }

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/trimmed.h"
 
 namespace wearwell {
 namespace {
@@ -47,12 +48,6 @@ bool has_open_quote(std::string_view line) {
     if (i >= line.size()) return true;
   }
   return false;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 // "0,5" and "9.5 mm" before a comment, a comma or a closing bracket.

@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -109,13 +110,6 @@ class FieldReader : public nlohmann::json_sax<Json> {
   std::string key_;
   std::size_t depth_ = 0, lists_ = 0;
 };
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t from = text.find_first_not_of(blanks);
-  if (from == text.npos) return {};
-  return text.substr(from, text.find_last_not_of(blanks) - from + 1);
-}
 
 /// The value of a cell: a number if all of it is one, nothing if it is empty.
 Field field_of_cell(const std::string& name, std::string_view cell) {

@@ -6,6 +6,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/plan/candidates.h"
 
 namespace wearwell::plan {
@@ -13,17 +14,11 @@ namespace {
 
 constexpr std::size_t most_candidates = 20'000;
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\n");
-  if (first == text.npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
-
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(at, begin), text.size());
-    parts.push_back(trimmed(std::string_view(text).substr(begin, end - begin)));
+    parts.emplace_back(trimmed(std::string_view(text).substr(begin, end - begin)));
     begin = end + 1;
   }
   return parts;
@@ -61,10 +56,10 @@ struct Axis {
 bool read_range(const std::string& part, const std::string& values, Axis& axis) {
   const Leading from = leading_number(values);
   if (!std::isfinite(from.number) || !from.rest.starts_with("to ")) return false;
-  const Leading to = leading_number(trimmed(from.rest.substr(3)));
+  const Leading to = leading_number(std::string(trimmed(from.rest.substr(3))));
   const bool by = to.rest.starts_with("by "), in = to.rest.starts_with("in ");
   if (!std::isfinite(to.number) || !(by || in)) refuse_part(part);
-  const Leading step = leading_number(trimmed(to.rest.substr(3)));
+  const Leading step = leading_number(std::string(trimmed(to.rest.substr(3))));
   if (!std::isfinite(step.number)) refuse_part(part);
   axis.unit = step.rest;
   const double span = to.number - from.number;
@@ -105,8 +100,8 @@ void read_list(const std::string& part, const std::string& values, Axis& axis) {
 Axis read_axis(const std::string& part) {
   const std::size_t sign = part.find('=');
   if (sign == part.npos) refuse_part(part);
-  Axis axis{trimmed(std::string_view(part).substr(0, sign)), "", {}, {}};
-  const std::string values = trimmed(std::string_view(part).substr(sign + 1));
+  Axis axis{std::string(trimmed(std::string_view(part).substr(0, sign))), "", {}, {}};
+  const std::string values(trimmed(std::string_view(part).substr(sign + 1)));
   if (axis.name.empty() || values.empty()) refuse_part(part);
   if (!read_range(part, values, axis)) read_list(part, values, axis);
   return axis;

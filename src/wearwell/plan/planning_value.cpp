@@ -12,26 +12,22 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/prior.h"
 
 namespace wearwell::plan {
 namespace {
 
-std::string trimmed_value(std::string text) {
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text.substr(std::min(text.find_first_not_of(' '), text.size()));
-}
-
 // "A to B"; a first end without a unit has that of the second.
 std::optional<std::pair<std::string, std::string>> ends_of(const std::string& text) {
   const std::size_t middle = text.find(" to ");
   if (middle == std::string::npos) return std::nullopt;
-  std::string low = trimmed_value(text.substr(0, middle));
-  const std::string high = trimmed_value(text.substr(middle + 4));
+  std::string low(trimmed(text.substr(0, middle)));
+  const std::string high(trimmed(text.substr(middle + 4)));
   const bool bare = low.find_first_not_of("0123456789.eE+-") == std::string::npos;
   const std::size_t unit = high.find_first_of(" %");
-  if (bare && unit != std::string::npos) low += " " + trimmed_value(high.substr(unit));
+  if (bare && unit != std::string::npos) low.append(" ").append(trimmed(high.substr(unit)));
   return std::pair(low, high);
 }
 
@@ -54,7 +50,7 @@ PlanningValue of_prior(const std::string& option, const std::string& text) {
   const std::string entry =
       text.front() == '{'
           ? text
-          : fmt::format("{{ distribution = \"{}\"{} }}", trimmed_value(text.substr(0, comma)),
+          : fmt::format("{{ distribution = \"{}\"{} }}", trimmed(text.substr(0, comma)),
                         comma == std::string::npos ? "" : text.substr(comma));
   Parameter parameter;
   try {

@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/prognosis/quantity_like.h"
 
 namespace wearwell::prognosis {
@@ -28,11 +29,7 @@ void add_given(const Tracker& tracker, const std::string& text, Reading& reading
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos)
     throw InputError(fmt::format("--given: '{}' must be like 'force = 20 N'", printable(text)));
-  const auto trimmed = [](std::string word) {
-    while (!word.empty() && word.back() == ' ') word.pop_back();
-    return word.substr(std::min(word.find_first_not_of(' '), word.size()));
-  };
-  const std::string name = trimmed(text.substr(0, sign)), value = trimmed(text.substr(sign + 1));
+  const std::string name(trimmed(text.substr(0, sign))), value(trimmed(text.substr(sign + 1)));
   const auto labels = tracker.labels();
   const auto label = std::find(labels.begin(), labels.end(), name);
   if (label != labels.end()) {

@@ -3,21 +3,17 @@
 #include <fmt/format.h>
 
 #include <boost/algorithm/string/predicate.hpp>
-#include <boost/algorithm/string/trim.hpp>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/trimmed.h"
 
 namespace wearwell {
 namespace {
 
 using Distribution = Uncertain::Distribution;
-
-std::string trimmed(std::string_view text) {
-  return boost::algorithm::trim_copy(std::string(text));
-}
 
 bool is_bare_number(const std::string& text) {
   double value = 0;
@@ -77,7 +73,7 @@ Uncertain read_law(const std::string& text, std::string_view si) {
   const auto open = text.find('('), comma = text.find(','), close = text.rfind(')');
   const bool whole = open != text.npos && comma != text.npos && close == text.size() - 1 &&
                      open < comma && comma < close;
-  const std::string name = trimmed(text.substr(0, open));
+  const std::string name(trimmed(text.substr(0, open)));
   if (!whole || (name != "normal" && name != "lognormal" && name != "uniform")) {
     throw InputError(
         fmt::format("'~ {}' is not a distribution; write normal(MEAN, SD), lognormal(MEAN, SD) or "
@@ -109,7 +105,7 @@ Uncertain read_law(const std::string& text, std::string_view si) {
 }  // namespace
 
 Uncertain read_uncertain(std::string_view text, std::string_view si) {
-  const std::string written = trimmed(text);
+  const std::string written(trimmed(text));
   Uncertain result;
   std::size_t sign = 0, sign_size = 0, times = std::string::npos, times_size = 0;
   for (const std::string_view plus_minus : {"+-", "±", "+/-"}) {
@@ -127,13 +123,13 @@ Uncertain read_uncertain(std::string_view text, std::string_view si) {
     }
   }
   if (boost::algorithm::starts_with(written, "~")) {
-    result = read_law(trimmed(written.substr(1)), si);
+    result = read_law(std::string(trimmed(written.substr(1))), si);
   } else if (times_size != 0) {
-    result = read_factor(trimmed(written.substr(0, times)),
-                         trimmed(written.substr(times + times_size)), si);
+    result = read_factor(std::string(trimmed(written.substr(0, times))),
+                         std::string(trimmed(written.substr(times + times_size))), si);
   } else if (sign_size != 0) {
-    result = read_plus_minus(trimmed(written.substr(0, sign)),
-                             trimmed(written.substr(sign + sign_size)), si);
+    result = read_plus_minus(std::string(trimmed(written.substr(0, sign))),
+                             std::string(trimmed(written.substr(sign + sign_size))), si);
   } else {
     const Quantity quantity = read_quantity(written, si);
     result.unit = quantity.unit;

@@ -11,6 +11,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 
@@ -21,22 +22,16 @@ constexpr const char* goal_example =
     "'wear rate at slip_speed = 1700 rpm, torque = 50 N m, temperature = 170 degC, closing_time = "
     "2.15 s' or 'life at ...'";
 
-std::string word_trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 void read_goal_input(const std::string& part, PointGoal& goal, std::vector<std::string>& known) {
   const std::size_t sign = part.find('=');
-  const std::string name = word_trimmed(std::string_view(part).substr(0, sign));
+  const std::string name(trimmed(std::string_view(part).substr(0, sign)));
   std::vector<std::string> names;
   for (const Input& input : inputs) {
     names.emplace_back(input.name);
     if (name != input.name || sign == part.npos) continue;
     if (std::find(known.begin(), known.end(), name) != known.end())
       throw InputError(fmt::format("--goal: {} is given twice", name));
-    const std::string value = word_trimmed(std::string_view(part).substr(sign + 1));
+    const std::string value(trimmed(std::string_view(part).substr(sign + 1)));
     const bool is_temperature = input.value == &OperatingPoint::temperature;
     const double si = option_value("--goal: " + name, value, input.si,
                                    is_temperature ? Allowed::any : Allowed::positive);
@@ -65,7 +60,8 @@ PointGoal read_point_goal(const std::string& text) {
   std::vector<std::string> known;
   for (std::size_t begin = 0; begin <= rest.size();) {
     const std::size_t end = std::min(rest.find(',', begin), rest.size());
-    read_goal_input(word_trimmed(std::string_view(rest).substr(begin, end - begin)), goal, known);
+    read_goal_input(std::string(trimmed(std::string_view(rest).substr(begin, end - begin))), goal,
+                    known);
     begin = end + 1;
   }
   for (const Input& input : inputs)

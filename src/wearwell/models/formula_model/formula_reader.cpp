@@ -13,6 +13,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/shell_word.h"
+#include "wearwell/base/trimmed.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/formula_model/fail_at_place.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
@@ -700,8 +701,8 @@ class Reader {
   std::map<std::string, Bounds> natural_bounds() const {
     std::map<std::string, Bounds> bounds;
     const auto base = [](const std::string& text) {
-      const std::string name = trimmed(text);
-      return trimmed(name.substr(0, name.find('[')));
+      const std::string_view name = trimmed(text);
+      return std::string(trimmed(name.substr(0, name.find('['))));
     };
     for (const WrittenLikelihood& written : written_) {
       for (const WrittenLikelihood& each : parts_of(written)) {
@@ -718,9 +719,10 @@ class Reader {
     for (const WrittenEffects& random_effects : varies_) {
       for (const WrittenEffect& each : random_effects.effects) {
         if (each.lognormal) bounds[each.name].take(0, INFINITY);
-        bounds[trimmed(each.scatter)].take(0, INFINITY);
+        bounds[std::string(trimmed(each.scatter))].take(0, INFINITY);
       }
-      if (random_effects.correlation) bounds[trimmed(*random_effects.correlation)].take(-1, 1);
+      if (random_effects.correlation)
+        bounds[std::string(trimmed(*random_effects.correlation))].take(-1, 1);
     }
     return bounds;
   }
@@ -767,7 +769,7 @@ class Reader {
     };
     std::set<std::string> done;
     for (const std::string& key : priors.keys()) {
-      const std::string base = trimmed(key.substr(0, key.find('[')));
+      const std::string base(trimmed(std::string_view(key).substr(0, key.find('['))));
       const auto at = indexed_.find(base);
       if (at == indexed_.end()) {
         if (base != key) {

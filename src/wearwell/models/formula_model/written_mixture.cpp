@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "wearwell/base/trimmed.h"
 #include "wearwell/models/formula_model/formula_reader.h"
 
 namespace wearwell::formula_model {
@@ -63,12 +64,6 @@ LifeMixture WrittenLikelihood::life() const {
   mixture.limited = defective.has_value();
   mixture.dead = dead.has_value();
   return mixture;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
 }
 
 WrittenLikelihood empty_likelihood(const std::string& column) {
@@ -234,8 +229,8 @@ bool are_exchangeable(const WrittenLikelihood& written, const Subpopulations& su
       if (without_level(text, subpopulations.names.front(), 0) ==
           without_level(other_text, subpopulations.names[k], k))
         continue;
-      const Parameter *a = named(parameters, trimmed(text)),
-                      *b = named(parameters, trimmed(other_text));
+      const Parameter *a = named(parameters, std::string(trimmed(text))),
+                      *b = named(parameters, std::string(trimmed(other_text)));
       if (!a || !b || !same_prior(*a, *b)) return false;
     }
   }

@@ -37,9 +37,6 @@ struct WrittenLikelihood {
   LifeMixture life() const;
 };
 
-/// The text without blanks at its ends.
-std::string trimmed(const std::string& text);
-
 /// Without a distribution.
 WrittenLikelihood empty_likelihood(const std::string& column);
 
