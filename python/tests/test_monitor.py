@@ -84,8 +84,18 @@ def test_events_of_a_unit_are_reported(url):
     assert until(lambda: monitor.unit("M5")["part"] == 1) and monitor.unit("M5")["risk"] == before["risk"]
     monitor.report("M5", "failed", key=keys[2], use=1210.0, by="J. Doe")
     assert until(lambda: monitor.units().loc["M5", "service"] == "failed")
-    with pytest.raises(ww.InputError, match="must be one of replaced, removed"):
-        monitor.report("M5", "repaired", key=keys[0], by="x")
+    assert monitor.report("M77", "installed", key=keys[0], use=0.0, by="J. Doe")["events"] == 1
+    with pytest.raises(ww.InputError, match="installed"):
+        monitor.report("M78", "failed", key=keys[0], use=5.0, by="J. Doe")
+    with pytest.raises(ww.InputError, match="restored is missing"):
+        monitor.report("M5", "repaired", key=keys[2], by="J. Doe")
+    assert monitor.report("M5", "repaired", key=keys[2], restored=3.5, by="J. Doe", note="ground")["events"] == 1
+    assert until(lambda: monitor.unit("M5")["events"][-1]["event"] == "repaired")
+    repaired = monitor.unit("M5")["events"][-1]
+    assert (repaired["event"], repaired["restored"]) == ("repaired", pytest.approx(3.5))
+    assert monitor.report("M5", "cancelled", number=repaired["number"], by="J. Doe")["events"] == 1
+    with pytest.raises(ww.InputError, match="must be one of installed, replaced, repaired, removed"):
+        monitor.report("M5", "mended", key=keys[0], by="x")
     with pytest.raises(ww.InputError, match="has no stored reading with key"):
         monitor.report("M5", "withdrawn", key=keys[2] + 5, by="x")
     with pytest.raises(ww.InputError, match="year 1970; it is a Unix time in milliseconds"):

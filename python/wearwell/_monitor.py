@@ -209,12 +209,12 @@ class Monitor:
         unit : str
             Name of the unit.
         event : str
-            ``"replaced"``, ``"removed"``, ``"failed"``, ``"sensor"``, ``"corrected"``, ``"withdrawn"``, ``"cancelled"`` or
-            ``"acknowledged"``.
+            ``"installed"``, ``"replaced"``, ``"repaired"``, ``"removed"``, ``"failed"``, ``"sensor"``, ``"corrected"``,
+            ``"withdrawn"``, ``"cancelled"`` or ``"acknowledged"``. A unit that is not known begins with ``"installed"``.
         **fields
             ``by``, who reports it; perhaps ``note``; ``key``, the place among the unit's readings (as in ``moments`` of
             ``unit()``); and by the names of the study's columns what the event needs: the use on the counter, the offset of a
-            sensor, all values of a corrected reading. ``number`` of the event that is cancelled, ``alarm_ms`` of the alarm that is
+            sensor, all values of a corrected reading. ``restored``, the amount that a repair takes back, in the unit of the level. ``number`` of the event that is cancelled, ``alarm_ms`` of the alarm that is
             acknowledged (both as ``unit()`` has them).
 
         Returns

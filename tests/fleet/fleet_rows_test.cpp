@@ -7,6 +7,7 @@
 #include "fleet/sample_fleet.h"
 #include "support/scratch.h"
 #include "wearwell/models/clutch/left_out.h"
+#include "wearwell/prognosis/carried_state.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -162,6 +163,51 @@ TEST_F(FleetRows, LeftOutDayByDayAreThoseOfAllAtOnce) {
   refused(name + " " + file("corrected.csv", cycles) + state, "came late");
 }
 
+// Temperatures whose unit --columns states wrongly, and only these, are refused with both readings.
+TEST_F(FleetRows, TemperaturesInTheOtherUnitAreRefused) {
+  const auto cycles = fleet_cycles(400, 2, 36);
+  const std::string name = model();
+  const std::string text = boost::replace_all_copy(fleet_csv(cycles), "temperature [degC]", "T");
+  write("plain.csv", text);
+  const std::string plain = name + " " + path("plain.csv");
+  refused(plain, "temperature=COLUMN:degC");
+  for (const char* way : {"", " --statements"}) {
+    const json right = fleet_summary(plain + " --columns temperature=T:degC" + output() + way);
+    EXPECT_EQ(right["fleet"]["rows"], 400);
+    std::filesystem::remove_all(folder() / "results");
+    refused(plain + " --columns temperature=T:K" + way, "--columns 'temperature=T:degC'");
+    refused(plain + " --columns temperature=T:K" + way, "calibrated range of 105 to 245 degC");
+  }
+  auto kelvin = cycles;
+  for (FleetCycle& each : kelvin) each.temperature += 273.15;
+  write("kelvin.csv", boost::replace_all_copy(fleet_csv(kelvin), "temperature [degC]", "T"));
+  refused(name + " " + path("kelvin.csv") + " --columns temperature=T:degC",
+          "--columns 'temperature=T:K'");
+  // In the heading it is as it is written.
+  write("cold.csv", boost::replace_all_copy(text, ",T,", ",temperature [K],"));
+  const CommandResult cold = run_wearwell("fleet " + name + " " + path("cold.csv") + output());
+  EXPECT_THAT(cold.err, Not(HasSubstr("calibrated range")));
+}
+
+// What works for a fit of another model.
+TEST_F(FleetRows, OtherModelsAreRefusedWithTheCommandThatWorks) {
+  const auto result = [&](const std::string& kind) {
+    prognosis::CarriedState state;
+    state.model = kind;
+    state.parameters = {"k"};
+    state.posterior.values = Points::Ones(1, 1);
+    state.posterior.weights = Eigen::VectorXd::Ones(1);
+    std::filesystem::create_directories(folder() / kind);
+    write(kind + "/state.bin", prognosis::state_bytes(state));
+    return path(kind);
+  };
+  file("a.csv", fleet_cycles(50, 2, 37));
+  refused(result("formula") + " --engine postgresql://me:secret@h/d --table plant.liners",
+          "--dialect postgresql --table plant.liners > wear.sql && psql URL -f wear.sql");
+  refused(result("formula") + " " + path("a.csv"), "wearwell export sql");
+  refused(result("sn") + " " + path("a.csv"), "wearwell new monitor");
+}
+
 TEST_F(FleetRows, OfOtherCountriesAreTheSame) {
   const auto cycles = fleet_cycles(1500, 3, 35);
   const std::string name = model();
@@ -193,6 +239,21 @@ TEST_F(FleetRows, OfOtherCountriesAreTheSame) {
       run_wearwell("fleet " + name + " " + path("thousands.csv") + output() + " --skip-bad");
   EXPECT_EQ(thousands.exit_code, 2);
   EXPECT_THAT(thousands.err, HasSubstr("thousands point"));
+  // A line with too few cells is a bad row in these files, too.
+  for (const auto& [file_name, whole, row] :
+       {std::tuple("short-points.csv", boost::replace_all_copy(points, ",", ";"),
+                   "unit 1;9000;100;2.5\n"),
+        {"short-commas.csv", text, "unit 1;9000;100;2,5\n"}}) {
+    write(file_name, whole + row);
+    const json fleet = fleet_summary(name + " " + path(file_name) + output() + " --skip-bad");
+    EXPECT_EQ(fleet["worst"].dump(), expected["worst"].dump()) << file_name;
+    EXPECT_EQ(fleet["left_out"]["rows"], 1) << file_name;
+  }
+  write("mixed.csv",
+        boost::replace_all_copy(points, ",", ";") + "unit 1;9000;100;2,5;150;2;9\nunit 1;9\n");
+  EXPECT_EQ(
+      run_wearwell("fleet " + name + " " + path("mixed.csv") + output() + " --skip-bad").exit_code,
+      2);
   write("skipped.csv", text + "unit 1;9000;100;broken;150;2,5;9000\n");
   const json skipped = fleet_summary(name + " " + path("skipped.csv") + output() + " --skip-bad");
   EXPECT_EQ(skipped["worst"].dump(), expected["worst"].dump());

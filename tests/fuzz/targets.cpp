@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/monitor_targets.h"
 #include "fuzz/state_targets.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
@@ -234,10 +235,11 @@ void laws(std::string_view bytes) {
   });
 }
 
-constexpr Target all[] = {{"unit", unit},    {"heading", heading}, {"toml", toml},
-                          {"table", table},  {"study", study},     {"model", model},
-                          {"state", state},  {"summary", summary}, {"report", report},
-                          {"formula", laws}, {"carried", carried}, {"tracked", tracked}};
+constexpr Target all[] = {{"unit", unit},     {"heading", heading}, {"toml", toml},
+                          {"table", table},   {"study", study},     {"model", model},
+                          {"state", state},   {"summary", summary}, {"report", report},
+                          {"formula", laws},  {"carried", carried}, {"tracked", tracked},
+                          {"events", events}, {"influx", influx},   {"opc_ua", opc_ua}};
 
 }  // namespace
 

@@ -243,6 +243,57 @@ TEST_F(Configs, AllProblemsAreReportedTogether) {
   EXPECT_GE(places, 7U) << message;
 }
 
+// Several problems of one table, each with a line that is right.
+TEST_F(Configs, ProblemsOfOneTableAreAllReported) {
+  const std::string text =
+      "result = \"result\"\n[reading]\ntime = \"t\"\n[reading.columns]\nwear = \"w\"\n"
+      "[source.line]\nkind = \"mqtt\"\nbroker = \"tcp://x\"\n[alarm]\nwatch = \"200 %\"\nact = "
+      "\"300 %\"\nsilence = \"2 km\"\n[http]\nlisten = \"127.0.0.1:x\"\nconnections = 0\n"
+      "certificate = \"none.pem\"\n[http.tokens.a]\nroles = [\"admin\"]\n[webhook]\nafter = "
+      "\"8 d\"\n[store]\nurl = \"redis://x\"\nkeep = \"5 min\"\n";
+  const std::string message = message_of<InputError>([&] { read(text); });
+  for (const char* each :
+       {"broker = \"mqtts://", "topic = \"plant/{unit}/wear\"", "unit = \"machine\"",
+        "time_format = \"iso 8601\"", "time = { field = \"time\", unit = \"h\" }",
+        "has no unit; write", "horizon = \"500 h\"", "watch = 0.05", "act = 0.2",
+        "silence = \"2 d\"", "listen = \"127.0.0.1:8080\"", "connections = 256", "none.pem",
+        "token_file = \"NAME.token\"", "'admin' is not a role", "url = \"https://",
+        "after = \"1 min\"", "url = \"fleet.sqlite\"", "keep = \"5 years\""})
+    EXPECT_THAT(message, HasSubstr(each));
+  // Of tables that are missing altogether.
+  const std::string none = message_of<InputError>([&] { read("result = \"result\"\n"); });
+  for (const char* each : {"[source.line]", "[alarm]", "horizon = "})
+    EXPECT_THAT(none, HasSubstr(each));
+  const std::string line =
+      "result = \"result\"\n[source.line]\nkind = \"stdin\"\n[alarm]\nhorizon = \"1 h\"\n";
+  EXPECT_THAT(message_of<InputError>([&] { read(line); }),
+              testing::AllOf(HasSubstr("[reading]"), HasSubstr("wear = { field = \"wear\"")));
+}
+
+// Also where the result is not known.
+TEST_F(Configs, ProblemsBesideAMissingResultAreReported) {
+  const TomlReader root = TomlReader::parse(
+      {folder() / "c.toml", "titel = \"x\"\n[store]\nkeep = \"1 min\"\n[alarm]\n"});
+  const std::string message = message_of<InputError>([&] { read_result_path(root); });
+  for (const char* each :
+       {"result: is missing", "result = \"study-results\"", "did you mean 'title'",
+        "keep = \"5 years\"", "reading: is missing", "source: is missing"})
+    EXPECT_THAT(message, HasSubstr(each));
+}
+
+// A token of the page may be in a file, as others.
+TEST_F(Configs, HaveATokenInAFile) {
+  write("page.token", "0123456789abcdef\n");
+  const auto http = [&](const std::string& lines) {
+    return read(good + ("[http]\n" + lines)).http;
+  };
+  EXPECT_EQ(http("token_file = \"page.token\"\n")->token, "0123456789abcdef");
+  EXPECT_THAT(message_of<InputError>(
+                  [&] { http("token_file = \"page.token\"\ntoken = \"0123456789abcdef\"\n"); }),
+              HasSubstr("use one"));
+  EXPECT_EQ(http("streams_of_client = 3\n")->limits.streams_of_client, 3U);
+}
+
 TEST_F(Configs, HaveAWebhook) {
   const auto webhook = [&](const std::string& lines) {
     return *read(good + ("[webhook]\n" + lines)).webhook;

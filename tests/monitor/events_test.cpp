@@ -9,6 +9,7 @@
 namespace wearwell::monitor {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -63,6 +64,82 @@ TEST_F(Events, ANewPartBeginsAnew) {
   EXPECT_EQ(detail.events[0].event.author, "A. Smith");
   EXPECT_EQ(detail.events[0].use, 500);
   EXPECT_EQ(detail.moments.front().key, 11);
+}
+
+// A part that goes into service: its readings count from there; those before belong to the earlier part.
+TEST_F(Events, APartIsInstalled) {
+  open();
+  EXPECT_EQ(report("c", "installed", R"("n": 11, "time": 500)").events, 1U);
+  EXPECT_EQ(view("c").alarm, Alarm::ok);
+  for (int n = 1; n <= 20; ++n)
+    deliver(message("c", n, n < 11 ? 99.0 * n : 60.0 * (n - 10), 50 * n));
+  for (int n = 11; n <= 20; ++n) deliver(message("new", n, 60.0 * (n - 10), 50 * (n - 10)));
+  expect_same("c", "new");
+  EXPECT_THAT(report("c", "installed", R"("n": 30)").problem, HasSubstr("time is missing"));
+}
+
+// Wear at 1.2 m/h, of which a repair takes 300 m back at 500 h: the rate stays, and the limit of
+// 1000 m is reached at (1000 + 300) / 1.2 h.
+TEST_F(Events, ARepairTakesBackAPart) {
+  open();
+  for (int n = 1; n <= 16; ++n) {
+    deliver(message("a", n, 60.0 * n - (n > 10 ? 300 : 0), 50 * n));
+    deliver(message("never", n, 60.0 * n, 50 * n));
+  }
+  EXPECT_EQ(report("a", "repaired", R"("n": 11, "restored": 300)").events, 1U);
+  const UnitView repaired = view("a"), never = view("never");
+  EXPECT_EQ(repaired.doubt, "");
+  EXPECT_EQ(repaired.part, 1);
+  EXPECT_EQ(repaired.at, never.at);
+  EXPECT_NEAR(repaired.level.q50, never.level.q50 - 300, 1e-9);
+  EXPECT_NEAR(repaired.remaining.q50, 1300 / 1.2 - 800, 10);
+  EXPECT_NEAR(never.remaining.q50, 1000 / 1.2 - 800, 5);
+  // The past is as it was, and as it was measured.
+  const UnitDetail detail = *fleet_->unit("a"), other = *fleet_->unit("never");
+  EXPECT_EQ(detail.events[0].restored, 300);
+  EXPECT_EQ(detail.moments[9].measured, 600);
+  EXPECT_EQ(detail.moments[9].life.q50, other.moments[9].life.q50);
+  EXPECT_EQ(detail.moments[10].measured, 360);
+  // Also after a restart, and where the repair is known before its readings.
+  catch_up();
+  const std::string bits_before = bits();
+  close();
+  open();
+  fleet_->refresh(true);
+  EXPECT_TRUE(bits() == bits_before);
+  report("b", "repaired", R"("n": 11, "restored": 300)");
+  for (int n = 1; n <= 16; ++n) deliver(message("b", n, 60.0 * n - (n > 10 ? 300 : 0), 50 * n));
+  expect_same("b", "a");
+  // A new part has not been repaired.
+  report("a", "replaced", R"("n": 17, "time": 800)");
+  deliver(message("a", 17, 60, 850));
+  deliver(message("new", 17, 60, 50));
+  expect_same("a", "new");
+}
+
+// A level beyond the limit before the repair is no alarm after it, and is one without.
+TEST_F(Events, ARepairEndsALevelBeyondTheLimit) {
+  open();
+  for (int n = 1; n <= 10; ++n) deliver(message("a", n, 110.0 * n, 100 * n));
+  EXPECT_TRUE(view("a").beyond);
+  report("a", "repaired", R"("n": 11, "restored": 600)");
+  EXPECT_FALSE(view("a").beyond);
+  EXPECT_EQ(view("a").alarm, Alarm::ok);
+  deliver(message("a", 11, 610, 1100));
+  EXPECT_FALSE(view("a").beyond);
+  for (int n = 12; n <= 16; ++n) deliver(message("a", n, 110.0 * n - 600, 100 * n));
+  EXPECT_TRUE(view("a").beyond);
+}
+
+TEST_F(Events, ARepairIsRefusedWithAReason) {
+  open();
+  deliver(message("a", 1, 10, 10));
+  EXPECT_THAT(report("a", "repaired", R"("n": 2)").problem,
+              AllOf(HasSubstr("restored is missing"), HasSubstr("\"replaced\"")));
+  EXPECT_THAT(report("a", "repaired", R"("n": 2, "restored": 0)").problem, HasSubstr("above 0"));
+  EXPECT_THAT(report("a", "repaired", R"("n": 2, "wear": 3, "restored": 5)").problem,
+              HasSubstr("what the repair takes back or what is left after it"));
+  EXPECT_EQ(store_->events_after(0).size(), 0U);
 }
 
 // When an event comes makes no difference: before the readings, among them, or after a restart that lost the latest states.
@@ -122,10 +199,35 @@ TEST_F(Events, ReadingsAreCorrectedAndWithdrawn) {
   expect_same("a", "right");
   // What was stored stays.
   EXPECT_EQ(store_->reading("a", 1)->numbers[0], 7000);
-  std::uint64_t count = 0;
-  EXPECT_THAT(readings_as_csv(*store_, tracker_, count),
+  ExportCounts counts;
+  EXPECT_THAT(readings_as_csv(*store_, tracker_, {}, counts),
               testing::AllOf(testing::Not(HasSubstr("7000")), testing::Not(HasSubstr("999"))));
-  EXPECT_EQ(count, 6U);
+  EXPECT_EQ(counts.readings, 6U);
+}
+
+// Of units in doubt, all readings of the part are marked; those of an earlier part are not.
+TEST_F(Events, ReadingsOfUnitsInDoubtAreMarkedInAnExport) {
+  open();
+  for (int n = 1; n <= 8; ++n) deliver(message("right", n, 50.0 * n, 50 * n));
+  for (int n = 1; n <= 4; ++n) deliver(message("odd", n, 50.0 * n, 50 * n));
+  report("odd", "replaced", R"("n": 5, "time": 200)");
+  for (int n = 5; n <= 16; ++n)
+    deliver(message("odd", n, 50.0 * (n - 4) + (n > 10 ? 400 : 0), 50 * n));
+  ASSERT_NE(view("odd").doubt, "");
+  ASSERT_EQ(view("right").doubt, "");
+  const DoubtedParts doubted =
+      doubted_parts(*store_, {std::make_shared<const GrowthTracker>(), "population", true, 0});
+  EXPECT_THAT(doubted, ElementsAre("odd (part 2)"));
+  ExportCounts counts;
+  const std::string text = readings_as_csv(*store_, tracker_, doubted, counts);
+  EXPECT_EQ(counts.readings, 24U);
+  EXPECT_EQ(counts.doubted, 12U);
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_TRUE(line.ends_with(",doubt")) << line;
+  while (std::getline(lines, line))
+    EXPECT_TRUE(line.ends_with(line.starts_with("odd (part 2)") ? ",1" : ",0")) << line;
 }
 
 TEST_F(Events, AWrongEventIsCancelled) {
@@ -245,7 +347,8 @@ TEST_F(Events, AreRefusedWithAReason) {
     EXPECT_EQ(delivery.events, 0U);
     return delivery.problem;
   };
-  EXPECT_THAT(why("repalced", R"("n": 2)"), HasSubstr("must be one of replaced, removed, failed"));
+  EXPECT_THAT(why("repalced", R"("n": 2)"),
+              HasSubstr("must be one of installed, replaced, repaired, removed, failed"));
   EXPECT_THAT(why("replaced", R"("n": 2)"), HasSubstr("time is missing"));
   EXPECT_THAT(why("failed", R"("n": 2)"), HasSubstr("time is missing"));
   EXPECT_THAT(why("replaced", R"("n": 2, "time": -1)"), HasSubstr("time is negative"));

@@ -51,11 +51,12 @@ class GrowthUnit : public prognosis::TrackedUnit {
     forecast.level05 = now_ / 3600 * (mean() - z95 * sd());
     forecast.level50 = now_ / 3600 * mean();
     forecast.level95 = now_ / 3600 * (mean() + z95 * sd());
+    prognosis::move_levels(forecast, -restored_);
     std::vector<double> lives, weights;
     double passed = 0, all = 0;
     for (double z = -4; z <= 4; z += 0.25) {
       const double rate = std::max(1e-9, mean() + z * sd()), weight = std::exp(-z * z / 2);
-      const double life = 3600 * limit / rate;
+      const double life = 3600 * (limit + restored_) / rate;
       all += weight;
       if (life <= now_) {
         passed += weight;
@@ -79,9 +80,11 @@ class GrowthUnit : public prognosis::TrackedUnit {
     for (const double each : places) {
       const double hours = each / 3600, off = 1.6448536269514722 * sd();
       path.push_back({each, hours * (mean() - off), hours * mean(), hours * (mean() + off)});
+      prognosis::move_levels(path.back(), -restored_);
     }
     return path;
   }
+  void set_restored(double amount) override { restored_ = amount; }
   std::size_t readings() const override { return readings_; }
 
   std::string save() const override {
@@ -110,6 +113,7 @@ class GrowthUnit : public prognosis::TrackedUnit {
   double sd() const { return 1 / std::sqrt(precision_); }
   double precision_ = 1 / (0.3 * 0.3), weighted_, now_ = 0;
   std::size_t readings_ = 0;
+  double restored_ = 0;
   bool left_out_ = false;
 };
 
@@ -140,6 +144,7 @@ class GrowthTracker : public prognosis::Tracker {
   const std::string& limited() const override { return columns_[0].name; }
   const Quantity& limit() const override { return limit_; }
   bool rising() const override { return true; }
+  bool can_be_restored() const override { return true; }
   const std::string& noun() const override { return noun_; }
   std::span<const std::string> seen() const override { return seen_; }
   double probability_error() const override { return 0.01; }

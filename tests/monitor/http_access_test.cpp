@@ -181,6 +181,14 @@ TEST_F(HttpAccessTest, TokensHaveRoles) {
     EXPECT_EQ(post(port, path, "{}", field).status, each.operate) << each.token;
     EXPECT_EQ(get(port, "/health", field).status, 200);
   }
+  // An event of a unit that is not known is more likely one of a wrong name, except its first.
+  const std::string failed = R"({"event": "failed", "key": 1, "by": "x"})",
+                    installed = R"({"event": "installed", "key": 1, "by": "x"})";
+  const HttpReply wrong = post(port, "/api/v1/units/new/events", failed, bearer(token));
+  EXPECT_EQ(wrong.status, 404);
+  EXPECT_THAT(wrong.body, HasSubstr("report \\\"installed\\\" first"));
+  // The generated fleet takes no events: it refuses it itself.
+  EXPECT_EQ(post(port, "/api/v1/units/new/events", installed, bearer(token)).status, 400);
   // Who may only write does not report events among readings either.
   post(port, "/api/v1/readings", reading, bearer(writes));
   EXPECT_EQ(fleet.no_events(), "it is an event, which needs the role operate; the token has write");

@@ -74,7 +74,7 @@ class HttpEventsTest : public testing::Test {
     settings.limits.between = milliseconds(20);
     settings.limits.beat = milliseconds(100);
     settings.limits.write = milliseconds(1000);
-    settings.limits.streams = 20;
+    settings.limits.streams = settings.limits.streams_of_client = 20;
     return settings;
   }
   GeneratedFleet fleet_{300};
@@ -172,6 +172,33 @@ TEST_F(HttpEventsTest, WaitForNobody) {
     cut = round % 50 == 49 && streams() == 1;
   }
   EXPECT_TRUE(cut);
+}
+
+// One client has a part of the streams; the others of another address, and it again after one ends.
+TEST(HttpEventsOfOneClient, AreLimited) {
+  HttpSettings settings;
+  settings.port = 0;
+  settings.limits.streams_of_client = 3;
+  GeneratedFleet fleet(10);
+  HttpServer server(settings, fleet, &fleet);
+  std::vector<std::unique_ptr<Listener>> listeners;
+  for (int i = 0; i < 3; ++i) {
+    listeners.push_back(std::make_unique<Listener>(server.port()));
+    EXPECT_NE(listeners.back()->next().id, "");
+  }
+  const HttpReply refused = ask(server.port(), request_of("GET /api/v1/events"));
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_NE(refused.body.find("this client"), std::string::npos) << refused.body;
+  EXPECT_EQ(get(server.port(), "/api/v1/fleet").status, 200);
+  listeners.pop_back();
+  bool again = false;
+  for (int i = 0; i < 200 && !again; ++i) {
+    std::this_thread::sleep_for(milliseconds(10));
+    HttpClient client(server.port());
+    client.send(request_of("GET /api/v1/events"));
+    again = client.until("\r\n\r\n").find(" 200 ") != std::string::npos;
+  }
+  EXPECT_TRUE(again);
 }
 
 }  // namespace

@@ -88,6 +88,15 @@ TEST_F(NewData, PutsUnitsInTheirNaturalOrderAndReadingsAlongTheirLives) {
   EXPECT_THAT(joined.contradictions, IsEmpty());
 }
 
+// Rows that a monitor has marked: it found that they do not follow the forecast.
+TEST_F(NewData, InDoubtAreNotLearnedSilently) {
+  const Source first = lasers();
+  EXPECT_THAT(refused(first, "laser,hours,increase_percent,doubt\nb9,750,1.6,0\nb10,750,9.4,1\n"),
+              HasSubstr("1 of 2 rows have doubt = 1"));
+  EXPECT_EQ(join(first, "laser,hours,increase_percent,doubt\nb9,750,1.6,0\n").counted, 1u);
+  EXPECT_EQ(join(first, "laser,hours,increase_percent\nb9,750,1.6\nb10,750,9.4\n").counted, 2u);
+}
+
 // Whatever came first, and in how many parts.
 TEST_F(NewData, HaveNoOrder) {
   const Source first = lasers();

@@ -37,12 +37,20 @@ void export_readings(const MonitoredFleet& read, const MonitorCommand& command) 
     throw InputError(
         fmt::format("--export: {} must end in .parquet or .csv", command.exported.string()));
   const auto store = store_to_read(read);
-  std::uint64_t count = 0;
-  write_file(command.exported, ending == ".csv"
-                                   ? monitor::readings_as_csv(*store, *read.tracker, count)
-                                   : monitor::readings_as_parquet(*store, *read.tracker, count));
+  const monitor::DoubtedParts doubted = monitor::doubted_parts(*store, read.population());
+  monitor::ExportCounts counts;
+  write_file(command.exported,
+             ending == ".csv"
+                 ? monitor::readings_as_csv(*store, *read.tracker, doubted, counts)
+                 : monitor::readings_as_parquet(*store, *read.tracker, doubted, counts));
   if (command.quiet) return;
-  fmt::print("{} readings are in {}\n", count, command.exported.string());
+  fmt::print("{} readings are in {}\n", counts.readings, command.exported.string());
+  if (counts.doubted > 0)
+    fmt::print(
+        "{} of them are of {} unit{} in doubt (column doubt = 1): their readings do not follow the "
+        "forecast. wearwell update refuses them: report what happened to the unit, or remove these "
+        "rows; without the column it learns from all\n",
+        counts.doubted, doubted.size(), doubted.size() == 1 ? "" : "s");
   const std::size_t units = store->removed().size();
   if (units > 0)
     fmt::print(

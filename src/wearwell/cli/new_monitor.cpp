@@ -85,7 +85,7 @@ unit        = {3}
 time        = {9}  # identifies a reading of a {0}
 time_format = "iso 8601"  # 2026-11-22T15:04:05Z; or "unix s", "unix ms"
 # sequence  = "n"         # a whole number that identifies a reading instead
-event       = {10}  # rows with this field are events: replaced, failed, corrected, withdrawn, ...
+event       = {10}  # rows with this field are events: installed, replaced, repaired, failed, corrected, ...
 [reading.columns]
 {4}
 # Where readings come from: as many as there are, each with a name.

@@ -13,6 +13,8 @@
 #include "wearwell/input/quoted.h"
 #include "wearwell/input/text_heading.h"
 #include "wearwell/input/text_layout.h"
+#include "wearwell/input/text_lines.h"
+#include "wearwell/input/text_records.h"
 #include "wearwell/input/text_rewrite.h"
 
 namespace wearwell::fleet {
@@ -41,15 +43,49 @@ std::optional<Marks> marks_of(const TextLayout& layout) {
   return {};
 }
 
-/// A line with too few or too many cells has no layout; the heading shows the separator.
+/// Whether a cell is a number with this decimal mark, which others cannot be: "1,5".
+bool has_mark(std::string_view cell, char mark) {
+  const std::size_t at = cell.find(mark);
+  if (at == cell.npos || at == 0 || at + 1 == cell.size()) return false;
+  const std::size_t first = cell.front() == '-' || cell.front() == '+' ? 1 : 0;
+  for (std::size_t i = first; i < cell.size(); ++i)
+    if (i != at && (cell[i] < '0' || cell[i] > '9')) return false;
+  return at > first;
+}
+
+/// The decimal mark of the lines that have as many cells as the heading: ',' or '.'; nothing if
+/// they have both.
+std::optional<char> decimal_of(const TableFile& file, const TextHeading& heading) {
+  constexpr std::size_t enough = 100'000;  // lines
+  TextLines lines(file.path(), file.source(), Encoding::utf8);
+  TextRecords records(lines, heading.delimiter, "", heading.line + 1);
+  bool comma = false, point = false;
+  for (std::size_t n = 0; n < enough && records.next(); ++n) {
+    if (records.cells().size() != heading.names.size()) continue;
+    for (const std::string_view cell : records.cells()) {
+      comma = comma || has_mark(cell, ',');
+      point = point || has_mark(cell, '.');
+    }
+  }
+  if (comma && point) return {};
+  return comma ? ',' : '.';
+}
+
+/// A line with too few or too many cells has no layout; the heading shows the separator, and the
+/// other lines the decimal mark.
 TextLayout layout_of(const TableFile& file, bool skip_bad) {
   try {
     return find_layout(file, {});
   } catch (const InputError&) {
     if (!skip_bad) throw;
     TextLayout layout;
-    layout.delimiter = find_heading(file, {}, Encoding::utf8).delimiter;
-    if (layout.delimiter != ',') throw;
+    const TextHeading heading = find_heading(file, {}, Encoding::utf8);
+    layout.delimiter = heading.delimiter;
+    layout.heading_line = heading.line;
+    if (layout.delimiter == ',') return layout;
+    const std::optional<char> decimal = decimal_of(file, heading);
+    if (!decimal) throw;
+    layout.decimal_marks = std::string(1, *decimal);
     return layout;
   }
 }

@@ -98,7 +98,7 @@ class Connection final : public HttpConnection,
       const auto own = hub_.of_client.find(client_);
       if (--own->second == 0) hub_.of_client.erase(own);
     }
-    hub_.streams.erase(this);
+    leave_streams();
     if (large_) --hub_.large_bodies;
   }
 
@@ -265,14 +265,27 @@ class Connection final : public HttpConnection,
     }
   }
 
+  void leave_streams() {
+    if (hub_.streams.erase(this) == 0) return;
+    const auto own = hub_.streams_of_client.find(client_);
+    if (--own->second == 0) hub_.streams_of_client.erase(own);
+  }
+
   void listen() {
     if (hub_.streams.size() >= hub_.limits.streams) {
       HttpResponse answer = refusal(503, "too many clients listen to events already");
       answer.fields.emplace_back("Retry-After", "10");
       return respond(std::move(answer));
     }
+    const auto own = hub_.streams_of_client.find(client_);
+    if (own != hub_.streams_of_client.end() && own->second >= hub_.limits.streams_of_client) {
+      HttpResponse answer = refusal(503, "this client listens to events too often already");
+      answer.fields.emplace_back("Retry-After", "10");
+      return respond(std::move(answer));
+    }
     ++hub_.answers[200];
     hub_.streams.insert(this);
+    ++hub_.streams_of_client[client_];
     version_ = hub_.handler.version_of(question_.last_event_id);
     http::response<http::empty_body> head(http::status::ok, 11);
     set_common_fields(&head, is_tls);
@@ -284,7 +297,7 @@ class Connection final : public HttpConnection,
     // No data is expected; the read only detects that the client has gone.
     tcp().expires_never();
     stream_.async_read_some(net::buffer(scrap_), [self = self()](Error, std::size_t) {
-      self->hub_.streams.erase(self.get());
+      self->leave_streams();
       self->close();
     });
     std::ostringstream text;

@@ -43,7 +43,8 @@ struct HttpHub {
   // Only for the thread of `io`; connections remove themselves when they end.
   std::set<HttpConnection*> connections, streams;
   std::map<std::string, std::size_t> of_client;  ///< connections, but for those of the reserve
-  std::list<HttpConnection*> reserve;            ///< the oldest first; not among `connections`
+  std::map<std::string, std::size_t> streams_of_client;
+  std::list<HttpConnection*> reserve;  ///< the oldest first; not among `connections`
   std::map<unsigned, std::uint64_t> answers;
   std::size_t large_bodies = 0;  ///< being sent or processed
   boost::asio::io_context io{1};

@@ -20,6 +20,7 @@ struct HttpLimits {
   /// has waited longest without a request ends for a new one.
   std::size_t reserve = 16;
   std::size_t streams = 64;                         ///< of these, listening to events
+  std::size_t streams_of_client = 16;               ///< of these, of one address
   std::chrono::milliseconds header{10'000};         ///< for a whole header, or between two requests
   std::chrono::milliseconds reserve_header{2'000};  ///< the same on a connection of the reserve
   std::chrono::milliseconds body{30'000};           ///< for a whole body

@@ -28,6 +28,30 @@ EventKind kind_of(const Fields& fields, const ReadingMapping& mapping) {
                                printable(shortened(field.text)), event_names()));
 }
 
+/// The amount that a repair takes back, a difference of levels. The level's own field could be meant
+/// as what is left after the repair.
+double restored_in(const Fields& fields, const ReadingMapping& mapping) {
+  if (!mapping.watched.level) return std::numeric_limits<double>::quiet_NaN();
+  const ColumnField& level = mapping.columns[*mapping.watched.level];
+  const Field* shown = level.field.empty() ? nullptr : find_field(fields, level.field);
+  if (shown && shown->kind != Field::Kind::null &&
+      !(shown->kind == Field::Kind::text && shown->text.empty()))
+    throw InputError(
+        fmt::format("repaired: {} could be what the repair takes back or what is left after it; "
+                    "give the amount "
+                    "that it takes back as restored, in {}, and what is left as a reading",
+                    printable(level.field), level.unit.text));
+  ColumnField amount = level;
+  amount.field = "restored";
+  amount.constant.reset();
+  if (!find_field(fields, amount.field))
+    throw InputError(fmt::format(
+        "repaired: restored is missing: the amount of {} that the repair takes back, in {}; if the "
+        "part is as good as new, report \"replaced\"",
+        level.column, level.unit.text));
+  return value_of(fields, amount) - to_si(level.unit, 0);
+}
+
 }  // namespace
 
 bool is_event(const Fields& fields, const ReadingMapping& mapping) {
@@ -78,6 +102,8 @@ UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingM
       const ColumnField& level = mapping.columns[*mapping.watched.level];
       event.offset = value_of(fields, level) - to_si(level.unit, 0);
     }
+  } else if (event.kind == EventKind::repaired) {
+    event.restored = restored_in(fields, mapping);
   } else if (event.kind != EventKind::withdrawn) {
     event.use = value_of(fields, mapping.columns[mapping.watched.axis]);
   }

@@ -7,6 +7,7 @@
 
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/input/parquet_writer.h"
+#include "wearwell/monitor/stored_units.h"
 #include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
@@ -23,7 +24,24 @@ void for_each_reading(Store& store, const prognosis::Tracker& tracker,
                    });
 }
 
+/// Whether it is of a part in doubt.
+bool count_reading(const StoredReading& reading, const DoubtedParts& doubted,
+                   ExportCounts& counts) {
+  const bool in_doubt = doubted.contains(reading.unit);
+  ++counts.readings;
+  counts.doubted += in_doubt;
+  return in_doubt;
+}
+
 }  // namespace
+
+DoubtedParts doubted_parts(Store& store, const Population& population) {
+  DoubtedParts parts;
+  for (const auto& [unit, record] : stored_units(store, population)) {
+    if (record.watch.in_doubt()) parts.insert(part_name(unit, record.events->part().number));
+  }
+  return parts;
+}
 
 void for_each_counted(
     Store& store, const EventsOfUnits& events,
@@ -47,7 +65,7 @@ std::string column_heading(const prognosis::ReadingColumn& column) {
 }
 
 std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
-                                std::uint64_t& count) {
+                                const DoubtedParts& doubted, ExportCounts& counts) {
   WordColumn unit{tracker.noun().empty() ? "unit" : tracker.noun(), {}};
   std::vector<WordColumn> labels;
   for (const std::string& each : tracker.labels()) labels.push_back({each, {}});
@@ -55,9 +73,10 @@ std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
   std::vector<NumberColumn> numbers = {{"key", {}}, {"time_ms", {}}, {"received_ms", {}}};
   const std::size_t first = numbers.size();
   for (const auto& each : columns) numbers.push_back({column_heading(each), {}});
-  count = 0;
+  numbers.push_back({"doubt", {}});
+  counts = {};
   for_each_reading(store, tracker, [&](const StoredReading& reading) {
-    ++count;
+    const bool in_doubt = count_reading(reading, doubted, counts);
     unit.values.push_back(reading.unit);
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i].values.push_back(reading.labels[i]);
     numbers[0].values.push_back(static_cast<double>(reading.key));
@@ -66,22 +85,24 @@ std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
     numbers[2].values.push_back(static_cast<double>(reading.received_ms));
     for (std::size_t i = 0; i < columns.size(); ++i)
       numbers[first + i].values.push_back(from_si(columns[i].unit, reading.numbers[i]));
+    numbers.back().values.push_back(in_doubt ? 1 : 0);
   });
   std::vector<WordColumn> texts = {std::move(unit)};
   texts.insert(texts.end(), labels.begin(), labels.end());
   return parquet_of(texts, numbers);
 }
 
-std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker, std::uint64_t& count) {
+std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker,
+                            const DoubtedParts& doubted, ExportCounts& counts) {
   const auto columns = tracker.columns();
   std::string text = printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun());
   for (const std::string& each : tracker.labels()) text += "," + printable_csv_cell(each);
   text += ",key,time,received";
   for (const auto& each : columns) text += "," + printable_csv_cell(column_heading(each));
-  text += "\n";
-  count = 0;
+  text += ",doubt\n";
+  counts = {};
   for_each_reading(store, tracker, [&](const StoredReading& reading) {
-    ++count;
+    const bool in_doubt = count_reading(reading, doubted, counts);
     text += printable_csv_cell(reading.unit);
     for (const std::string& each : reading.labels) text += "," + printable_csv_cell(each);
     text += fmt::format(",{},{},{}", reading.key,
@@ -91,7 +112,7 @@ std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker, std
       const double value = from_si(columns[i].unit, reading.numbers[i]);
       text += std::isnan(value) ? std::string(",") : fmt::format(",{}", value);
     }
-    text += "\n";
+    text += in_doubt ? ",1\n" : ",0\n";
   });
   return text;
 }

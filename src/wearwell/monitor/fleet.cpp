@@ -136,7 +136,8 @@ void Fleet::take_events() {
   for (auto& [name, list] : lists) {
     const std::shared_ptr<const UnitEvents> before = events_of(events_, name);
     const std::int64_t part = before->part().number;
-    events_[name] = std::make_shared<const UnitEvents>(std::move(list), columns_);
+    events_[name] =
+        std::make_shared<const UnitEvents>(std::move(list), columns_, tracker_.rising());
     Unit& unit = unit_named(name);
     const std::lock_guard lock(unit.moving);
     // An acknowledgement changes no state: it is shown with the next forecast.

@@ -3,7 +3,7 @@
 (() => {
   const {element, quantity, clock} = wearwell;
   const meanings = {
-    replaced: 'a new part is installed', removed: 'taken out of service', failed: 'failed', sensor: 'sensor exchanged',
+    installed: 'a part goes into service', replaced: 'a new part is installed', repaired: 'repaired in part', removed: 'taken out of service', failed: 'failed', sensor: 'sensor exchanged',
     corrected: 'reading corrected', withdrawn: 'reading withdrawn', cancelled: 'event cancelled',
     acknowledged: 'alarm acknowledged',
   };
@@ -15,6 +15,7 @@
     if (each.event === 'acknowledged') return `alarm since ${clock(each.alarm_ms)} acknowledged`;
     const more = each.use !== undefined ? `, ${fleet.axis} ${quantity(each.use, fleet.axis_unit)}`
         : each.values ? `: ${Object.entries(each.values).map(([name, value]) => `${name} ${wearwell.number(value, 6)}`).join(', ')}`
+        : each.restored !== undefined ? `, ${quantity(each.restored, fleet.level_unit)} taken back`
         : each.offset !== undefined ? `, shows ${quantity(each.offset, fleet.level_unit)} too much` : '';
     return `${meanings[each.event]}, ${keyText(fleet, each.key)}${more}`;
   }
@@ -54,7 +55,8 @@
   function fieldsOf(fleet, view, kind) {
     if (kind === 'cancelled') return [field('Number of the event', element('input', {name: 'number', type: 'number', step: 1, min: 1, required: true}))];
     const fields = [keyField(fleet, view, kind)];
-    if (kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
+    if (kind === 'installed' || kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
+    if (kind === 'repaired') fields.push(field(`${wearwell.capital(fleet.limited)} that it takes back`, numeric('restored'), fleet.level_unit));
     if (kind === 'sensor') fields.push(field(`${wearwell.capital(fleet.limited)} that it shows too much`, numeric(fleet.level_column), fleet.level_unit));
     if (kind === 'corrected') {
       // As messages have them: the use on the counter, the level as the sensor shows it.
@@ -76,7 +78,7 @@
   // One form a unit: it stays as it is while the values around it change. `latest` is the unit as it is now.
   wearwell.eventForm = (fleet, latest, done) => {
     const {unit} = latest();
-    const kinds = Object.keys(meanings).filter((kind) => kind !== 'acknowledged' && (kind !== 'sensor' || fleet.level_column));
+    const kinds = Object.keys(meanings).filter((kind) => kind !== 'acknowledged' && (!['sensor', 'repaired'].includes(kind) || fleet.level_column));
     const kind = element('select', {name: 'event', id: 'event-kind'}, ...kinds.map((each) => element('option', {value: each}, meanings[each])));
     const own = element('div', {class: 'fields'});
     const message = element('p', {class: 'note', role: 'status'});

@@ -131,6 +131,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
     EventView event{each,
                     reported_.along(each.use),
                     reported_.level(each.offset) - reported_.level(0),
+                    reported_.level(each.restored) - reported_.level(0),
                     {},
                     seen->events->is_cancelled(each.number)};
     for (std::size_t i = 0; i < each.numbers.size(); ++i)

@@ -76,7 +76,7 @@ struct UnitMoment {
 struct EventView {
   UnitEvent event;                                     ///< its own numbers in SI
   double use = 0;                                      ///< in `axis_unit`; NaN if not given
-  double offset = 0;                                   ///< in `level_unit`
+  double offset = 0, restored = 0;                     ///< in `level_unit`
   std::vector<std::pair<std::string, double>> values;  ///< of `corrected`, by column, in its unit
   bool cancelled = false;
 };

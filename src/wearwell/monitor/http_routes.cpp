@@ -69,6 +69,17 @@ HttpResponse answer_of(Delivery delivery) {
   return answer;
 }
 
+/// The kind of an event; empty if it cannot be read.
+std::string event_in(const std::string& body) {
+  try {
+    const Fields fields = fields_of_json(body);
+    const Field* event = find_field(fields, "event");
+    return event ? event->text : std::string();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// Why an acknowledgement is of an alarm that the unit does not have; empty if it has, or if this is
 /// another event.
 std::string not_the_alarm(const std::string& body, const UnitView& unit) {
@@ -286,7 +297,12 @@ HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::st
   if (!events_) return refusal(404, "this monitor takes no events by HTTP");
   const std::string name = percent_decoded(encoded);
   const std::optional<UnitView> unit = reader_.view(name);
-  if (!unit) return refusal(404, fmt::format("\"{}\" is not a unit", shortened(name)));
+  // The first event of a unit; another one is more likely to have a wrong name.
+  if (!unit && event_in(body) != monitor::name(EventKind::installed))
+    return refusal(
+        404, fmt::format("\"{}\" is not a unit; report \"installed\" first if it is a new one",
+                         shortened(name)));
+  if (!unit) return answer_of(events_->deliver(name, body));
   if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
   return answer_of(events_->deliver(name, body));
 }

@@ -9,12 +9,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/input_errors.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/text_file.h"
+#include "wearwell/monitor/config_problems.h"
 #include "wearwell/monitor/foreign_message.h"
 #include "wearwell/monitor/http_access.h"
 #include "wearwell/monitor/sparkplug_metrics.h"
@@ -24,37 +23,6 @@
 // Longer than others: one file, read from its beginning to its end.
 namespace wearwell::monitor {
 namespace {
-
-/// The problems of a file's parts, all of them.
-class Problems {
- public:
-  /// Whether the part has none.
-  bool in(const std::function<void()>& part) {
-    try {
-      part();
-      return true;
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      if (std::find(all_.begin(), all_.end(), text) == all_.end()) all_.push_back(text);
-      return false;
-    }
-  }
-  /// A part in a table of its own, with the unknown keys of that. Keys behind the first problem of
-  /// a table were never requested, so they are not unknown.
-  void in_table(const TomlReader& root, const char* key, const std::function<void()>& part) {
-    if (!in(part)) return;
-    in([&] {
-      if (const auto table = root.table(key)) table->finish();
-    });
-  }
-  bool empty() const { return all_.empty(); }
-  void finish() const {
-    if (!all_.empty()) throw InputErrors(all_);
-  }
-
- private:
-  std::vector<std::string> all_;
-};
 
 std::filesystem::path folder_of(const TomlReader& reader) {
   return std::filesystem::path(reader.file()).parent_path();
@@ -104,29 +72,45 @@ HostAndPort read_address(const TomlReader& table, const char* key, std::string_v
 
 BrokerSettings read_broker(const TomlReader& table, const std::string& usual_client) {
   BrokerSettings broker;
-  const std::string url = table.required_text("broker");
-  broker.tls = url.starts_with("mqtts://");
-  if (!broker.tls && !url.starts_with("mqtt://"))
-    table.fail("broker",
-               fmt::format("'{}' is not a URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
-  const std::string_view rest = std::string_view(url).substr(broker.tls ? 8 : 7);
-  const HostAndPort address = read_address(table, "broker", rest, broker.tls ? 8883 : 1883);
-  broker.host = address.host;
-  broker.port = address.port;
-  broker.client = table.text("client").value_or(usual_client);
-  if (broker.client.empty() || broker.client.size() > 100)
-    table.fail("client", "must be of 1 to 100 bytes");
-  broker.user = table.text("user").value_or("");
-  if (table.has("password_file")) {
-    if (broker.user.empty()) table.fail("password_file", "is a password without a user");
+  const auto read_url = [&] {
+    const std::string url = table.required_text("broker");
+    broker.tls = url.starts_with("mqtts://");
+    if (!broker.tls && !url.starts_with("mqtt://"))
+      table.fail("broker",
+                 fmt::format("'{}' is not a URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
+    const std::string_view rest = std::string_view(url).substr(broker.tls ? 8 : 7);
+    const HostAndPort address = read_address(table, "broker", rest, broker.tls ? 8883 : 1883);
+    broker.host = address.host;
+    broker.port = address.port;
+  };
+  Problems problems;
+  const bool has_url = problems.in(read_url, "broker = \"mqtts://broker.example:8883\"");
+  problems.in(
+      [&] {
+        broker.client = table.text("client").value_or(usual_client);
+        if (broker.client.empty() || broker.client.size() > 100)
+          table.fail("client", "must be of 1 to 100 bytes");
+      },
+      fmt::format("client = \"{}\"", usual_client));
+  problems.in([&] { broker.user = table.text("user").value_or(""); }, "user = \"wearwell\"");
+  problems.in([&] {
+    if (!table.has("password_file")) return;
+    if (broker.user.empty())
+      table.fail("password_file", "is a password without a user; add user = \"...\"");
     broker.password = read_text_file(existing(table, "password_file")).text;
     while (!broker.password.empty() && broker.password.back() == '\n') broker.password.pop_back();
-  }
-  if (table.has("authority")) {
+  });
+  problems.in([&] {
+    if (!table.has("authority")) return;
     broker.authority = existing(table, "authority");
-    if (!broker.tls) table.fail("authority", "needs a broker at mqtts://");
-  }
-  broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";
+    if (has_url && !broker.tls) table.fail("authority", "needs a broker at mqtts://");
+  });
+  problems.in(
+      [&] {
+        broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";
+      },
+      "protocol = \"5\"");
+  problems.finish();
   return broker;
 }
 
@@ -142,12 +126,20 @@ std::string read_level(const TomlReader& table, const char* key, const char* usu
 void read_sparkplug_source(const TomlReader& table, const std::string& name,
                            SourceSettings& source) {
   source.kind = SourceKind::sparkplug;
-  source.broker = read_broker(table, "wearwell-" + name);
-  source.topic = TopicPattern(fmt::format("spBv1.0/{}/+/{}/#", read_level(table, "group", "+"),
-                                          read_level(table, "edge", "+")));
-  source.host = read_level(table, "host", "");
-  source.births_are_readings =
-      table.choice("births", {"values", "readings"}).value_or("values") == "readings";
+  Problems problems;
+  problems.in([&] { source.broker = read_broker(table, "wearwell-" + name); });
+  std::string group, edge;
+  problems.in([&] { group = read_level(table, "group", "+"); }, "group = \"Plant 1\"");
+  problems.in([&] { edge = read_level(table, "edge", "+"); }, "edge = \"Line 2\"");
+  problems.in([&] { source.host = read_level(table, "host", ""); }, "host = \"wearwell\"");
+  problems.in(
+      [&] {
+        source.births_are_readings =
+            table.choice("births", {"values", "readings"}).value_or("values") == "readings";
+      },
+      "births = \"values\"");
+  problems.finish();
+  source.topic = TopicPattern(fmt::format("spBv1.0/{}/+/{}/#", group, edge));
 }
 
 /// Parts of a message beside its fields, which only some forms have.
@@ -241,42 +233,76 @@ void read_format(const TomlReader& table, SourceSettings& source) {
   }
 }
 
+TopicPattern read_topic(const TomlReader& table) {
+  const std::string topic = table.required_text("topic");
+  try {
+    return TopicPattern(topic);
+  } catch (const InputError& error) {
+    table.fail("topic", error.what());
+  }
+}
+
+/// Without [reading] nothing of it can be checked: its whole is the example.
+[[noreturn]] void fail_without_reading(const TomlReader& root, const prognosis::Tracker& tracker) {
+  std::string columns;
+  for (const prognosis::ReadingColumn& each : tracker.columns())
+    columns += "\n    " + example_line(each);
+  for (const std::string& each : tracker.labels()) columns += "\n    " + example_line(each);
+  root.fail(
+      "reading",
+      fmt::format("is missing: the fields of a message; for example:\n    [reading]\n    unit "
+                  "= \"{}\"\n    time = \"t\"\n    time_format = \"iso 8601\"\n    "
+                  "[reading.columns]{}",
+                  tracker.noun().empty() ? "unit" : tracker.noun(), columns));
+}
+
 SourceSettings read_source(const TomlReader& root, const TomlReader& table, const std::string& name,
                            const prognosis::Tracker& tracker) {
   SourceSettings source;
   source.name = name;
   const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "sparkplug", "http"});
   if (!kind)
-    table.fail("kind", "is missing: \"stdin\", \"folder\", \"mqtt\", \"sparkplug\" or \"http\"");
+    table.fail("kind",
+               "is missing: \"stdin\", \"folder\", \"mqtt\", \"sparkplug\" or \"http\"; for "
+               "example: kind = \"stdin\"");
+  Problems problems;
   if (*kind == "folder") {
     source.kind = SourceKind::folder;
-    source.folder = existing(table, "folder");
-    if (!std::filesystem::is_directory(source.folder))
-      table.fail("folder", fmt::format("{} is not a folder", source.folder.string()));
+    problems.in(
+        [&] {
+          source.folder = existing(table, "folder");
+          if (!std::filesystem::is_directory(source.folder))
+            table.fail("folder", fmt::format("{} is not a folder", source.folder.string()));
+        },
+        "folder = \"incoming\", after mkdir incoming beside this file");
   } else if (*kind == "mqtt") {
     source.kind = SourceKind::mqtt;
-    source.broker = read_broker(table, "wearwell-" + name);
-    const std::string topic = table.required_text("topic");
-    try {
-      source.topic = TopicPattern(topic);
-    } catch (const InputError& error) {
-      table.fail("topic", error.what());
-    }
+    problems.in([&] { source.broker = read_broker(table, "wearwell-" + name); });
+    problems.in([&] { source.topic = read_topic(table); }, "topic = \"plant/{unit}/wear\"");
   } else if (*kind == "sparkplug") {
-    read_sparkplug_source(table, name, source);
+    source.kind = SourceKind::sparkplug;
+    problems.in([&] { read_sparkplug_source(table, name, source); });
   } else if (*kind == "http") {
     source.kind = SourceKind::http;
   }
-  read_format(table, source);
-  const auto own = table.table("reading");
-  const TomlReader reading = own ? *own : root.required_table("reading");
-  source.mapping = read_mapping(reading, tracker, source.topic.names_unit());
-  check_braces(reading, source);
+  problems.in([&] { read_format(table, source); }, "format = \"influx\" with precision = \"ns\"");
+  problems.in([&] {
+    const auto own = table.table("reading");
+    if (!own && !root.has("reading")) fail_without_reading(root, tracker);
+    const TomlReader reading = own ? *own : root.required_table("reading");
+    source.mapping = read_mapping(reading, tracker, source.topic.names_unit());
+    check_braces(reading, source);
+  });
+  problems.finish();
   return source;
 }
 
 void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, MonitorConfig& config,
                   Problems& problems) {
+  if (!root.has("source"))
+    root.fail("source",
+              "is missing: where readings come from; for example:\n    [source.line]\n    kind = "
+              "\"stdin\"");
   const TomlReader sources = root.required_table("source");
   bool some = false;
   const auto read_one = [&](const std::string& name) {
@@ -298,31 +324,58 @@ void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, Mon
     if (problems.in([&] { read_one(name); }))
       problems.in([&] { sources.required_table(name).finish(); });
   }
-  if (!some) root.fail("source", "has no source: write [source.NAME] with a kind");
+  if (!some)
+    root.fail("source", "has no source; for example:\n    [source.line]\n    kind = \"stdin\"");
 }
 
 AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& tracker) {
+  const prognosis::ReadingColumn& axis = tracker.axis();
+  const std::string horizon = fmt::format("horizon = \"500 {}\"", axis.unit.text);
+  if (!root.has("alarm"))
+    root.fail("alarm", fmt::format("is missing: how far ahead the risk looks; for example:\n    "
+                                   "[alarm]\n    {}",
+                                   horizon));
   const TomlReader table = root.required_table("alarm");
   AlarmSettings alarm;
-  const prognosis::ReadingColumn& axis = tracker.axis();
-  alarm.horizon = required_si(table, "horizon", axis.unit) - axis.unit.offset;
-  if (!(alarm.horizon > 0)) table.fail("horizon", "must be above 0");
-  const auto share = [&](const char* key, double usual) {
-    const auto value = table.quantity(key, "1");
-    if (!value) return usual;
-    if (!(value->si() > 0 && value->si() < 1))
-      table.fail(key, fmt::format("{} must lie between 0 and 1", value->si()));
-    return value->si();
+  Problems problems;
+  problems.in(
+      [&] {
+        alarm.horizon = required_si(table, "horizon", axis.unit) - axis.unit.offset;
+        if (!(alarm.horizon > 0)) table.fail("horizon", "must be above 0");
+      },
+      horizon);
+  const auto share = [&](const char* key, double& into) {
+    const std::string example = fmt::format("{} = {}", key, into);
+    return problems.in(
+        [&] {
+          const auto value = table.quantity(key, "1");
+          if (!value) return;
+          if (!(value->si() > 0 && value->si() < 1))
+            table.fail(key, fmt::format("{} must lie between 0 and 1", value->si()));
+          into = value->si();
+        },
+        example);
   };
-  alarm.watch = share("watch", alarm.watch);
-  alarm.act = share("act", alarm.act);
-  if (!(alarm.watch < alarm.act))
-    table.fail("watch", fmt::format("{} must be below act, {}", alarm.watch, alarm.act));
-  alarm.hysteresis = share("hysteresis", alarm.hysteresis);
-  if (const auto silence = table.quantity("silence", "s")) {
-    if (!(silence->si() > 0)) table.fail("silence", "must be above 0");
-    alarm.silence = silence->si();
+  const bool watch = share("watch", alarm.watch), act = share("act", alarm.act);
+  if (watch && act) {
+    problems.in(
+        [&] {
+          if (!(alarm.watch < alarm.act))
+            table.fail("watch", fmt::format("{} must be below act, {}", alarm.watch, alarm.act));
+        },
+        "watch = 0.05 with act = 0.2");
   }
+  share("hysteresis", alarm.hysteresis);
+  problems.in(
+      [&] {
+        const auto silence = table.quantity("silence", "s");
+        if (!silence) return;
+        if (!(silence->si() > 0)) table.fail("silence", "must be above 0");
+        alarm.silence = silence->si();
+      },
+      "silence = \"2 d\"");
+  problems.in([&] { table.finish(); });
+  problems.finish();
   return alarm;
 }
 
@@ -362,33 +415,50 @@ std::string read_token(const TomlReader& table, const char* key, const std::stri
   return token;
 }
 
+/// A token in the configuration, or in a file.
+std::string read_token_or_file(const TomlReader& table) {
+  const bool in_file = table.has("token_file"), here = table.has("token");
+  if (in_file && here) table.fail("token_file", "is given, and token as well; use one");
+  if (!in_file && !here)
+    table.fail("token",
+               "is missing, and so is token_file; for example: token_file = \"NAME.token\", "
+               "after openssl rand -hex 16 > NAME.token");
+  return in_file ? read_token(table, "token_file", read_secret(table, "token_file"))
+                 : read_token(table, "token", table.required_text("token"));
+}
+
 /// [http.tokens.NAME] with a token, or a file with it, and its roles.
 void read_tokens(const TomlReader& tokens, HttpSettings& http) {
-  for (const std::string& name : tokens.keys()) {
+  Problems problems;
+  const auto read_one = [&](const std::string& name) {
     const TomlReader table = tokens.required_table(name);
     HttpToken each{name, {}, 0};
     const bool in_file = table.has("token_file");
-    if (in_file && table.has("token"))
-      table.fail("token_file", "is given, and token as well; use one");
-    each.token = in_file ? read_token(table, "token_file", read_secret(table, "token_file"))
-                         : read_token(table, "token", table.required_text("token"));
-    for (const std::string& role : table.texts("roles")) {
-      const auto known = role_named(role);
-      if (!known)
-        table.fail("roles", fmt::format("'{}' is not a role: read, write or operate", role));
-      each.roles |= *known;
-    }
-    if (each.roles == 0) table.fail("roles", "is missing: of read, write, operate");
+    Problems own;
+    own.in([&] { each.token = read_token_or_file(table); });
+    own.in(
+        [&] {
+          for (const std::string& role : table.texts("roles")) {
+            const auto known = role_named(role);
+            if (!known)
+              table.fail("roles", fmt::format("'{}' is not a role: read, write or operate", role));
+            each.roles |= *known;
+          }
+          if (each.roles == 0) table.fail("roles", "is missing: of read, write, operate");
+        },
+        "roles = [\"read\"]");
+    own.finish();
     const auto same = [&](const HttpToken& other) { return other.token == each.token; };
     if (each.token == http.token || std::any_of(http.tokens.begin(), http.tokens.end(), same))
       table.fail(in_file ? "token_file" : "token",
                  "is another one's token too: who has it would not be known");
     http.tokens.push_back(std::move(each));
-  }
+  };
+  for (const std::string& name : tokens.keys()) problems.in([&] { read_one(name); });
+  problems.finish();
 }
 
-WebhookSettings read_webhook(const TomlReader& table) {
-  WebhookSettings webhook;
+void read_webhook_url(const TomlReader& table, WebhookSettings& webhook) {
   webhook.url = table.required_text("url");
   webhook.tls = webhook.url.starts_with("https://");
   if (!webhook.tls && !webhook.url.starts_with("http://"))
@@ -406,56 +476,118 @@ WebhookSettings read_webhook(const TomlReader& table) {
   const bool plain = std::all_of(webhook.target.begin(), webhook.target.end(),
                                  [](char c) { return c > ' ' && c < '\x7f' && c != '#'; });
   if (!plain) table.fail("url", "has characters that must be percent-encoded");
-  if (table.has("token_file")) {
-    webhook.token = read_secret(table, "token_file");
-    const bool visible = std::all_of(webhook.token.begin(), webhook.token.end(),
-                                     [](char c) { return c > ' ' && c < '\x7f'; });
-    if (!visible) table.fail("token_file", "has characters that no header can carry");
-    if (!webhook.tls && !is_loopback(webhook.host))
-      table.fail("token_file", "would be sent unencrypted; use https://");
-  }
-  if (const auto after = table.quantity("after", "s")) {
-    constexpr double longest = 7 * 86400;
-    if (!(after->si() >= 0 && after->si() <= longest))
-      table.fail("after", "must lie between 0 s and 7 d");
-    webhook.lasting = std::chrono::milliseconds(std::llround(1000 * after->si()));
-  }
+}
+
+void read_webhook_token(const TomlReader& table, bool has_url, WebhookSettings& webhook) {
+  if (!table.has("token_file")) return;
+  webhook.token = read_secret(table, "token_file");
+  const bool visible = std::all_of(webhook.token.begin(), webhook.token.end(),
+                                   [](char c) { return c > ' ' && c < '\x7f'; });
+  if (!visible) table.fail("token_file", "has characters that no header can carry");
+  if (has_url && !webhook.tls && !is_loopback(webhook.host))
+    table.fail("token_file", "would be sent unencrypted; use https://");
+}
+
+WebhookSettings read_webhook(const TomlReader& table) {
+  WebhookSettings webhook;
+  Problems problems;
+  const bool has_url = problems.in([&] { read_webhook_url(table, webhook); },
+                                   "url = \"https://alarms.example/wear\"");
+  problems.in([&] { read_webhook_token(table, has_url, webhook); });
+  problems.in(
+      [&] {
+        const auto after = table.quantity("after", "s");
+        if (!after) return;
+        constexpr double longest = 7 * 86400;
+        if (!(after->si() >= 0 && after->si() <= longest))
+          table.fail("after", "must lie between 0 s and 7 d");
+        webhook.lasting = std::chrono::milliseconds(std::llround(1000 * after->si()));
+      },
+      "after = \"1 min\"");
+  problems.in([&] { table.finish(); });
+  problems.finish();
   return webhook;
+}
+
+void read_http_limits(const TomlReader& table, HttpSettings& http, Problems& problems) {
+  constexpr std::int64_t most = 10'000;  // each needs a descriptor
+  const auto limit = [&](const char* key, std::size_t& into) {
+    problems.in(
+        [&] {
+          if (const auto value = table.integer(key, 1, most))
+            into = static_cast<std::size_t>(*value);
+        },
+        fmt::format("{} = {}", key, into));
+  };
+  limit("connections", http.limits.connections);
+  limit("connections_of_client", http.limits.of_client);
+  limit("streams_of_client", http.limits.streams_of_client);
 }
 
 HttpSettings read_http(const TomlReader& table) {
   HttpSettings http;
-  const std::string listen = table.text("listen").value_or("127.0.0.1:8080");
-  const HostAndPort address = read_address(table, "listen", listen, 8080);
-  http.host = address.host;
-  http.port = address.port;
-  http.names = table.texts("names");
-  http.events = table.boolean("events").value_or(true);
-  http.token = table.text("token").value_or("");
-  if (table.has("token")) read_token(table, "token", http.token);
-  if (const auto tokens = table.table("tokens")) read_tokens(*tokens, http);
-  constexpr std::int64_t most = 10'000;  // each needs a descriptor
-  if (const auto all = table.integer("connections", 1, most))
-    http.limits.connections = static_cast<std::size_t>(*all);
-  if (const auto own = table.integer("connections_of_client", 1, most))
-    http.limits.of_client = static_cast<std::size_t>(*own);
-  if (table.has("certificate")) http.certificate = existing(table, "certificate");
-  if (table.has("key")) http.key = existing(table, "key");
-  if (http.certificate.empty() != http.key.empty())
-    table.fail(http.key.empty() ? "certificate" : "key", "certificate and key go together");
-  if (!is_loopback(http.host) && (!http.needs_token() || http.key.empty()))
-    table.fail(
-        "listen",
-        fmt::format("{} is reachable from other machines: set a token, a certificate and its key",
-                    http.host));
+  Problems problems;
+  const bool has_address = problems.in(
+      [&] {
+        const std::string listen = table.text("listen").value_or("127.0.0.1:8080");
+        const HostAndPort address = read_address(table, "listen", listen, 8080);
+        http.host = address.host;
+        http.port = address.port;
+      },
+      "listen = \"127.0.0.1:8080\"");
+  problems.in([&] { http.names = table.texts("names"); }, "names = [\"fleet.example\"]");
+  problems.in([&] { http.events = table.boolean("events").value_or(true); }, "events = true");
+  const std::size_t before_tokens = problems.count();
+  problems.in([&] {
+    if (table.has("token") || table.has("token_file")) http.token = read_token_or_file(table);
+  });
+  problems.in([&] {
+    if (const auto tokens = table.table("tokens")) read_tokens(*tokens, http);
+  });
+  read_http_limits(table, http, problems);
+  const std::size_t before_files = problems.count();
+  const bool tokens_are_right = before_tokens == before_files;
+  for (const auto& [key, file] : {std::pair("certificate", &http.certificate), {"key", &http.key}})
+    problems.in([&, to = file, name = key] {
+      if (table.has(name)) *to = existing(table, name);
+    });
+  if (problems.count() == before_files) {
+    problems.in([&] {
+      if (http.certificate.empty() != http.key.empty())
+        table.fail(http.key.empty() ? "certificate" : "key",
+                   "certificate and key go together; for example: certificate = \"cert.pem\" with "
+                   "key = \"key.pem\"");
+    });
+  }
+  const bool open = tokens_are_right && !http.needs_token();
+  if (has_address && !is_loopback(http.host) && (open || !table.has("key"))) {
+    problems.in(
+        [&] {
+          table.fail("listen", fmt::format("{} is reachable from other machines: set a token, a "
+                                           "certificate and its key",
+                                           http.host));
+        },
+        fmt::format("{}certificate = \"cert.pem\" and key = \"key.pem\"",
+                    open ? "token_file = \"fleet.token\", " : ""));
+  }
+  problems.in([&] { table.finish(); });
+  problems.finish();
   return http;
 }
 
 PublishSettings read_publish(const TomlReader& table) {
-  PublishSettings publish{read_broker(table, "wearwell-publish"),
-                          table.text("prefix").value_or("wearwell")};
-  if (publish.prefix.find_first_of("+#") != std::string::npos || publish.prefix.empty())
-    table.fail("prefix", "is not a topic");
+  PublishSettings publish;
+  Problems problems;
+  problems.in([&] { publish.broker = read_broker(table, "wearwell-publish"); });
+  problems.in(
+      [&] {
+        publish.prefix = table.text("prefix").value_or("wearwell");
+        if (publish.prefix.find_first_of("+#") != std::string::npos || publish.prefix.empty())
+          table.fail("prefix", "is not a topic");
+      },
+      "prefix = \"wearwell\"");
+  problems.in([&] { table.finish(); });
+  problems.finish();
   return publish;
 }
 
@@ -480,35 +612,26 @@ void refuse_unknown_tables(const TomlReader& root) {
   }
 }
 
-}  // namespace
-
-std::filesystem::path read_result_path(const TomlReader& root) {
-  root.required_text("result");
-  return existing(root, "result");
-}
-
-MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker) {
-  MonitorConfig config;
-  config.folder = folder_of(root);
-  root.has("result");
-  Problems problems;
-  problems.in([&] { config.title = root.text("title").value_or(""); });
+/// What can be read without the population of the result.
+void read_own_tables(const TomlReader& root, MonitorConfig& config, Problems& problems) {
+  problems.in([&] { config.title = root.text("title").value_or(""); },
+              "title = \"Pumps of hall 2\"");
   problems.in_table(root, "store", [&] {
-    if (const auto store = root.table("store")) {
-      config.store = store->text("url").value_or("");
-      config.keep_s = read_keep(*store);
-    }
-    if (config.store.empty()) config.store = "fleet.sqlite";
-    if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
-      root.required_table("store").fail("url", "is neither a file nor postgresql://...");
+    config.store = "fleet.sqlite";
+    const auto store = root.table("store");
+    if (!store) return;
+    problems.in(
+        [&] {
+          const std::string url = store->text("url").value_or("");
+          if (url.find("://") != std::string::npos && !is_postgres(url))
+            store->fail("url", "is neither a file nor postgresql://...");
+          if (!url.empty()) config.store = url;
+        },
+        "url = \"fleet.sqlite\"");
+    problems.in([&] { config.keep_s = read_keep(*store); }, "keep = \"5 years\"");
   });
-  problems.in([&] { read_sources(root, tracker, config, problems); });
-  problems.in_table(root, "alarm", [&] { config.alarm = read_alarm(root, tracker); });
   problems.in_table(root, "http", [&] {
     if (const auto http = root.table("http")) config.http = read_http(*http);
-    const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
-    if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
-      root.fail("http", "is missing: a source of kind \"http\" needs a server, [http]");
   });
   problems.in_table(root, "publish", [&] {
     if (const auto publish = root.table("publish")) config.publish = read_publish(*publish);
@@ -518,11 +641,58 @@ MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Track
   });
   problems.in_table(root, "limits", [&] {
     constexpr long long most = 10'000'000;
-    if (const auto limits = root.table("limits")) {
-      if (const auto units = limits->integer("units", 1, most))
-        config.most_units = static_cast<std::size_t>(*units);
-    }
+    const auto limits = root.table("limits");
+    if (!limits) return;
+    problems.in(
+        [&] {
+          if (const auto units = limits->integer("units", 1, most))
+            config.most_units = static_cast<std::size_t>(*units);
+        },
+        "units = 1000");
   });
+}
+
+}  // namespace
+
+std::filesystem::path read_result_path(const TomlReader& root) {
+  std::filesystem::path result;
+  Problems problems;
+  const bool found = problems.in(
+      [&] {
+        if (!root.has("result"))
+          root.fail("result", "is missing: the folder that wearwell fit has written");
+        result = existing(root, "result");
+      },
+      "result = \"study-results\"");
+  if (found) return result;
+  MonitorConfig rest;
+  read_own_tables(root, rest, problems);
+  for (const char* key : {"reading", "source", "alarm"}) {
+    problems.in([&] {
+      if (!root.has(key))
+        root.fail(key, "is missing; wearwell new monitor NAME --from RESULT writes it");
+    });
+  }
+  problems.in([&] { refuse_unknown_tables(root); });
+  problems.finish();
+  return result;
+}
+
+MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker) {
+  MonitorConfig config;
+  config.folder = folder_of(root);
+  root.has("result");
+  Problems problems;
+  read_own_tables(root, config, problems);
+  problems.in([&] { read_sources(root, tracker, config, problems); });
+  problems.in([&] {
+    const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
+    if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
+      root.fail("http",
+                "is missing: a source of kind \"http\" needs a server, [http]; for example:\n    "
+                "[http]\n    listen = \"127.0.0.1:8080\"");
+  });
+  problems.in_table(root, "alarm", [&] { config.alarm = read_alarm(root, tracker); });
   if (problems.empty()) {
     root.finish();
   } else {

@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/monitor/config_problems.h"
 #include "wearwell/monitor/implausible_reading.h"
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/unit_events.h"
@@ -22,7 +23,8 @@ std::string shown_value(std::string_view text) {
 }
 
 ColumnField read_column_field(const TomlReader& columns, const prognosis::ReadingColumn& column) {
-  ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0}, {}};
+  ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0},
+                     {},          column.carried};
   const auto plain = [&](const TomlReader& at, std::string_view key) {
     if (may_be_plain(column.unit.text) && column.unit.scale == 1) return;
     at.fail(key, fmt::format("has no unit; write {{ field = \"{}\", unit = \"{}\" }}", chosen.field,
@@ -60,28 +62,42 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
   return chosen;
 }
 
-void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapping& mapping) {
-  if (topic_names_unit) {
-    if (reading.has("unit"))
+void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapping& mapping,
+                   Problems& problems) {
+  problems.in(
+      [&] {
+        if (!topic_names_unit) mapping.unit = reading.required_text("unit");
+      },
+      "unit = \"machine\"");
+  problems.in([&] {
+    if (topic_names_unit && reading.has("unit"))
       reading.fail(
           "unit",
           "is given, but the topic names the unit already; remove this, or {unit} in the topic");
-  } else {
-    mapping.unit = reading.required_text("unit");
-  }
-  mapping.sequence = reading.text("sequence").value_or("");
+  });
+  problems.in([&] { mapping.sequence = reading.text("sequence").value_or(""); },
+              "sequence = \"n\"");
   if (reading.has("time")) {
-    mapping.time = reading.required_text("time");
-    const auto format = reading.choice("time_format", {"iso 8601", "unix s", "unix ms"});
-    if (!format) reading.fail("time_format", "is missing: \"iso 8601\", \"unix s\" or \"unix ms\"");
-    mapping.format = *format == "iso 8601" ? TimeFormat::iso
-                     : *format == "unix s" ? TimeFormat::unix_s
-                                           : TimeFormat::unix_ms;
+    problems.in([&] { mapping.time = reading.required_text("time"); }, "time = \"t\"");
+    problems.in(
+        [&] {
+          const auto format = reading.choice("time_format", {"iso 8601", "unix s", "unix ms"});
+          if (!format)
+            reading.fail("time_format", "is missing: \"iso 8601\", \"unix s\" or \"unix ms\"");
+          mapping.format = *format == "iso 8601" ? TimeFormat::iso
+                           : *format == "unix s" ? TimeFormat::unix_s
+                                                 : TimeFormat::unix_ms;
+        },
+        "time_format = \"iso 8601\"");
   }
-  if (mapping.time.empty() && mapping.sequence.empty())
-    reading.fail(
-        "sequence",
-        "is missing, and so is time: one of these fields must distinguish a reading from a repeat");
+  if (reading.has("time") || reading.has("sequence")) return;
+  problems.in(
+      [&] {
+        reading.fail("sequence",
+                     "is missing, and so is time: one of these fields must distinguish a reading "
+                     "from a repeat");
+      },
+      "time = \"t\" with time_format = \"iso 8601\"");
 }
 
 std::int64_t time_of(const Field& field, TimeFormat format) {
@@ -145,7 +161,7 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
   bool measured = false;
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
     const bool there = !std::isnan(reading.numbers[i]);
-    if (!there && !mapping.columns[i].measured)
+    if (!there && !mapping.columns[i].measured && !mapping.columns[i].carried)
       throw InputError(fmt::format("{} is missing", shown_value(mapping.columns[i].field)));
     measured = measured || (there && mapping.columns[i].measured);
   }
@@ -153,6 +169,47 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
   for (const ColumnField& column : mapping.columns) {
     if (column.measured) throw InputError(fmt::format("{} is missing", shown_value(column.field)));
   }
+}
+
+}  // namespace
+
+namespace {
+
+void read_columns(const TomlReader& reading, const prognosis::Tracker& tracker,
+                  ReadingMapping& mapping) {
+  std::vector<std::string> missing, lines;
+  Problems problems;
+  const bool some = reading.has("columns");
+  const std::optional<TomlReader> columns = reading.table("columns");
+  for (const prognosis::ReadingColumn& column : tracker.columns()) {
+    if (some && columns->has(column.name)) {
+      problems.in([&] { mapping.columns.push_back(read_column_field(*columns, column)); });
+      continue;
+    }
+    missing.push_back(fmt::format("{} [{}]", column.name, column.unit.text));
+    lines.push_back(example_line(column));
+  }
+  for (const std::string& label : tracker.labels()) {
+    if (some && columns->has(label)) {
+      problems.in([&] { mapping.labels.push_back(columns->required_text(label)); },
+                  example_line(label));
+      continue;
+    }
+    missing.push_back(label);
+    lines.push_back(example_line(label));
+  }
+  if (!missing.empty()) {
+    // An unknown column is probably misspelt; this error comes first.
+    if (some && problems.empty()) problems.in([&] { columns->finish(); });
+    problems.in([&] {
+      reading.fail(
+          "columns",
+          fmt::format("the study has {} as well; give the field of each; for example:\n    "
+                      "{}",
+                      fmt::join(missing, ", "), fmt::join(lines, "\n    ")));
+    });
+  }
+  problems.finish();
 }
 
 }  // namespace
@@ -178,33 +235,23 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
   return quantity.si();
 }
 
+std::string example_line(const prognosis::ReadingColumn& column) {
+  return fmt::format("{} = {{ field = \"{}\", unit = \"{}\" }}", column.name, column.name,
+                     column.unit.text);
+}
+
+std::string example_line(const std::string& label) {
+  return fmt::format("{} = \"{}\"", label, label);
+}
+
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {
   ReadingMapping mapping = tracker_checks(tracker);
-  read_identity(reading, topic_names_unit, mapping);
-  mapping.event = reading.text("event").value_or("");
-  const TomlReader columns = reading.required_table("columns");
-  std::vector<std::string> missing;
-  for (const prognosis::ReadingColumn& column : tracker.columns()) {
-    if (!columns.has(column.name)) {
-      missing.push_back(fmt::format("{} [{}]", column.name, column.unit.text));
-      continue;
-    }
-    mapping.columns.push_back(read_column_field(columns, column));
-  }
-  for (const std::string& label : tracker.labels()) {
-    if (!columns.has(label)) {
-      missing.push_back(label);
-      continue;
-    }
-    mapping.labels.push_back(columns.required_text(label));
-  }
-  // An unknown column is probably misspelt; this error comes first.
-  if (!missing.empty()) {
-    columns.finish();
-    reading.fail("columns", fmt::format("the study has {} as well; give the field of each",
-                                        fmt::join(missing, ", ")));
-  }
+  Problems problems;
+  read_identity(reading, topic_names_unit, mapping, problems);
+  problems.in([&] { mapping.event = reading.text("event").value_or(""); }, "event = \"event\"");
+  problems.in([&] { read_columns(reading, tracker, mapping); });
+  problems.finish();
   return mapping;
 }
 
@@ -214,7 +261,7 @@ ReadingMapping plain_mapping(const prognosis::Tracker& tracker, bool keys_are_ti
   mapping.format = TimeFormat::unix_ms;
   mapping.event = "event";
   for (const prognosis::ReadingColumn& each : tracker.columns())
-    mapping.columns.push_back({each.name, each.measured, each.name, each.unit, {}});
+    mapping.columns.push_back({each.name, each.measured, each.name, each.unit, {}, each.carried});
   mapping.labels.assign(tracker.labels().begin(), tracker.labels().end());
   return mapping;
 }

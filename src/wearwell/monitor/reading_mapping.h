@@ -23,6 +23,7 @@ struct ColumnField {
   std::string field;               ///< of the message
   Unit unit;                       ///< unit of its value there
   std::optional<double> constant;  ///< SI: constant value, instead of a field
+  bool carried = false;            ///< as prognosis::ReadingColumn
   bool unit_of_message = false;    ///< its metric has the unit (Sparkplug B); `unit` is SI then
 };
 
@@ -51,6 +52,11 @@ inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, o
 
 /// `topic_names_unit`: then no field may. Throws InputError with file, place and key: a column
 /// without a field or a unit, neither time nor sequence, ...
+/// The line of [reading.columns] for a column or label of the study, for examples.
+std::string example_line(const prognosis::ReadingColumn& column);
+std::string example_line(const std::string& label);
+
+/// Throws InputErrors with all problems.
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit);
 

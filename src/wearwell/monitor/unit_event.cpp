@@ -13,7 +13,8 @@ namespace wearwell::monitor {
 namespace {
 
 constexpr std::pair<EventKind, const char*> event_list[] = {
-    {EventKind::replaced, "replaced"},   {EventKind::removed, "removed"},
+    {EventKind::installed, "installed"}, {EventKind::replaced, "replaced"},
+    {EventKind::repaired, "repaired"},   {EventKind::removed, "removed"},
     {EventKind::failed, "failed"},       {EventKind::sensor, "sensor"},
     {EventKind::corrected, "corrected"}, {EventKind::withdrawn, "withdrawn"},
     {EventKind::cancelled, "cancelled"}, {EventKind::acknowledged, "acknowledged"}};
@@ -32,6 +33,10 @@ std::optional<EventKind> event_named(std::string_view name) {
     if (text == name) return each;
   }
   return {};
+}
+
+bool begins_part(EventKind kind) {
+  return kind == EventKind::installed || kind == EventKind::replaced;
 }
 
 bool changes_state(EventKind kind) {
@@ -65,6 +70,7 @@ std::string content_of(const UnitEvent& event) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (!std::isnan(event.use)) json["use"] = event.use;
   if (event.kind == EventKind::sensor) json["offset"] = event.offset;
+  if (event.kind == EventKind::repaired) json["restored"] = event.restored;
   if (event.kind == EventKind::cancelled) json["cancels"] = event.cancels;
   if (event.kind == EventKind::acknowledged) json["alarm_ms"] = event.alarm_ms;
   if (event.kind == EventKind::corrected) {
@@ -85,6 +91,7 @@ void read_content(const std::string& text, UnitEvent& event) {
     const auto json = nlohmann::json::parse(text);
     event.use = json.value("use", std::numeric_limits<double>::quiet_NaN());
     event.offset = json.value("offset", 0.0);
+    event.restored = json.value("restored", 0.0);
     event.cancels = json.value("cancels", std::int64_t{0});
     event.alarm_ms = json.value("alarm_ms", std::int64_t{0});
     event.numbers = numbers_of(json.value("numbers", "[]"));

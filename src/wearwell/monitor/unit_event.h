@@ -11,7 +11,9 @@ namespace wearwell::monitor {
 
 /// What can happen to a unit, or to one of its stored readings.
 enum class EventKind {
-  replaced,     ///< a new part is installed
+  installed,    ///< a part goes into service
+  replaced,     ///< a new part is installed in place of another
+  repaired,     ///< a part of the wear is taken back
   removed,      ///< the part is taken out of service
   failed,       ///< the part has failed
   sensor,       ///< the sensor is exchanged: from here on it shows the level plus an offset
@@ -22,6 +24,8 @@ enum class EventKind {
 };
 const char* name(EventKind kind);
 std::optional<EventKind> event_named(std::string_view name);
+/// Whether a new part begins with it.
+bool begins_part(EventKind kind);
 /// Whether it changes what the readings say: an acknowledgement does not.
 bool changes_state(EventKind kind);
 /// Whether it is about a stored reading, another event or an alarm, so that its unit is there.
@@ -50,6 +54,7 @@ struct UnitEvent {
   /// set back when a part is replaced shows 0.
   double use = std::numeric_limits<double>::quiet_NaN();
   double offset = 0;                     ///< SI, of `sensor`: what it shows minus the level
+  double restored = 0;                   ///< SI, of `repaired`: the amount that is taken back
   std::vector<double> numbers = {};      ///< of `corrected`: as StoredReading
   std::vector<std::string> labels = {};  ///< of `corrected`
   std::int64_t cancels = 0;              ///< of `cancelled`: the number of the other event

@@ -7,8 +7,9 @@
 
 namespace wearwell::monitor {
 
-UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns)
-    : columns_(columns), events_(std::move(events)) {
+UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns,
+                       bool rising)
+    : columns_(columns), events_(std::move(events)), rising_(rising) {
   for (const UnitEvent& each : events_) {
     if (each.kind == EventKind::cancelled) cancelled_.insert(each.cancels);
   }
@@ -18,6 +19,7 @@ UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedCo
       continue;
     valid.push_back(&each);
     if (each.kind == EventKind::sensor) offsets_[each.key] = each.offset;
+    if (each.kind == EventKind::repaired) restored_[each.key] = each.restored;
     if (each.kind == EventKind::corrected || each.kind == EventKind::withdrawn)
       edits_[each.key] = &each;  // the last one holds
   }
@@ -69,7 +71,7 @@ std::string UnitEvents::not_in_force(const UnitEvent& event) const {
 void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
   std::map<std::int64_t, double> installed;
   for (const UnitEvent* each : valid) {
-    if (each->kind == EventKind::replaced) installed[each->key] = each->use;
+    if (begins_part(each->kind)) installed[each->key] = each->use;
   }
   for (const auto& [key, use] : installed) {
     UnitPart part;
@@ -97,6 +99,18 @@ const UnitPart& UnitEvents::part_at(std::int64_t key) const {
   return at == parts_.rend() ? parts_.front() : *at;
 }
 
+double UnitEvents::restored_at(const UnitPart& part, std::int64_t key) const {
+  double sum = 0;
+  const auto end = restored_.upper_bound(key);
+  for (auto at = restored_.lower_bound(part.from_key); at != end && at != restored_.end(); ++at)
+    sum += at->second;
+  return sum;
+}
+
+double UnitEvents::restored() const {
+  return restored_at(part(), std::numeric_limits<std::int64_t>::max());
+}
+
 CountedReading UnitEvents::counted(const StoredReading& reading) const {
   CountedReading counted{CountedReading::State::counts, 1, reading};
   if (events_.empty()) return counted;
@@ -116,6 +130,8 @@ CountedReading UnitEvents::counted(const StoredReading& reading) const {
     const auto offset = offsets_.upper_bound(reading.key);
     if (offset != offsets_.begin())
       counted.reading.numbers[*columns_.level] -= std::prev(offset)->second;
+    counted.restored = restored_at(part, reading.key);
+    counted.reading.numbers[*columns_.level] += rising_ ? counted.restored : -counted.restored;
   }
   return counted;
 }
@@ -126,7 +142,7 @@ EventsOfUnits events_of_units(Store& store, const prognosis::Tracker& tracker) {
   for (UnitEvent& each : store.events_after(0)) lists[each.unit].push_back(std::move(each));
   EventsOfUnits all;
   for (auto& [unit, list] : lists)
-    all[unit] = std::make_shared<const UnitEvents>(std::move(list), columns);
+    all[unit] = std::make_shared<const UnitEvents>(std::move(list), columns, tracker.rising());
   return all;
 }
 
@@ -143,19 +159,26 @@ std::string part_name(const std::string& unit, std::int64_t part) {
 std::string event_problem(const UnitEvent& event, const prognosis::Tracker& tracker) {
   const std::string what = name(event.kind);
   if (event.author.empty()) return "by is missing: who reports the event";
-  const bool needs_use = event.kind == EventKind::replaced || event.kind == EventKind::failed;
+  const bool begins = begins_part(event.kind);
+  const bool needs_use = begins || event.kind == EventKind::failed;
   if (needs_use && std::isnan(event.use))
     return fmt::format("{}: {} is missing: what the counter shows{}", what, tracker.axis().name,
-                       event.kind == EventKind::replaced
-                           ? " as the new part is installed (0 if it is set back)"
-                           : "");
+                       begins ? " as the new part is installed (0 if it is set back)" : "");
   if (event.use < 0) return fmt::format("{}: {} is negative", what, tracker.axis().name);
-  const std::string refusal =
-      event.kind == EventKind::replaced ? tracker.refusal(part_name(event.unit, 2)) : "";
+  const std::string refusal = begins ? tracker.refusal(part_name(event.unit, 2)) : "";
   if (!refusal.empty()) return fmt::format("{}: {}", what, refusal);
-  if (event.kind != EventKind::sensor) return {};
+  if (event.kind != EventKind::sensor && event.kind != EventKind::repaired) return {};
+  if (event.kind == EventKind::repaired && !tracker.can_be_restored())
+    return fmt::format(
+        "repaired: this model does not say how a {} goes on after a repair in part; report "
+        "\"replaced\" if it is as good as new",
+        tracker.noun());
   const auto level = prognosis::watched_columns(tracker).level;
   if (!level) return fmt::format("{}: no column of a reading measures {}", what, tracker.limited());
+  if (event.kind == EventKind::repaired)
+    return event.restored > 0
+               ? std::string()
+               : "repaired: restored must be above 0: the amount that the repair takes back";
   if (!std::isfinite(event.offset))
     return fmt::format("{}: {} is missing: what the sensor shows too much", what,
                        tracker.columns()[*level].name);

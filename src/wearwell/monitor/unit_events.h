@@ -29,7 +29,10 @@ struct CountedReading {
   enum class State { counts, withdrawn, out_of_service };
   State state = State::counts;
   std::int64_t part = 1;  ///< the part that it belongs to
-  StoredReading reading;  ///< corrected; its use since the installation, its level without offset
+  /// Corrected; its use since the installation, its level without the sensor's offset and as if no
+  /// repair had taken anything back.
+  StoredReading reading;
+  double restored = 0;  ///< SI: what repairs of the part have taken back by then
 };
 
 /// All events of one unit, and what its readings are in their light. The readings themselves stay
@@ -41,12 +44,15 @@ class UnitEvents {
   UnitEvents(const UnitEvents&) = delete;
   UnitEvents& operator=(const UnitEvents&) = delete;
   /// `events`: of one unit, in the order of storage.
-  UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns);
+  UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns,
+             bool rising = true);
 
   CountedReading counted(const StoredReading& reading) const;
   /// At least one; the last one is there now.
   const std::vector<UnitPart>& parts() const { return parts_; }
   const UnitPart& part() const { return parts_.back(); }
+  /// SI: what all repairs of the present part have taken back.
+  double restored() const;
   const std::vector<UnitEvent>& list() const { return events_; }
   bool is_cancelled(std::int64_t number) const;
   /// Why an event that is stored already does not hold; empty if it does.
@@ -61,12 +67,15 @@ class UnitEvents {
  private:
   void find_parts(const std::vector<const UnitEvent*>& valid);
   const UnitPart& part_at(std::int64_t key) const;
+  double restored_at(const UnitPart& part, std::int64_t key) const;
 
   prognosis::WatchedColumns columns_ = {};
   std::vector<UnitEvent> events_ = {};
   std::set<std::int64_t> cancelled_ = {};
   std::vector<UnitPart> parts_ = {UnitPart{}};
+  bool rising_ = true;
   std::map<std::int64_t, double> offsets_ = {};          // of the sensor, from a key on
+  std::map<std::int64_t, double> restored_ = {};         // by a repair, from a key on
   std::map<std::int64_t, const UnitEvent*> edits_ = {};  // of readings, by key
 };
 

@@ -15,16 +15,28 @@ namespace {
 using Json = nlohmann::json;
 
 UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
-                     const TrackerUnits& units) {
+                     double restored, const TrackerUnits& units) {
   UnitMoment moment;
   moment.key = reading.key;
   moment.time_ms = reading.time_ms ? reading.time_ms : reading.received_ms;
   moment.at = units.at(forecast.now);
   moment.measured = units.measured(reading.numbers);
+  if (moment.measured) *moment.measured -= units.level(restored) - units.level(0);
   moment.level = units.level(forecast);
   const Interval remaining = units.remaining(forecast);
   moment.life = {moment.at + remaining.q05, moment.at + remaining.q50, moment.at + remaining.q95};
   return moment;
+}
+
+/// "alternating_stress": what a reading does not have and takes from the one before.
+std::string carried_columns(const StoredReading& reading, const prognosis::Tracker& tracker) {
+  std::string names;
+  const auto columns = tracker.columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].carried && std::isnan(reading.numbers[i]))
+      names += (names.empty() ? "" : ", ") + columns[i].name;
+  }
+  return names;
 }
 
 Json json_of_moment(const UnitMoment& each) {
@@ -108,8 +120,9 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
   ++record.readings;
   const prognosis::History history = counted_history(record, reading.place - 1, store);
   const std::string part = part_name(record.unit, record.events->part().number);
+  const double restored = record.events->restored();
   const prognosis::UpdateResult taken =
-      record.watch.update({units.tracker(), units.watched(), part, *record.state},
+      record.watch.update({units.tracker(), units.watched(), part, *record.state, restored},
                           {reading.numbers, reading.labels}, late, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
@@ -118,6 +131,12 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
         "a reading has the time {}, which was more than an hour ahead when it arrived: one of two "
         "clocks is wrong",
         iso_of_unix_ms(reading.time_ms));
+  if (taken.problem.empty()) {
+    const std::string carried = carried_columns(reading, units.tracker());
+    if (!carried.empty())
+      record.last_problem = fmt::format(
+          "a reading has no {}; that of the reading before holds for its use, too", carried);
+  }
   if (!taken.counted) {
     ++record.not_counted;
     return;
@@ -129,9 +148,15 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
     record.held += taken.p_value >= outside;
   }
   if (!is_kept_moment(record.readings)) return;
+  // As it was then: without later repairs.
+  record.state->set_restored(seen.restored);
   const prognosis::Forecast forecast = record.state->forecast();
+  record.state->set_restored(restored);
   // If the continuation was undetermined, there was no forecast.
-  if (!std::isnan(forecast.passed)) record.moments.push_back(moment_of(reading, forecast, units));
+  const bool rising = units.tracker().rising();
+  if (!std::isnan(forecast.passed))
+    record.moments.push_back(
+        moment_of(reading, forecast, rising ? seen.restored : -seen.restored, units));
 }
 
 UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker,
@@ -139,6 +164,7 @@ UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& track
   UnitRecord record;
   record.unit = unit;
   record.state = tracker.begin(part_name(unit, events->part().number));
+  record.state->set_restored(events->restored());
   record.events = std::move(events);
   return record;
 }
@@ -181,9 +207,10 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
     const auto& state = json.at("state").get_binary();
     UnitRecord record;
     record.unit = checkpoint.unit;
-    record.events = std::move(events);
     record.place = checkpoint.place;
     record.state = tracker.restore(std::string(state.begin(), state.end()));
+    record.state->set_restored(events->restored());
+    record.events = std::move(events);
     json.at("readings").get_to(record.readings);
     json.at("late").get_to(record.late);
     json.at("contradicting").get_to(record.contradicting);

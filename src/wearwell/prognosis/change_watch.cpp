@@ -127,7 +127,7 @@ void ChangeWatch::note_values(const WatchedUnit& of, const Reading& reading) {
   farthest_at_ = std::max(farthest_at_, at);
   if (of.columns.level && !std::isnan(reading.numbers[*of.columns.level])) {
     const double level = reading.numbers[*of.columns.level], limit = of.tracker.limit().si();
-    beyond_ = of.tracker.rising() ? level >= limit : level <= limit;
+    beyond_ = of.tracker.rising() ? level - of.restored >= limit : level + of.restored <= limit;
   }
   if (!of.columns.measured) return;
   const double value = reading.numbers[*of.columns.measured];

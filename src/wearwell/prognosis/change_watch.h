@@ -22,6 +22,7 @@ struct WatchedUnit {
   const WatchedColumns& columns;
   const std::string& name;
   TrackedUnit& unit;
+  double restored = 0;  ///< as in `TrackedUnit::set_restored`
 };
 
 /// Watches whether a unit still follows its forecasts, and describes what has changed. Like the

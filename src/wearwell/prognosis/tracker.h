@@ -17,6 +17,7 @@ struct ReadingColumn {
   std::string name;       ///< the study's name: "force"
   Unit unit;              ///< of the study
   bool measured = false;  ///< an observed quantity; else a condition of the observation
+  bool carried = false;   ///< if a reading has none, that of the reading before holds
 };
 
 /// One reading of one unit: a row of the study's table. Order of columns: `Tracker::columns`,
@@ -89,6 +90,12 @@ struct ForecastBand {
   double level05 = 0, level50 = 0, level95 = 0;
 };
 
+/// Moves the levels by this, SI.
+template <class Levels>
+void move_levels(Levels& of, double by) {
+  for (double* each : {&of.level05, &of.level50, &of.level95}) *each += by;
+}
+
 /// Positions that show how a unit continues: from `now` to the median of its remaining useful life
 /// and on to the 95 % quantile, in even steps each. If fewer reach the threshold, to the farthest
 /// finite quantile; if none does, as far again as the unit has come. Empty if the threshold is
@@ -124,6 +131,10 @@ class TrackedUnit {
     static_cast<void>(history);
     return {};
   }
+  /// What repairs have taken back of the quantity with the threshold, SI, as an amount above 0.
+  /// Readings come with it added again, so that they go on from those before: it moves the threshold
+  /// and the reported levels. Not part of the saved state. Only if `Tracker::can_be_restored`.
+  virtual void set_restored(double amount) { static_cast<void>(amount); }
   virtual std::size_t readings() const = 0;
   virtual std::string save() const = 0;  ///< bytes for `Tracker::restore`
 };
@@ -150,6 +161,8 @@ class Tracker {
   /// Why a unit of that name is invalid; empty if it is valid: a study of one joint has only that
   /// joint.
   virtual std::string refusal(const std::string& /*unit*/) const { return {}; }
+  /// Whether a unit can go on after a repair that takes back a part of its wear.
+  virtual bool can_be_restored() const { return false; }
   /// Why a reading is invalid for every unit, whatever it has shown; empty if it is valid.
   virtual std::string problem(const Reading& reading) const = 0;
   /// A unit before its first new reading: one of the study's, with its readings there, or a new

@@ -81,6 +81,51 @@ TEST(FormulaTracker, ASmallCaseByBruteForce) {
   }
 }
 
+// Of 4 um that a repair takes back: a straight path reaches 12 + 4 um at 16/12 of its life without,
+// and its readings are what it would have without the repair.
+TEST(FormulaTracker, ARepairMovesTheThresholdAndTheLevels) {
+  std::string process = straight;
+  const auto change = [&](const std::string& from, const std::string& to) {
+    process.replace(process.find(from), from.size(), to);
+  };
+  change("[formula]\nwear = \"b * time\"\n", "");
+  change("\"normal\"", "\"gamma-process\"");
+  change("mean = \"wear\"\nsd", "mean = \"b * time\"\nscale");
+  change("limit = { wear", "limit = { depth");
+  for (const std::string& study : {std::string(straight), process}) {
+    const Watched watched(study, lines(rates, 5, 0.1),
+                          points({{1 * um / h, 0.3, 0.3 * um}, {1.2 * um / h, 0.5, 0.2 * um}}));
+    ASSERT_TRUE(watched.tracker->can_be_restored());
+    FollowedUnit never(*watched.tracker, "new"), repaired(*watched.tracker, "new");
+    repaired.unit->set_restored(4 * um);
+    for (const auto& [depth, time] : {std::pair{3.1, 3.0}, {6.0, 6.0}, {9.2, 9.0}}) {
+      never.update({depth * um, time * h});
+      repaired.update({depth * um, time * h});
+    }
+    const Forecast a = never.unit->forecast(), b = repaired.unit->forecast();
+    EXPECT_NEAR(b.level50, a.level50 - 4 * um, 1e-12);
+    EXPECT_NEAR(b.level95, a.level95 - 4 * um, 1e-12);
+    const double places[] = {a.now, a.now + 2 * h};
+    const auto ahead_a = never.unit->ahead(places), ahead_b = repaired.unit->ahead(places);
+    EXPECT_NEAR(ahead_b[1].level05, ahead_a[1].level05 - 4 * um, 1e-12);
+    if (study == straight) {
+      const auto by = [](const Forecast& of, double at) {
+        return of.passed + (1 - of.passed) * of.remaining.cdf(at - of.now);
+      };
+      for (const double life : {13.0, 14.0, 15.0, 16.0, 17.0, 19.0})
+        EXPECT_NEAR(by(b, life * h), by(a, 12.0 / 16 * life * h), 0.01) << life;
+    } else {
+      EXPECT_GT(b.remaining.quantile(0.5), a.remaining.quantile(0.5) + 2 * h);
+    }
+    // A state that was saved without it goes on with it.
+    const auto restored = watched.tracker->restore(repaired.unit->save());
+    restored->set_restored(4 * um);
+    EXPECT_EQ(restored->forecast().remaining.quantile(0.5), b.remaining.quantile(0.5));
+    repaired.unit->set_restored(0);
+    EXPECT_EQ(repaired.unit->forecast().remaining.quantile(0.5), a.remaining.quantile(0.5));
+  }
+}
+
 // b of the unit is all that is not known of a straight path: level(t) = b t.
 TEST(FormulaTracker, ThePathAheadByBruteForce) {
   const std::vector<double> x = {1 * um / h, 0.3, 0.3 * um};

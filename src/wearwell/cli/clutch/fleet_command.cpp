@@ -18,6 +18,7 @@
 #include "wearwell/models/clutch/fleet_columns.h"
 #include "wearwell/models/clutch/fleet_run.h"
 #include "wearwell/present/progress_line.h"
+#include "wearwell/prognosis/carried_state.h"
 #include "wearwell/study/result_writer.h"
 
 namespace wearwell::clutch {
@@ -76,9 +77,48 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
   return engines;
 }
 
+/// A result of another model, with what works for it.
+void refuse_other_models(const FleetOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::exists(options.result / "model.json", ignored) ||
+      !std::filesystem::exists(options.result / "state.bin", ignored))
+    return;
+  const prognosis::CarriedState state = prognosis::read_state(options.result);
+  const std::string result = printable(options.result.string());
+  if (state.model != "formula")
+    throw InputError(fmt::format(
+        "{}: wearwell fleet needs a fitted clutch; this one is of model \"{}\", which has no SQL. "
+        "Its "
+        "units one by one, from readings as they come: wearwell new monitor hall-1 --from {}",
+        result, printable(state.model), result));
+  const std::string& engine = options.engines.front();
+  const bool clickhouse = fleet::is_clickhouse(engine);
+  const bool postgres = engine.starts_with("postgres");
+  const std::string table = options.table.empty() ? "SCHEMA.TABLE" : printable(options.table);
+  std::string columns;
+  for (const std::string& each : options.columns) columns += fmt::format(" '{}'", printable(each));
+  if (!columns.empty()) columns = " --columns" + columns;
+  const std::string run = clickhouse ? "clickhouse-client --multiquery < wear.sql"
+                          : postgres ? "psql URL -f wear.sql"
+                                     : "duckdb DATABASE < wear.sql";
+  throw InputError(fmt::format(
+      "{}: wearwell fleet needs a fitted clutch; this one is of model \"formula\", which SQL "
+      "computes for every row of a table: wearwell export sql {} --dialect {} --table {}{} > "
+      "wear.sql && {}{}",
+      result, result,
+      clickhouse ? "clickhouse"
+      : postgres ? "postgresql"
+                 : "duckdb",
+      table, columns, run,
+      clickhouse || postgres
+          ? ""
+          : "; files become such a table by: create table readings as from 'readings.csv'"));
+}
+
 void run_fleet(const FleetOptions& options, int& exit_code) {
   refuse_overwriting({{"the result", options.result}},
                      {{"--output", options.output}, {"--state", options.state}});
+  refuse_other_models(options);
   const IdentifiedModel model = read_identified_model(options.result);
   ResultFolder folder(options.output);
   const bool first = options.engines.front() == "duckdb" &&

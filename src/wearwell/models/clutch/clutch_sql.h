@@ -14,8 +14,9 @@ namespace wearwell::clutch {
 struct SqlColumn {
   std::string name;  ///< name in the database
   double scale = 1, offset = 0;
-  bool is_real = false;   ///< of a unit: a number that may have a fraction, which is invalid
-  std::string unit = {};  ///< unit of its values in the table: "rpm"
+  bool is_real = false;         ///< of a unit: a number that may have a fraction, which is invalid
+  std::string unit = {};        ///< unit of its values in the table: "rpm"
+  bool unit_by_option = false;  ///< the unit is stated by --columns alone, not by its heading
 };
 
 /// The table of cycles.

@@ -67,10 +67,13 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
     nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
     check.ranges.clear();
-    for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      check.low[i] = row.numbers[3 + 2 * i];
+      check.high[i] = row.numbers[4 + 2 * i];
       check.ranges += range_text(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
                                  row.numbers[4 + 2 * i]) +
                       ", ";
+    }
     const double energy = row.numbers[3 + 2 * inputs.size()];
     check.ranges +=
         std::isfinite(energy)
@@ -95,6 +98,34 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
         engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges, advice));
   check.outliers = outliers_of(engine, sql, outliers);
   return check;
+}
+
+void refuse_other_temperature(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source,
+                              const WearModel& model) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const SqlColumn& column = source.inputs[i];
+    const bool celsius = column.unit == "degC", kelvin = column.unit == "K";
+    if (inputs[i].value != &OperatingPoint::temperature || !column.unit_by_option ||
+        (!celsius && !kelvin))
+      continue;
+    LeftOut ignored{.asked = true};
+    const FleetCheck check = check_rows(engine, sql, source, ignored);
+    const double from = model.lowest.*inputs[i].value, to = model.highest.*inputs[i].value;
+    const double margin = (to - from) / 2, shift = kelvin ? celsius_zero : -celsius_zero;
+    const auto inside = [&](double x) { return x >= from - margin && x <= to + margin; };
+    const bool outside = check.low[i] > to || check.high[i] < from;
+    if (!outside || !inside(check.low[i] + shift) || !inside(check.high[i] + shift)) continue;
+    const auto shown = [&](double x) { return (x - column.offset) / column.scale; };
+    throw InputError(fmt::format(
+        "{}: column '{}' has values from {:.6g} to {:.6g}. In {} that is {:.6g} to {:.6g} degC, "
+        "all "
+        "outside the calibrated range of {:.6g} to {:.6g} degC; in {} it is {:.6g} to {:.6g} degC. "
+        "Write --columns '{}={}:{}'; if {} is right, name the column '{} [{}]' (in a view)",
+        engine.source(), printable(column.name), shown(check.low[i]), shown(check.high[i]),
+        column.unit, check.low[i], check.high[i], from, to, kelvin ? "degC" : "K",
+        check.low[i] + shift, check.high[i] + shift, inputs[i].name, printable(column.name),
+        kelvin ? "degC" : "K", column.unit, inputs[i].name, column.unit));
+  }
 }
 
 }  // namespace wearwell::clutch

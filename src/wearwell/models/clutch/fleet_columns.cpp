@@ -20,6 +20,11 @@ const std::vector<std::string> names = {"unit",   "cycle",       "slip_speed",
                                         "torque", "temperature", "closing_time",
                                         "energy", "time",        "cycles_per_day"};
 
+/// The unit that an example proposes: temperatures in kelvin are rare.
+std::string_view usual_unit(std::string_view si) {
+  return si == "K" ? "degC" : si;
+}
+
 /// By name, as given.
 std::map<std::string, std::string> split(const std::vector<std::string>& options) {
   std::map<std::string, std::string> given;
@@ -64,8 +69,10 @@ void require_given(const std::map<std::string, std::string>& given,
       return each == heading || (si && read_heading(each, si).name == heading);
     });
     if (found) return;
-    missing.push_back(si ? fmt::format("'{} [{}]'", heading, si) : fmt::format("'{}'", heading));
-    const std::string option = fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", si) : "");
+    missing.push_back(si ? fmt::format("'{} [{}]'", heading, usual_unit(si))
+                         : fmt::format("'{}'", heading));
+    const std::string option =
+        fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", usual_unit(si)) : "");
     options.push_back(option.find(' ') == option.npos ? option : "'" + option + "'");
   };
   look("unit", "plate", nullptr);
@@ -77,9 +84,10 @@ void require_given(const std::map<std::string, std::string>& given,
   for (std::size_t i = 0; i < std::min(headings.size(), most_shown); ++i)
     shown.push_back("'" + printable(shortened(headings[i])) + "'");
   if (headings.size() > most_shown) shown.emplace_back("...");
-  throw InputError(fmt::format("{} has no column {}; it has {}. State the columns: --columns {}",
-                               table, fmt::join(missing, ", "), fmt::join(shown, ", "),
-                               fmt::join(options, " ")));
+  throw InputError(fmt::format(
+      "{} has no column {}; it has {}. State the columns, with the units that their values have: "
+      "--columns {}",
+      table, fmt::join(missing, ", "), fmt::join(shown, ", "), fmt::join(options, " ")));
 }
 
 /// "M:N m", "torque [N m]".
@@ -91,7 +99,7 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
   const Heading heading = read_heading(column, si);
   if (unit.empty() && !heading.certain)
     throw InputError(fmt::format("--columns: '{0}={1}' has no unit: write '{0}={2}:{3}'", name,
-                                 printable(text), printable(column), si));
+                                 printable(text), printable(column), usual_unit(si)));
   const Unit read = read_unit(unit.empty() ? heading.unit : unit, si);
   if (!unit.empty() && heading.certain) {
     const Unit other = read_unit(heading.unit, si);
@@ -100,7 +108,7 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
           fmt::format("--columns: '{}' has the unit '{}' in its name and '{}' after the colon",
                       printable(column), heading.unit, printable(unit)));
   }
-  return {column, read.scale, read.offset, false, read.text};
+  return {column, read.scale, read.offset, false, read.text, !heading.certain};
 }
 
 }  // namespace

@@ -262,6 +262,13 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   count_units(shards, full ? model.model.replicates.size() : 0, found.days, counts, found.units,
               monitor);
   refuse_split(found.units);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    // Only then it costs another look at the rows.
+    if (inputs[i].value != &OperatingPoint::temperature || counts.outside()[i] < counts.cycles())
+      continue;
+    for (const Shard& shard : shards)
+      refuse_other_temperature(shard.engine, shard.sql, shard.source, model.model);
+  }
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);
   for (const Shard& shard : shards) {

@@ -24,7 +24,7 @@ PartReading::PartReading(const TomlReader& root, const SnData& data, MeanStress 
     const auto read = std::find_if(data.columns.begin(), data.columns.end(),
                                    [&](const DataColumn& each) { return each.name == name; });
     if (columns.has(name)) {
-      if (read != data.columns.end()) columns_.push_back({name, read->unit, false});
+      if (read != data.columns.end()) columns_.push_back({name, read->unit, false, true});
     } else if (conditions && conditions->has(name)) {
       const bool length = name.starts_with("displacement");
       const std::string si = length ? "m" : name == "stress_ratio" ? "1" : data.stress_si;

@@ -36,6 +36,7 @@ class FormulaTracker final : public prognosis::Tracker {
     if (changes_) return 0.03;
     return tracked_->model->effects.size() > 1 ? 0.02 : 0.008;
   }
+  bool can_be_restored() const override { return true; }
   std::vector<double> populations() const override {
     if (changes_) return {};
     std::vector<double> weight;

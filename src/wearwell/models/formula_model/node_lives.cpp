@@ -49,7 +49,7 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel>
     steps_ = path_.next->running->steps;
     row_length_ = path_.next->running->row_length;
   }
-  program_ = std::make_unique<const NodeProgram>(*model_, wanted_, true);
+  program_ = std::make_shared<const NodeProgram>(*model_, wanted_, true);
 }
 
 std::string NodeLives::before_begin(double place, bool follows) const {

@@ -55,6 +55,12 @@ class NodeLives {
   const std::string& name() const { return name_; }
   const Quantity& limit() const { return limit_; }
   bool rising() const { return path_.rising; }
+  /// The same with the threshold moved by this, SI.
+  NodeLives moved(double by) const {
+    NodeLives other = *this;
+    other.path_.limit += by;
+    return other;
+  }
   const std::string& noun() const { return noun_; }
   /// The quantity with the threshold, as expressions; for a process its mean and its spread.
   const std::vector<formula::Wanted>& wanted() const { return wanted_; }
@@ -114,7 +120,7 @@ class NodeLives {
   const ProcessForm* process_ = nullptr;  // which has the threshold itself
   std::vector<formula::Wanted> wanted_;
   LimitedPath path_;  // limit, rising, begin, scale
-  std::unique_ptr<const NodeProgram> program_;
+  std::shared_ptr<const NodeProgram> program_;
   std::vector<std::size_t> steps_;  // RunningPath::steps
   double row_length_ = 0;
 };

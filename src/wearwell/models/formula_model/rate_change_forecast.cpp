@@ -21,11 +21,11 @@ NodeAxis RateChangeUnit::future(std::size_t nodes) const {
 }
 
 prognosis::Forecast RateChangeUnit::forecast() const {
-  const Tracked& tracked = *shared_->tracked;
+  const NodeLives& lives = base_->lives();
   const UnitReading last = last_row();
   std::vector<double> weight;
   normalize(base_->log_weight_, weight);
-  LivesSample unchanged = tracked.lives.lives(base_->nodes_.nodes, weight, last, base_->paths_);
+  LivesSample unchanged = lives.lives(base_->nodes_.nodes, weight, last, base_->paths_);
   const NodeAxis axis = future(unchanged.lives.size());
   for (std::size_t i = 0; i < unchanged.lives.size(); ++i)
     unchanged.lives[i] = axis.back(i, last.place + unchanged.lives[i]) - last.place;
@@ -37,8 +37,7 @@ prognosis::Forecast RateChangeUnit::forecast() const {
   double effective = effective_number(base_->log_weight_);
   if (changed_.count() > 0) {
     normalize(changed_.log_weight, weight);
-    both.add(tracked.lives.lives(changed_.nodes, weight, last, changed_.paths, &changed_.axis),
-             changed);
+    both.add(lives.lives(changed_.nodes, weight, last, changed_.paths, &changed_.axis), changed);
     const prognosis::WeightedLives since(changed_.axis.since, weight);
     const prognosis::WeightedLives factor(changed_.axis.factor, weight);
     change = {changed,
@@ -52,6 +51,7 @@ prognosis::Forecast RateChangeUnit::forecast() const {
                      changed * changed / effective_number(changed_.log_weight));
   }
   prognosis::Forecast forecast = both.forecast();
+  move_levels(forecast, -base_->moved_);
   forecast.now = last.place;
   forecast.effective = effective;
   forecast.rate_change = change;
@@ -59,7 +59,7 @@ prognosis::Forecast RateChangeUnit::forecast() const {
 }
 
 std::vector<prognosis::ForecastBand> RateChangeUnit::ahead(std::span<const double> places) const {
-  const NodeLives& lives = shared_->tracked->lives;
+  const NodeLives& lives = base_->lives();
   const UnitReading last = last_row();
   if (std::any_of(places.begin(), places.end(), [&](double x) { return !(x >= last.place); }))
     throw std::invalid_argument("a position that is not ahead");
@@ -81,6 +81,7 @@ std::vector<prognosis::ForecastBand> RateChangeUnit::ahead(std::span<const doubl
     both.add(unchanged[k], 1 - changed);
     if (!moved.empty()) both.add(moved[k], changed);
     found.push_back(both.at(places[k]));
+    move_levels(found.back(), -base_->moved_);
   }
   return found;
 }

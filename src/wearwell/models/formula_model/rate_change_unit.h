@@ -35,6 +35,7 @@ class RateChangeUnit final : public prognosis::TrackedUnit {
   std::vector<prognosis::PredictiveTails> predictive(
       const prognosis::Reading& reading) const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
+  void set_restored(double amount) override { base_->set_restored(amount); }
   std::size_t readings() const override { return base_->readings(); }
   std::string save() const override;
 

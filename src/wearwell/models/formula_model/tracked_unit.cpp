@@ -222,8 +222,17 @@ std::string TrackedUnit::two_at_one_place(const UnitReading& reading,
 prognosis::Forecast TrackedUnit::forecast() const {
   std::vector<double> weight;
   normalize(log_weight_, weight);
-  return tracked_->lives.forecast(nodes_.nodes, weight,
-                                  any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+  prognosis::Forecast forecast = lives().forecast(
+      nodes_.nodes, weight, any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+  move_levels(forecast, -moved_);
+  return forecast;
+}
+
+void TrackedUnit::set_restored(double amount) {
+  const double by = tracked_->lives.rising() ? amount : -amount;
+  if (by == moved_) return;
+  moved_ = by;
+  restored_ = by == 0 ? nullptr : std::make_shared<const NodeLives>(tracked_->lives.moved(by));
 }
 
 std::vector<prognosis::ForecastBand> TrackedUnit::ahead(std::span<const double> places) const {
@@ -233,7 +242,10 @@ std::vector<prognosis::ForecastBand> TrackedUnit::ahead(std::span<const double> 
   }
   std::vector<double> weight;
   normalize(log_weight_, weight);
-  return tracked_->lives.ahead(nodes_.nodes, weight, last, paths_, places);
+  std::vector<prognosis::ForecastBand> bands =
+      lives().ahead(nodes_.nodes, weight, last, paths_, places);
+  for (prognosis::ForecastBand& each : bands) move_levels(each, -moved_);
+  return bands;
 }
 
 }  // namespace wearwell::formula_model

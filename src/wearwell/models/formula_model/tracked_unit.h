@@ -49,6 +49,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
       const prognosis::History& history) const override;
+  void set_restored(double amount) override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
 
@@ -68,6 +69,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   void weigh();
   ReadingPrediction predict(const UnitReading& reading, std::span<double> value,
                             std::vector<NodePath>* after) const;
+  const NodeLives& lives() const { return restored_ ? *restored_ : tracked_->lives; }
   bool is_late(const UnitReading& reading) const;
   std::vector<UnitReading> all_of(const prognosis::History& history) const;
   std::string two_at_one_place(const UnitReading& reading, const prognosis::History& history) const;
@@ -84,6 +86,8 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   double effective_ = 0;       // nodes
   double laid_effective_ = 0;  // when they were built
   std::size_t readings_ = 0, laid_ = 0;
+  double moved_ = 0;                           // of the threshold by repairs, SI
+  std::shared_ptr<const NodeLives> restored_;  // null: not moved
 };
 
 }  // namespace wearwell::formula_model

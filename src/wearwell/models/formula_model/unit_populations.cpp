@@ -48,7 +48,7 @@ std::optional<prognosis::InPopulations> TrackedUnit::in_populations(
     nodes = &denser;
   }
   std::vector<double> log_likelihood = by_line(weight, nodes->nodes.per_line);
-  prognosis::InPopulations found = tracked_->lives.by_line(
+  prognosis::InPopulations found = lives().by_line(
       nodes->nodes, weight, any_row_ ? last_ : tracked_->lives.before_rows(), paths);
   for (std::size_t k = 0; k < log_likelihood.size(); ++k) {
     // The weights of populations already contain the study's rows.
