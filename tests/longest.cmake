@@ -6,13 +6,16 @@ function(wearwell_longest seconds)
 endfunction()
 
 wearwell_longest(300 "r: R CMD check")
-wearwell_longest(200 "python: docs" "python: notebooks" "r: docs")
+wearwell_longest(200 "python: docs" "r: docs")
 wearwell_longest(150
   "python: doctests"
   "formula_model: FormulaLevels.RemainingLivesOfASeenMachineAreCutAtThePlace"
   "cli: NewFromTables.CapacityThatFalls"
   "regress: SubsetSearch.TheSameWhateverTheThreads")
 wearwell_longest(100
+  "install: examples/cpp"
+  "install: package"
+  "python: notebooks"
   "python: lives"
   "python: data"
   "formula_model: LifeAnswers.OneGroupComparedWithAnother"
@@ -20,7 +23,12 @@ wearwell_longest(100
   [=[cli: Tutorial.PrintsWhatItShows/how_to_fleet  # GetParam() = "docs/how-to/fleet.md"]=]
   [=[cli: Tutorial.PrintsWhatItShows/how_to_failure_modes  # GetParam() = "docs/how-to/failure-modes.md"]=])
 wearwell_longest(70
+  "python: plan"
   "python: types"
+  "python: update"
+  "r: ask"
+  "formula_model: FormulaNumericalError.OfUnitsThatDifferTwofold"
+  "formula_model: FormulaEdges.AnImproperPosteriorOfTwoUnitsIsRefusedNotACrash"
   "python: field"
   "study: Mutated.SummaryIsReadOrRefused"
   "study: Mutated.ReportIsReadOrRefused"
@@ -35,8 +43,14 @@ wearwell_longest(40
   "python: answers"
   "python: fits"
   "python: netcdf"
-  "python: plan"
+  "r: data"
   "r: field"
+  "r: plan"
+  "formula_model: FormulaProcessStudy.TheExampleFitsAsAGammaProcessToo"
+  "mean_tail: MeanTailTest.DataReachToCorrespondingLivesUnderOtherConditions"
+  "monitor_program: Programs.AreDecidedUpon"
+  "monitor_program: Programs.KilledAtAnyMomentGoOnToTheSameBits"
+  "monitor_program: PostgresPrograms.GoOnWhenTheServerIsBack"
   "formula_model: FormulaLevels.BLivesOfMachinesAreThoseOfTheirLaw"
   "formula_model: FormulaLives.OfLasersAreThoseOfADenseGrid"
   "bearing: Laws/OfBearing.ReadingsOneByOneAreTheFitOfAll/1"

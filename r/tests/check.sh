@@ -5,6 +5,14 @@ rm -rf "$folder"
 mkdir -p "$folder"
 cp -r "$package" "$folder/wearwell"
 cd "$folder"
+# The repositories that R CMD check asks for their packages are an empty one here: without it, it would wait for the network.
+mkdir -p empty/src/contrib
+: >empty/src/contrib/PACKAGES
+{
+  printf 'menu_name\tURL\tdefault\tsource\twin.binary\tmac.binary\n'
+  for each in CRAN BioCsoft BioCann BioCexp; do printf '%s\t%s\tfile://%s/empty\tTRUE\tTRUE\tFALSE\tFALSE\n' $each $each "$PWD"; done
+} >repositories
+export R_REPOSITORIES="$PWD/repositories"
 export WEARWELL_BUILD="$build" _R_CHECK_FORCE_SUGGESTS_=false _R_CHECK_SYSTEM_CLOCK_=false LC_ALL=C.UTF-8
 "$r" --vanilla CMD build wearwell >build.log 2>&1 || { cat build.log; exit 1; }
 for vignette in wearwell/vignettes/*.Rmd; do

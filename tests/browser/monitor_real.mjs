@@ -1,14 +1,14 @@
-// `wearwell monitor` itself: a result is fitted, machines report by HTTP, and the page in headless Chromium shows them as
-// they do. What it shows of the riskiest is what the program prints of it at its end.
+// `wearwell monitor` itself: it follows a result of the degradation study, machines report by HTTP, and the page in headless
+// Chromium shows them as they do. What it shows of the riskiest is what the program prints of it at its end.
 //
-//   node monitor_real.mjs NODE_MODULES WEARWELL STUDY.toml FOLDER
-import {spawn, spawnSync} from 'node:child_process';
-import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+//   node monitor_real.mjs NODE_MODULES WEARWELL RESULT FOLDER
+import {spawn} from 'node:child_process';
+import {cpSync, mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {createServer} from 'node:net';
 import {join, resolve} from 'node:path';
 
-const [modules, wearwell, study, folder] = process.argv.slice(2);
+const [modules, wearwell, result, folder] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
 const {chromium} = require('playwright-core');
 
@@ -17,11 +17,7 @@ const check = (holds, fault) => { if (!holds) faults.push(fault); };
 
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
-const fit = spawnSync(wearwell, ['fit', study, '-o', join(folder, 'result'), '--quiet'], {encoding: 'utf8'});
-if (fit.status > 1) {
-  console.log(`wearwell fit: ${fit.status} ${fit.stderr}`);
-  process.exit(1);
-}
+cpSync(result, join(folder, 'result'), {recursive: true});
 const port = await new Promise((done) => {
   const probe = createServer();
   probe.listen(0, '127.0.0.1', () => { const {port: free} = probe.address(); probe.close(() => done(free)); });

@@ -81,9 +81,8 @@ function tableFaults(page, wide) {
   }, wide);
 }
 
-// On paper: what is folded is open, and nothing is wider than the page.
+// On paper: what is folded is open, and nothing is wider than the page. The page stays that of paper.
 async function printFaults(page) {
-  const size = page.viewportSize();
   await page.emulateMedia({media: 'print'});
   await page.setViewportSize({width: 690, height: 1000});  // A4 less its margins
   const wrong = await page.evaluate(() => {
@@ -96,8 +95,6 @@ async function printFaults(page) {
     }
     return wrong;
   });
-  await page.emulateMedia({media: null});
-  await page.setViewportSize(size);
   return wrong;
 }
 
