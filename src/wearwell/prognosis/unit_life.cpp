@@ -18,6 +18,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/prognosis/data_roles.h"
 #include "wearwell/prognosis/named_life.h"
+#include "wearwell/prognosis/required_lives.h"
 #include "wearwell/study/inference_data.h"
 
 // Longer than others: each kind of study reports lives in its own way, but the question is the
@@ -313,7 +314,9 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   if (distribution && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
   auto asked = read(with_wishes(source, keys));
-  const std::vector<QuantityRequest> requests = lives_asked(require_posterior_study(*asked));
+  const PosteriorStudy& fitted = require_posterior_study(*asked);
+  const std::vector<QuantityRequest> requests = lives_asked(fitted);
+  if (requests.empty()) refuse_repairable(fitted, fitted.title);
   const QuantityRequest mine = chosen(requests, question);
   if (distribution && question.survived) require_ahead(mine, requests, *question.survived);
   if (distribution && to_a_limit(source) &&

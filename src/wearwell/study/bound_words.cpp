@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wearwell/present/html.h"
 
 namespace wearwell {
@@ -29,6 +31,13 @@ std::vector<std::string> bound_columns(double level, BoundSides sides) {
   if (sides == BoundSides::both) return {percent + " interval, from", percent + " interval, to"};
   return {fmt::format("{}, {} confidence", sides == BoundSides::lower ? "At least" : "At most",
                       percent)};
+}
+
+const QuantitySummary* first_bounded(const std::vector<QuantitySummary>& quantities) {
+  const auto found = std::find_if(
+      quantities.begin(), quantities.end(),
+      [](const QuantitySummary& each) { return each.is_bounded() && !each.best().predictive; });
+  return found == quantities.end() ? nullptr : &*found;
 }
 
 }  // namespace wearwell

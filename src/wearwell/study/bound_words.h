@@ -16,4 +16,8 @@ std::vector<std::string> bound_columns(double level, BoundSides sides);
 /// What they mean, below the table.
 std::string bound_sentence(const std::string& level, BoundSides sides);
 
+/// The first bounded quantity that is none of a population, whose bounds have a table of their own; null if
+/// there is none.
+const QuantitySummary* first_bounded(const std::vector<QuantitySummary>& quantities);
+
 }  // namespace wearwell

@@ -181,10 +181,15 @@ present::Table life_table(const Comparison& comparison) {
   for (const Row& row : rows_of(comparison)) {
     for (const auto& [study, quantity] : row.of) {
       const QuantityQuantiles& q = quantity->best();
-      Cell bound;
+      Cell bound, next;
       if (q.bound) bound = *q.bound;
-      table.rows.push_back({row.quantity, row.unit, comparison.studies[study].name,
-                            quantity->is_life ? q.b10 : q.predictive.value_or(NAN), bound, q.q50});
+      if (quantity->is_life) {
+        next = q.b10;
+      } else if (q.predictive) {
+        next = *q.predictive;
+      }
+      table.rows.push_back(
+          {row.quantity, row.unit, comparison.studies[study].name, next, bound, q.q50});
       if (upper) table.rows.back().push_back(q.upper_bound ? Cell(*q.upper_bound) : Cell());
     }
   }

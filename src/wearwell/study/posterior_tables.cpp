@@ -156,7 +156,12 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
                {"Design with"},
                {"B1"},
                {"B10"}}};
-  // If there are lower bounds, they are the design values.
+  // If there are bounds, they are the design values: of these quantities, or in a table of their own.
+  const QuantitySummary* bounded = first_bounded(quantities);
+  const std::vector<std::string> named =
+      bounded ? bound_columns(*bounded->credible_level, bounded->sides)
+              : std::vector<std::string>();
+  for (const std::string& name : named) table.columns.push_back({name});
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.is_bounded(); });
   const bool means = std::any_of(quantities.begin(), quantities.end(),
@@ -173,6 +178,10 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
         {each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50), value(q.q95),
          bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
          each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
+    const std::size_t before = table.rows.back().size();
+    for (const std::optional<double>& bound : {q.bound, q.upper_bound})
+      if (bounded && bound) table.rows.back().push_back(value(*bound));
+    table.rows.back().resize(before + named.size());
     if (means) table.rows.back().push_back(q.mean ? value(*q.mean) : Cell());
   }
   add_numerical_errors(table, quantities, false);

@@ -160,10 +160,17 @@ std::string tail_lines(const std::vector<QuantitySummary>& quantities, bool boun
 // Quantities of single items (new ones if items vary), grouped by name and condition. If there are
 // lower bounds, they are the design values.
 std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
-  const bool bounds = std::any_of(quantities.begin(), quantities.end(),
-                                  [](const auto& each) { return each.is_bounded(); });
+  const QuantitySummary* bounded = first_bounded(quantities);
+  const bool bounds = !bounded && std::any_of(quantities.begin(), quantities.end(),
+                                              [](const auto& each) { return each.is_bounded(); });
   std::vector<std::vector<std::string>> rows = {{"", "5 %", "50 %", "95 %"}};
-  if (!bounds) rows[0].push_back("design with");
+  if (bounded) {
+    for (const std::string& name :
+         bound_headings(fmt::format("{:.6g} %", 100 * *bounded->credible_level), bounded->sides))
+      rows[0].push_back(name);
+  } else if (!bounds) {
+    rows[0].push_back("design with");
+  }
   rows[0].insert(rows[0].end(), {"B1", "B10"});
   const bool means = std::any_of(quantities.begin(), quantities.end(),
                                  [](const auto& each) { return each.best().mean.has_value(); });
@@ -183,7 +190,11 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
     };
     rows.push_back(
         {"  " + printable(each.of), shown_value(q.q05), shown_value(q.q50), shown_value(q.q95)});
-    if (!bounds) {
+    if (bounded) {
+      for (const std::optional<double>& bound : {q.bound, q.upper_bound})
+        if (bound) rows.back().push_back(shown_value(*bound));
+      rows.back().resize(rows[0].size() - (means ? 3 : 2), "-");
+    } else if (!bounds) {
       rows.back().push_back(!each.safe_end ? "-"
                                            : shown_value(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }

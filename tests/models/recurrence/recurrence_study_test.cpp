@@ -6,6 +6,7 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/input/text_file.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/study/model.h"
 #include "wearwell/study/posterior_summary.h"
@@ -90,7 +91,107 @@ TEST_F(RecurrenceStudyTest, ProcessesAreComparable) {
   EXPECT_EQ(renewal.body["repairable"]["forecast"].size(), 2U);
 }
 
+// predict.level and sides: quantiles of the same posterior, of the mean cumulative function and of forecasts.
+TEST_F(RecurrenceStudyTest, BoundsHaveTheLevelThatTheStudyStates) {
+  const std::string jeffreys =
+      "[prior]\nbeta = { distribution = \"jeffreys\" }\nM_T = { distribution = \"jeffreys\" }\n"
+      "[predict]\nage = [\"200 h\"]\nnext = [\"100 h\"]\n";
+  const Result plain = run("power_law", jeffreys),
+               both = run("power_law", jeffreys + "level = 0.9\nsides = \"both\"\n"),
+               lower = run("power_law", jeffreys + "level = \"95 %\"\n"),
+               upper = run("power_law", jeffreys + "level = 0.99\nsides = \"upper\"\n");
+  const auto mtbf = [](const Result& result) {
+    return result.posterior->quantities.front().best();
+  };
+  EXPECT_FALSE(mtbf(plain).bound || mtbf(plain).upper_bound);
+  EXPECT_NEAR(*mtbf(both).bound / mtbf(plain).q05, 1, 1e-9);
+  EXPECT_NEAR(*mtbf(both).upper_bound / mtbf(plain).q95, 1, 1e-9);
+  EXPECT_NEAR(*mtbf(lower).bound / mtbf(plain).q05, 1, 1e-9);  // one-sided 95 %
+  EXPECT_FALSE(mtbf(lower).upper_bound);
+  EXPECT_FALSE(mtbf(upper).bound);
+  EXPECT_GT(*mtbf(upper).upper_bound, mtbf(plain).q95);
+  EXPECT_FALSE(plain.body["repairable"].contains("level"));
+  EXPECT_EQ(upper.body["repairable"]["sides"], "upper");
+  const auto& row = both.body["repairable"]["forecast"][0];
+  EXPECT_NEAR(row["bounds"]["expected_lower"].get<double>(), row["expected_q05"].get<double>(),
+              1e-9);
+  EXPECT_EQ(row["bounds"]["number_upper"], row["number_q95"]);
+  EXPECT_FALSE(lower.body["repairable"]["forecast"][0]["bounds"].contains("number_upper"));
+  // One unit shows no variance, so the bounds of the mean cumulative function are those of two.
+  const auto steps = [&](const std::string& more) {
+    read("power_law", more);
+    write("d.csv", "unit,age [h],event\na,10,failure\na,50,end\nb,20,failure\nb,50,end\n");
+    return read_study(source_of(folder() / "study.toml"), all_models())
+        ->run({.sampler = {}, .report = false}, {})
+        .body["repairable"]["mcf"];
+  };
+  const auto wide = steps("[predict]\nlevel = 0.95\nsides = \"both\"\n");
+  EXPECT_NEAR(std::log(wide[0]["high"].get<double>() / wide[0]["mean"].get<double>()),
+              1.959964 * wide[0]["se"].get<double>() / wide[0]["mean"].get<double>(), 1e-6);
+}
+
+// ReliaSoft's development test (tests/golden/crow_bounds.R): published are beta 0.6142, lambda 0.4239, an MTBF of 45.883 h, and
+// Fisher bounds of 90 % of the cumulative intensity of 0.02499/h and 0.05039/h.
+TEST_F(RecurrenceStudyTest, ClassicalEstimatesAreThoseOfReliaSoft) {
+  read("power_law",
+       "[predict]\nage = [\"620 h\"]\nlevel = 0.9\nsides = \"both\"\nclassical = true\n");
+  std::string table = "unit,age [h],event\n";
+  for (const char* age : {"2.7",   "10.3",  "12.5",  "30.6",  "57.0",  "61.3",  "80.0",  "109.5",
+                          "125.0", "128.6", "143.8", "167.9", "229.2", "296.7", "320.6", "328.2",
+                          "366.2", "396.7", "421.1", "438.2", "501.2", "620.0"})
+    table += std::string("a,") + age + ",failure\n";
+  write("d.csv", table);
+  std::string text = read_text_file(folder() / "study.toml").text;
+  text.insert(text.find("[data.columns]"), "end = \"last failure\"\n");
+  write("study.toml", text);
+  const Result result = read_study(source_of(folder() / "study.toml"), all_models())
+                            ->run({.sampler = {}, .report = false}, {});
+  const auto& classical = result.body["classical"];
+  const auto& maximum = classical["maximum_likelihood"];
+  const auto& beta = maximum["parameters"][0];
+  const auto number = [](const auto& json) { return json.template get<double>(); };
+  EXPECT_NEAR(number(beta["value"]), 0.6142104, 1e-6);
+  EXPECT_NEAR(number(beta["standard_error"]), 0.6142104 / std::sqrt(22.0), 1e-5);
+  // The published covariances rest on rounded estimates.
+  EXPECT_NEAR(number(beta["standard_error"]), std::sqrt(0.017105343), 2e-4);
+  EXPECT_NEAR(number(beta["exact"]["lower"]), 0.392872, 1e-5);
+  EXPECT_NEAR(number(beta["exact"]["upper"]), 0.8113725, 1e-5);
+  EXPECT_NEAR(number(maximum["parameters"][1]["value"]), 22, 1e-4);
+  const auto& lambda = maximum["quantities"][0];
+  EXPECT_NEAR(number(lambda["value"]), 0.4239422, 1e-6);
+  EXPECT_NEAR(number(lambda["standard_error"]), std::sqrt(0.13519969), 1e-3);
+  const auto& mtbf = maximum["quantities"][2];
+  EXPECT_EQ(mtbf["at"], "at age 620 h");
+  EXPECT_NEAR(number(mtbf["value"]), 45.883, 5e-4);
+  EXPECT_NEAR(number(mtbf["exact"]["lower"]), 30.74451, 1e-3);
+  EXPECT_NEAR(number(mtbf["exact"]["upper"]), 84.79723, 1e-3);
+  const auto& per_failure = maximum["quantities"][3];
+  EXPECT_NEAR(1 / number(per_failure["normal"]["upper"]), 0.02499, 5e-6);
+  EXPECT_NEAR(1 / number(per_failure["normal"]["lower"]), 0.05039, 5e-6);
+  EXPECT_NEAR(number(classical["unbiased"][0]["value"]), 0.6142104 * 20 / 22, 1e-6);
+}
+
+// With phases the maximum is time over failures; likelihood-ratio and exact bounds enclose it.
+TEST_F(RecurrenceStudyTest, ClassicalEstimatesOfPhases) {
+  const Result result =
+      run("phases", "[conditions]\nphase_ends = [\"50 h\"]\n[predict]\nclassical = true\n");
+  const auto& classical = result.body["classical"];
+  EXPECT_EQ(classical["sides"], "two");
+  const auto& phase = classical["maximum_likelihood"]["parameters"][1];
+  EXPECT_NEAR(phase["value"].get<double>(), 50, 1e-4);
+  using boost::math::gamma_distribution;
+  EXPECT_NEAR(phase["exact"]["lower"].get<double>(), 150 / quantile(gamma_distribution<>(4), 0.95),
+              1e-6);
+  EXPECT_NEAR(phase["exact"]["upper"].get<double>(), 150 / quantile(gamma_distribution<>(3), 0.05),
+              1e-6);
+  EXPECT_FALSE(classical.contains("unbiased"));
+}
+
 TEST_F(RecurrenceStudyTest, Refusals) {
+  EXPECT_THAT(refusal("power_law", "[predict]\nb_lives = [10]\n"), HasSubstr("fail once"));
+  EXPECT_THAT(refusal("power_law", "[predict]\nlevel = 0.4\n"), HasSubstr("must exceed 50 %"));
+  EXPECT_THAT(refusal("power_law", "[predict]\nlevel = 95\n"), HasSubstr("between 0 and 1"));
+  EXPECT_THAT(refusal("power_law", "[predict]\nsides = \"left\"\n"), HasSubstr("sides"));
   EXPECT_THAT(refusal("repair", ""), HasSubstr("power_law"));
   EXPECT_THAT(refusal("renewal", "[predict]\nage = [\"100 h\"]\n"), HasSubstr("does not matter"));
   EXPECT_THAT(refusal("renewal", "[conditions]\nreference_age = \"100 h\"\n"),

@@ -12,51 +12,21 @@
 namespace wearwell::formula_model {
 namespace {
 
-constexpr Eigen::Index classical_starts = 8;
-
 // Longer lists of steps are thinned; more are not distinct in a plot or table.
 constexpr std::size_t most_steps_listed = 10000;
 
 // Items with a rank each; a rank costs a quantile of a beta distribution.
 constexpr double most_ranked = 20000;
 
-MaximumLikelihood maximum_of(const AskedOfClassics& asked, const std::vector<NormalScale>& scales,
-                             const Fit& fit) {
-  const Points& draws = fit.pooled.values;
-  const auto n = static_cast<Eigen::Index>(scales.size());
-  std::vector<Eigen::VectorXd> starts(1, Eigen::VectorXd(n));
-  Eigen::VectorXd widths(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Parameter& parameter = asked.model->parameters[static_cast<std::size_t>(i)];
-    starts[0][i] = parameter.start;
-    const Eigen::ArrayXd own = draws.col(i).array();
-    const double sd = std::sqrt((own - own.mean()).square().mean());
-    widths[i] = sd > 0 && std::isfinite(sd) ? sd : parameter.scale;
-  }
-  for (Eigen::Index i = 0; i < classical_starts; ++i)
-    starts.push_back(draws.row((2 * i + 1) * draws.rows() / (2 * classical_starts)));
-  return {asked.likelihood, scales, starts, widths};
-}
-
 // In the unit of the report.
 ClassicalEstimate reported(const ScaledQuantity& quantity, const ClassicalBounds& bounds) {
-  const auto shown = [&](double y) { return from_si(quantity.unit, quantity.si(y)); };
-  const double by = 1e-4 * bounds.error;
-  const auto end = [&](const ProfileEnd& open) {
-    return open.open.empty() ? ProfileEnd{shown(open.value), ""} : open;
-  };
-  ClassicalEstimate estimate{
-      quantity.name,
-      quantity.of,
-      quantity.at,
-      quantity.unit.text,
-      shown(bounds.estimate),
-      std::abs(shown(bounds.estimate + by) - shown(bounds.estimate - by)) / (2 * by) * bounds.error,
-      quantity.scale,
-      shown(bounds.lower),
-      shown(bounds.upper),
-      end(bounds.likelihood_ratio.lower),
-      end(bounds.likelihood_ratio.upper)};
+  ClassicalEstimate estimate;
+  estimate.name = quantity.name;
+  estimate.of = quantity.of;
+  estimate.at = quantity.at;
+  estimate.unit = quantity.unit.text;
+  estimate.scale = quantity.scale;
+  set_bounds(estimate, bounds, [&](double y) { return from_si(quantity.unit, quantity.si(y)); });
   if (quantity.increasing) return estimate;
   std::swap(estimate.lower, estimate.upper);
   std::swap(estimate.ratio_lower, estimate.ratio_upper);
@@ -76,7 +46,8 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
   const FormulaModel& model = *asked.model;
   std::vector<NormalScale> scales;
   for (const Parameter& each : model.parameters) scales.push_back(normal_scale(model, each));
-  const MaximumLikelihood maximum = maximum_of(asked, scales, fit);
+  const MaximumLikelihood maximum =
+      maximum_of(asked.likelihood, scales, model.parameters, fit.pooled);
   if (!maximum.found()) {
     result.problem = fmt::format(
         "the likelihood has no maximum: it rises without end along {}, because too few failures "

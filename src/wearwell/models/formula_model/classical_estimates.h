@@ -8,25 +8,12 @@
 #include "wearwell/infer/maximum_likelihood.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/prob/rank_regression.h"
-#include "wearwell/prob/standard_distribution.h"
 #include "wearwell/prob/survival_estimate.h"
+#include "wearwell/study/classical_table.h"
 #include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::formula_model {
-
-/// The confidence of bounds.
-struct ClassicalLevel {
-  double level = 0.9;      ///< of each bound, or of the interval between both
-  bool two_sided = false;  ///< of the interval
-
-  /// The probability between a lower and an upper bound.
-  double within() const { return two_sided ? level : 2 * level - 1; }
-  /// The probability below a lower bound, and that above an upper one.
-  double outside() const { return 0.5 * (1 - within()); }
-  /// The number of standard errors of a normal bound.
-  double deviate() const { return quantile(StandardDistribution::normal, 0.5 * (1 + within())); }
-};
 
 /// A life whose quantities are estimated: of a part, or of one failure mode alone.
 struct ClassicalLife {
@@ -46,16 +33,6 @@ struct AskedOfClassics {
   std::vector<Quantity> survival;  ///< lives to survive
   std::vector<LifeGroup> groups;   ///< the observations by condition, with the life there
   std::vector<std::string> notes;  ///< what does not apply, as sentences
-};
-
-/// An estimate with its bounds, in the unit of reports.
-struct ClassicalEstimate {
-  std::string name, of, at, unit;
-  double value = 0, standard_error = 0;
-  std::string scale;  ///< of the normal approximation: "log", "natural", "Weibull paper"
-  double lower = 0, upper = 0;
-  ProfileEnd ratio_lower, ratio_upper;              ///< likelihood ratio
-  double posterior_lower = 0, posterior_upper = 0;  ///< quantiles of the posterior
 };
 
 /// Observations under one condition.

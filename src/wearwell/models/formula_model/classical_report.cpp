@@ -21,12 +21,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* survival_table_id = "nonparametric-survival";
 
-std::string confidence_text(const ClassicalLevel& level) {
-  const std::string percent = fmt::format("{:.6g} %", 100 * level.level);
-  return level.two_sided ? "two-sided bounds with " + percent + " confidence"
-                         : "one-sided bounds with " + percent + " confidence each";
-}
-
 std::string full_name(const AskedOfClassics& asked, const ClassicalEstimate& each) {
   const bool alone = each.of.empty() || asked.lives.size() == 1;
   return joined(each.name + (alone ? "" : " of " + each.of), each.at);
@@ -48,35 +42,13 @@ Unit unit_of(const ParameterForm& place, const Unit& life) {
              : Unit{"1", 1, 0};
 }
 
-template <class Visit>
-void each_estimate(const ClassicalEstimates& found, const Visit& visit) {
-  for (const ClassicalEstimate& each : found.parameters) visit(each);
-  for (const ClassicalEstimate& each : found.quantities) visit(each);
-}
-
-present::Table estimate_table(const AskedOfClassics& asked, const ClassicalEstimates& found) {
-  present::Table table{"maximum-likelihood-estimates",
-                       "Maximum likelihood, " + confidence_text(asked.level),
-                       {{"Quantity"},
-                        {"Unit"},
-                        {"Estimate"},
-                        {"Standard error"},
-                        {"Normal scale"},
-                        {"Normal, lower"},
-                        {"Normal, upper"},
-                        {"Likelihood ratio, lower"},
-                        {"Likelihood ratio, upper"},
-                        {"Posterior, lower"},
-                        {"Posterior, upper"}}};
-  const auto end = [](const ProfileEnd& each) -> Cell {
-    return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
-  };
-  each_estimate(found, [&](const ClassicalEstimate& each) {
-    table.rows.push_back({full_name(asked, each), each.unit, each.value, each.standard_error,
-                          each.scale, each.lower, each.upper, end(each.ratio_lower),
-                          end(each.ratio_upper), each.posterior_lower, each.posterior_upper});
-  });
-  return table;
+// Of parameters and quantities together.
+std::vector<ClassicalEstimate> named_estimates(const AskedOfClassics& asked,
+                                               const ClassicalEstimates& found) {
+  std::vector<ClassicalEstimate> all = found.parameters;
+  all.insert(all.end(), found.quantities.begin(), found.quantities.end());
+  for (ClassicalEstimate& each : all) each.name = full_name(asked, each);
+  return all;
 }
 
 present::Table line_table(const AskedOfClassics& asked, const ClassicalEstimates& found) {
@@ -161,29 +133,6 @@ std::vector<std::string> explanations(const ClassicalEstimates& found) {
   return all;
 }
 
-// "68.9 to 97.3"; "open" for an end that does not close.
-std::string ends_text(const ProfileEnd& lower, const ProfileEnd& upper) {
-  if (lower.open.empty() && upper.open.empty()) return plain_range(lower.value, upper.value);
-  const auto end = [](const ProfileEnd& each) {
-    return each.open.empty() ? plain_number(each.value) : std::string("open");
-  };
-  return end(lower) + " to " + end(upper);
-}
-
-std::string estimate_text(const AskedOfClassics& asked, const ClassicalEstimates& found) {
-  if (!found.problem.empty()) return "";
-  std::vector<std::vector<std::string>> rows = {
-      {"", "estimate", "standard error", "normal", "likelihood ratio", "posterior"}};
-  each_estimate(found, [&](const ClassicalEstimate& each) {
-    rows.push_back(
-        {printable_heading(numbers_text(full_name(asked, each), Script::terminal), each.unit),
-         plain_number(each.value), plain_number(each.standard_error),
-         plain_range(each.lower, each.upper), ends_text(each.ratio_lower, each.ratio_upper),
-         plain_range(each.posterior_lower, each.posterior_upper)});
-  });
-  return text_table(rows);
-}
-
 // Condition and method together, and r^2 without r: a terminal is narrow.
 std::string line_text(const present::Table& table) {
   if (table.rows.empty()) return "";
@@ -206,7 +155,7 @@ std::string line_text(const present::Table& table) {
 std::string classical_text(const AskedOfClassics& asked, const ClassicalEstimates& found,
                            const present::Table& lines, std::size_t steps) {
   std::string text = fmt::format("Classical estimates ({})\n", confidence_text(asked.level)) +
-                     estimate_text(asked, found);
+                     (found.problem.empty() ? estimate_text(named_estimates(asked, found)) : "");
   for (const std::string& each : explanations(found)) text += wrapped(each, 2, 4);
   text += line_text(lines);
   if (steps > 0)
@@ -215,26 +164,6 @@ std::string classical_text(const AskedOfClassics& asked, const ClassicalEstimate
                                        steps, steps == 1 ? "" : "s", survival_table_id),
                            0, 2);
   return text;
-}
-
-Json end_json(const ProfileEnd& lower, const ProfileEnd& upper) {
-  Json json = {{"lower", lower.value}, {"upper", upper.value}};
-  if (!lower.open.empty()) json["lower_open"] = lower.open;
-  if (!upper.open.empty()) json["upper_open"] = upper.open;
-  return json;
-}
-
-Json estimate_json(const ClassicalEstimate& each) {
-  Json json = {{"name", each.name}};
-  if (!each.of.empty()) json.update({{"of", each.of}, {"at", each.at}});
-  json.update({{"unit", each.unit},
-               {"value", each.value},
-               {"standard_error", each.standard_error},
-               {"normal_scale", each.scale},
-               {"normal", {{"lower", each.lower}, {"upper", each.upper}}},
-               {"likelihood_ratio", end_json(each.ratio_lower, each.ratio_upper)},
-               {"posterior", {{"lower", each.posterior_lower}, {"upper", each.posterior_upper}}}});
-  return json;
 }
 
 Json likelihood_json(const ClassicalEstimates& found, const DensityUnit& density) {
@@ -311,7 +240,8 @@ PresetAddition classical_addition(const AskedOfClassics& asked, const DensityUni
   std::string words = "Classical estimates, to lay beside other programs.";
   for (const std::string& each : explanations(found)) words += " " + each;
   blocks.push_back({present::Prose{words}});
-  if (found.problem.empty()) blocks.push_back({estimate_table(asked, found)});
+  if (found.problem.empty())
+    blocks.push_back({estimate_table(named_estimates(asked, found), asked.level)});
   if (!lines.rows.empty()) blocks.push_back({lines});
   if (!steps.rows.empty()) {
     blocks.push_back({present::Figures{{survival_figure(asked, found, asked.level.deviate())}}});

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint64_t seed_of_futures = 20261127;
 constexpr std::size_t futures = 4000;
 constexpr Eigen::Index draws_of_counts = 2000, draws_of_renewals = 400;
-constexpr double lower_end = 0.05, upper_end = 0.95;
 
 // Cumulative hazard until the next failure, `ahead` from now.
 double hazard_ahead(const Process& process, const double* x, const UnitState& unit, double ahead) {
@@ -27,7 +26,8 @@ double hazard_ahead(const Process& process, const double* x, const UnitState& un
 }
 
 void of_poisson(const Process& process, const WeightedDraws& all,
-                const std::vector<UnitState>& units, double ahead, Forecast& found) {
+                const std::vector<UnitState>& units, double ahead, double outside,
+                Forecast& found) {
   const auto mean = [&](const double* x) {
     double sum = 0;
     for (const UnitState& unit : units) sum += hazard_ahead(process, x, unit, ahead);
@@ -42,9 +42,9 @@ void of_poisson(const Process& process, const WeightedDraws& all,
   });
   const QuantityDistribution expected(draws, mean);
   found.expected = expected.mean();
-  found.low = expected.quantile(lower_end);
-  found.high = expected.quantile(upper_end);
-  const double ends[] = {lower_end, upper_end};
+  found.low = expected.quantile(outside);
+  found.high = expected.quantile(1 - outside);
+  const double ends[] = {outside, 1 - outside};
   const std::vector<double> range = count_quantiles(counts, ends);
   found.count_low = range[0];
   found.count_high = range[1];
@@ -63,7 +63,7 @@ double renewals(const double* x, double since_repair, double ahead, Rng& rng) {
 }
 
 void of_renewals(const WeightedDraws& all, const std::vector<UnitState>& units, double ahead,
-                 Forecast& found) {
+                 double outside, Forecast& found) {
   const WeightedSampler sampler(all);
   std::vector<double> counts(futures);
   tbb::parallel_for(std::size_t{0}, futures, [&](std::size_t s) {
@@ -73,9 +73,11 @@ void of_renewals(const WeightedDraws& all, const std::vector<UnitState>& units, 
       counts[s] += renewals(x.data(), unit.since_repair, ahead, rng);
   });
   std::sort(counts.begin(), counts.end());
-  const auto at = [&](double p) { return counts[static_cast<std::size_t>(p * futures)]; };
-  found.count_low = at(lower_end);
-  found.count_high = at(upper_end);
+  const auto at = [&](double p) {
+    return counts[std::min(futures - 1, static_cast<std::size_t>(p * futures))];
+  };
+  found.count_low = at(outside);
+  found.count_high = at(1 - outside);
   const auto none = std::upper_bound(counts.begin(), counts.end(), 0.0) - counts.begin();
   found.any = 1 - static_cast<double>(none) / futures;
   const QuantityDistribution expected(thinned(all, draws_of_renewals), [&](const double* x) {
@@ -85,8 +87,8 @@ void of_renewals(const WeightedDraws& all, const std::vector<UnitState>& units, 
     return sum;
   });
   found.expected = expected.mean();
-  found.low = expected.quantile(lower_end);
-  found.high = expected.quantile(upper_end);
+  found.low = expected.quantile(outside);
+  found.high = expected.quantile(1 - outside);
 }
 
 }  // namespace
@@ -96,12 +98,12 @@ UnitState state_at_end(const UnitHistory& unit) {
 }
 
 Forecast forecast(const Process& process, const WeightedDraws& draws,
-                  const std::vector<UnitState>& units, double ahead) {
+                  const std::vector<UnitState>& units, double ahead, double outside) {
   Forecast found;
   if (process.minimal_repair()) {
-    of_poisson(process, draws, units, ahead, found);
+    of_poisson(process, draws, units, ahead, outside, found);
   } else {
-    of_renewals(draws, units, ahead, found);
+    of_renewals(draws, units, ahead, outside, found);
   }
   return found;
 }

@@ -14,8 +14,8 @@ struct UnitState {
 };
 UnitState state_at_end(const UnitHistory& unit);
 
-/// Failures to come in a time: their expected number with its 90 % credible interval, and the 90 % prediction interval of
-/// the number, in whole numbers.
+/// Failures to come in a time: their expected number with its credible interval, and the prediction interval of the number,
+/// in whole numbers.
 struct Forecast {
   double expected = 0, low = 0, high = 0;
   double count_low = 0, count_high = 0;
@@ -24,9 +24,9 @@ struct Forecast {
 
 /// Failures of all `units` together within `ahead` [SI] from their states on. Under the power law the number is a mixture of
 /// Poisson distributions over the posterior; a renewal process is simulated with 4000 futures, and its expected number is
-/// that of each future's parameters by the renewal equation.
+/// that of each future's parameters by the renewal equation. Each end of the intervals leaves `outside` beyond it.
 Forecast forecast(const Process& process, const WeightedDraws& draws,
-                  const std::vector<UnitState>& units, double ahead);
+                  const std::vector<UnitState>& units, double ahead, double outside = 0.05);
 
 /// The predictive distribution of the time until the next failure of a unit: quantile `p` [SI].
 double time_to_failure(const Process& process, const WeightedDraws& draws, const UnitState& unit,

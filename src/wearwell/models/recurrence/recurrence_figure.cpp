@@ -35,9 +35,9 @@ FittedBand fitted_band(const Asked& asked, const WeightedDraws& all) {
     for (const auto& each : means) at.push_back(each[k] - each[0]);
     std::sort(at.begin(), at.end());
     band.age.push_back(from_si(asked.data.unit, ages[k]));
-    band.low.push_back(quantile(at, 0.05));
+    band.low.push_back(quantile(at, asked.outside()));
     band.middle.push_back(quantile(at, 0.5));
-    band.high.push_back(quantile(at, 0.95));
+    band.high.push_back(quantile(at, 1 - asked.outside()));
   }
   return band;
 }
@@ -56,40 +56,43 @@ html::Figure mcf_figure(const Asked& asked, const WeightedDraws& draws) {
     above.push_back(h);
   };
   add(fitted.age.front(), 0, 0, 0);
-  for (const MeanCumulativeStep& step : mean_cumulative(asked.data.units, report_level)) {
+  for (const MeanCumulativeStep& step :
+       mean_cumulative(asked.data.units, 1 - 2 * asked.outside())) {
     const double age = from_si(unit, step.age);
     add(age, last_mean, last_low, last_high);
     add(age, last_mean = step.mean, last_low = step.low, last_high = step.high);
   }
   add(from_si(unit, asked.data.longest()), last_mean, last_low, last_high);
   const std::string shown = html::unit(unit.text), gaps = unobserved_text(asked);
-  return {"mean-cumulative-function",
-          fitted.age.front() > 0 ? fmt::format("Failures per unit from age {} {} until each age",
-                                               age_number(fitted.age.front()), shown)
-                                 : "Failures per unit until each age",
-          "Steps are the mean cumulative function of the data (Nelson), with 90 % bounds that "
-          "assume no model (none where one unit alone is at risk). The line is "
-          "the fitted process, posterior median with its 90 % band." +
-              (gaps.empty() ? ""
-                            : fmt::format(" No unit was observed {}: the steps lack the failures "
-                                          "there, the line has them.",
-                                          gaps)),
-          plot::plot(
-              "Mean cumulative number of failures per unit against age, from the data and fitted",
-              {"Age [" + shown + "]", false, fitted.age.front(), fitted.age.back()},
-              {"Failures per unit", false, 0, {}},
-              {plot::area({{"x", at}, {"y", above}, {"y2", below}},
-                          {colour::measured, "90 %, data", 0.15}),
-               plot::area({{"x", fitted.age}, {"y", fitted.high}, {"y2", fitted.low}},
-                          {colour::posterior, "90 %, fitted", 0.28}),
-               plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
-                          {colour::measured, "data", 1, 2}),
-               plot::line(
-                   {{"x", fitted.age}, {"y", fitted.middle}, {"failures per unit", fitted.middle}},
-                   {colour::posterior, "fitted", 1, 2})},
-              320, true),
-          {},
-          true};
+  return {
+      "mean-cumulative-function",
+      fitted.age.front() > 0 ? fmt::format("Failures per unit from age {} {} until each age",
+                                           age_number(fitted.age.front()), shown)
+                             : "Failures per unit until each age",
+      fmt::format("Steps are the mean cumulative function of the data (Nelson), with {0} bounds "
+                  "that assume no model (none where one unit alone is at risk). The line is "
+                  "the fitted process, posterior median with its {0} band.",
+                  asked.interval_name()) +
+          (gaps.empty() ? ""
+                        : fmt::format(" No unit was observed {}: the steps lack the failures "
+                                      "there, the line has them.",
+                                      gaps)),
+      plot::plot(
+          "Mean cumulative number of failures per unit against age, from the data and fitted",
+          {"Age [" + shown + "]", false, fitted.age.front(), fitted.age.back()},
+          {"Failures per unit", false, 0, {}},
+          {plot::area({{"x", at}, {"y", above}, {"y2", below}},
+                      {colour::measured, asked.interval_name() + ", data", 0.15}),
+           plot::area({{"x", fitted.age}, {"y", fitted.high}, {"y2", fitted.low}},
+                      {colour::posterior, asked.interval_name() + ", fitted", 0.28}),
+           plot::line({{"x", at}, {"y", mean}, {"failures per unit", mean}},
+                      {colour::measured, "data", 1, 2}),
+           plot::line(
+               {{"x", fitted.age}, {"y", fitted.middle}, {"failures per unit", fitted.middle}},
+               {colour::posterior, "fitted", 1, 2})},
+          320, true),
+      {},
+      true};
 }
 
 }  // namespace

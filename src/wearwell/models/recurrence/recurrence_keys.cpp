@@ -1,5 +1,6 @@
 #include "wearwell/models/recurrence/recurrence_keys.h"
 
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_keys.h"
 
 namespace wearwell::recurrence {
@@ -40,7 +41,12 @@ StudyKeys study_keys() {
              "of a power law: adds MTBF and time to the next failure at this age (that of the "
              "oldest unit)"},
             {"predict.next", "[\"100 day\"]",
-             "adds the number of failures in this time, of all units and of each"}});
+             "adds the number of failures in this time, of all units and of each"},
+            {"predict.classical", "true",
+             "maximum likelihood with Fisher, likelihood-ratio and exact bounds (chi-square, Crow) "
+             "beside the posterior"}});
+  add_keys(keys, level_keys("mean times between failures, times to the next failure, failures to "
+                            "come and the mean cumulative function, and of predict.classical"));
   return keys;
 }
 

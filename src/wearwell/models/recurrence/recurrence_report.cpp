@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/models/recurrence/mean_cumulative.h"
+#include "wearwell/models/recurrence/recurrence_classical.h"
 #include "wearwell/models/recurrence/trend_tests.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
@@ -33,14 +34,15 @@ const char* process_name(ProcessKind kind) {
 
 present::Table mcf_table(const Asked& asked, const std::vector<MeanCumulativeStep>& steps) {
   present::Table table{"mcf",
-                       "Mean cumulative function: failures per unit until each age (Nelson), "
-                       "bounds hold 90 % pointwise",
+                       fmt::format("Mean cumulative function: failures per unit until each age "
+                                   "(Nelson), bounds hold {} pointwise",
+                                   asked.interval_name()),
                        {{"age", asked.data.unit.text, present::given},
                         {"failures", "1", present::given},
                         {"units at risk", "1", present::given},
                         {"failures per unit", "1"},
                         {"standard error", "1"},
-                        {"90 %", "1", {}, true}}};
+                        {asked.interval_name(), "1", {}, true}}};
   for (const MeanCumulativeStep& step : steps)
     table.rows.push_back({from_si(asked.data.unit, step.age), present::count(step.failures),
                           present::count(step.at_risk), step.mean, step.se,
@@ -102,25 +104,26 @@ present::Table crow_table(const Asked& asked, const WeightedDraws& draws) {
       "crow-amsaa",
       "Crow-AMSAA: lambda t^beta expected failures of one unit until age t, t in " +
           asked.data.unit.text,
-      {{"quantity", "1"}, {"median", "1"}, {"90 %", "1", {}, true}}};
+      {{"quantity", "1"}, {"median", "1"}, {asked.interval_name(), "1", {}, true}}};
   const double reference = from_si(asked.data.unit, asked.process.reference);
   const auto add = [&](const char* name, const Function& value) {
     const QuantityDistribution known(draws, value);
     table.rows.push_back(
-        {name, known.quantile(0.5), present::Range{known.quantile(0.05), known.quantile(0.95)}});
+        {name, known.quantile(0.5),
+         present::Range{known.quantile(asked.outside()), known.quantile(1 - asked.outside())}});
   };
   add("lambda", [=](const double* x) { return x[1] * std::pow(reference, -x[0]); });
   add("growth rate, 1 - beta", [](const double* x) { return 1 - x[0]; });
   return table;
 }
 
-std::vector<present::Column> forecast_columns() {
+std::vector<present::Column> forecast_columns(const std::string& interval) {
   return {{"of", "1"},
           {"from", "1"},
           {"next", "1"},
           {"expected failures", "1"},
-          {"90 % of the expected", "1", {}, true},
-          {"90 % of the number", "1", present::given, true},
+          {interval + " of the expected", "1", {}, true},
+          {interval + " of the number", "1", present::given, true},
           {"at least one", "%", present::digits(3)}};
 }
 
@@ -149,6 +152,14 @@ Json forecast_json(const std::string& of, const std::string& from, const Quantit
           {"at_least_one", f.any}};
 }
 
+// At the level that the study states, on its sides.
+Json bounds_json(const Forecast& f, BoundSides sides) {
+  Json json;
+  if (has_lower(sides)) json.update({{"expected_lower", f.low}, {"number_lower", f.count_low}});
+  if (has_upper(sides)) json.update({{"expected_upper", f.high}, {"number_upper", f.count_high}});
+  return json;
+}
+
 struct Forecasts {
   present::Table table, units;
   Json json = Json::array();
@@ -157,15 +168,22 @@ struct Forecasts {
 
 Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
   Forecasts all;
-  all.table = {"forecast", "Failures to come; the number is a whole number", forecast_columns()};
-  all.units = {"unit-forecasts", "Failures to come of each unit", forecast_columns()};
-  all.lines = {{"  of", "from", "next", "expected", "90 % of the number", "at least one [%]"}};
+  const std::string interval = asked.interval_name();
+  const double outside = asked.outside();
+  all.table = {"forecast", "Failures to come; the number is a whole number",
+               forecast_columns(interval)};
+  all.units = {"unit-forecasts", "Failures to come of each unit", forecast_columns(interval)};
+  all.lines = {
+      {"  of", "from", "next", "expected", interval + " of the number", "at least one [%]"}};
   const WeightedDraws few = thinned(draws, draws_of_units);
   for (const Quantity& ahead : asked.ahead) {
     for (const ForecastRow& row : asked.rows) {
-      const Forecast f = forecast(asked.process, draws, row.units, ahead.si());
+      const Forecast f = forecast(asked.process, draws, row.units, ahead.si(), outside);
       all.table.rows.push_back(forecast_cells(row.of, row.from, ahead, f));
-      all.json.push_back(forecast_json(row.of, row.from, ahead, f));
+      all.json.push_back(
+          forecast_json(row.of, row.from, ahead,
+                        asked.levels ? forecast(asked.process, draws, row.units, ahead.si()) : f));
+      if (asked.levels) all.json.back()["bounds"] = bounds_json(f, asked.levels->sides);
       all.lines.push_back(
           {"  " + row.of, row.from, given_quantity(ahead), plain_number(f.expected, 4),
            fmt::format("{} to {}", plain_given(f.count_low), plain_given(f.count_high)),
@@ -173,7 +191,8 @@ Forecasts forecasts_of(const Asked& asked, const WeightedDraws& draws) {
     }
     const std::vector<UnitHistory>& units = asked.data.units;
     for (std::size_t i = 0; i < std::min(units.size(), most_units) && units.size() > 1; ++i) {
-      const Forecast f = forecast(asked.process, few, {state_at_end(units[i])}, ahead.si());
+      const Forecast f =
+          forecast(asked.process, few, {state_at_end(units[i])}, ahead.si(), outside);
       const std::string from = fmt::format(
           "age {} {}, {} failure{} so far", age_number(from_si(asked.data.unit, units[i].end)),
           asked.data.unit.text, units[i].failures.size(), units[i].failures.size() == 1 ? "" : "s");
@@ -209,29 +228,9 @@ Json tests_json(const std::vector<NamedTest>& tests) {
   return json;
 }
 
-}  // namespace
-
-std::string given_quantity(const Quantity& quantity) {
-  return fmt::format("{} {}", plain_given(quantity.value), quantity.unit.text);
-}
-
-std::string age_number(double in_unit) {
-  return plain_given(std::stod(fmt::format("{:.6g}", in_unit)));
-}
-
-std::string unobserved_text(const Asked& asked) {
-  std::string text;
-  const Unit& unit = asked.data.unit;
-  for (const auto& [from, to] : unobserved_ages(asked.data.units))
-    text += fmt::format("{}between {} and {} {}", text.empty() ? "" : ", ",
-                        age_number(from_si(unit, from)), age_number(from_si(unit, to)), unit.text);
-  return text;
-}
-
-PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws) {
-  PresetAddition added;
-  const std::vector<NamedTest> tests = classical_tests(asked, draws);
-  const std::vector<MeanCumulativeStep> steps = mean_cumulative(asked.data.units, report_level);
+// All but the forecasts.
+Json data_json(const Asked& asked, const WeightedDraws& draws, const std::vector<NamedTest>& tests,
+               const std::vector<MeanCumulativeStep>& steps) {
   Json json = {{"process", process_name(asked.process.kind)},
                {"units", asked.data.units.size()},
                {"failures", asked.data.failures()},
@@ -241,6 +240,12 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
   if (asked.process.kind != ProcessKind::phases)
     json["probability_beta_above_1"] =
         1 - QuantityDistribution(draws, [](const double* x) { return x[0]; }).cdf(1);
+  if (asked.levels) {
+    json["level"] = asked.levels->credible_level;
+    json["sides"] = asked.levels->sides == BoundSides::both    ? "both"
+                    : asked.levels->sides == BoundSides::upper ? "upper"
+                                                               : "lower";
+  }
   json["tests"] = tests_json(tests);
   json["mcf"] = Json::array();
   for (const MeanCumulativeStep& step : steps)
@@ -255,6 +260,45 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
   for (const auto& [from, to] : unobserved_ages(asked.data.units))
     json["unobserved"].push_back(
         {{"from", from_si(asked.data.unit, from)}, {"to", from_si(asked.data.unit, to)}});
+  return json;
+}
+
+}  // namespace
+
+std::string Asked::interval_name() const {
+  if (!levels) return "90 %";
+  const std::string percent = fmt::format("{:.6g} %", 100 * levels->credible_level);
+  return levels->sides == BoundSides::both ? percent : "one-sided " + percent;
+}
+
+std::string given_quantity(const Quantity& quantity) {
+  return fmt::format("{} {}", plain_given(quantity.value), quantity.unit.text);
+}
+
+std::string age_number(double in_unit) {
+  return plain_given(std::stod(fmt::format("{:.6g}", in_unit)));
+}
+
+std::string age_text(const RecurrenceData& data, double si) {
+  return fmt::format("{} {}", age_number(from_si(data.unit, si)), data.unit.text);
+}
+
+std::string unobserved_text(const Asked& asked) {
+  std::string text;
+  const Unit& unit = asked.data.unit;
+  for (const auto& [from, to] : unobserved_ages(asked.data.units))
+    text += fmt::format("{}between {} and {} {}", text.empty() ? "" : ", ",
+                        age_number(from_si(unit, from)), age_number(from_si(unit, to)), unit.text);
+  return text;
+}
+
+PresetAddition recurrence_addition(const Asked& asked, const Fit& fit) {
+  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
+  PresetAddition added;
+  const std::vector<NamedTest> tests = classical_tests(asked, draws);
+  const std::vector<MeanCumulativeStep> steps =
+      mean_cumulative(asked.data.units, 1 - 2 * asked.outside());
+  Json json = data_json(asked, draws, tests, steps);
   const std::string gaps = unobserved_text(asked);
   if (asked.process.kind == ProcessKind::power_law)
     added.blocks["parameters"].push_back({crow_table(asked, draws)});
@@ -282,6 +326,7 @@ PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draw
             gaps),
         2, 4);
   added.body["repairable"] = std::move(json);
+  if (asked.classical) add_classical(asked, fit, added);
   return added;
 }
 

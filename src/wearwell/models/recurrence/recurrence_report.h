@@ -1,11 +1,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wearwell/models/recurrence/forecast.h"
 #include "wearwell/models/recurrence/process.h"
+#include "wearwell/study/classical_table.h"
+#include "wearwell/study/life_levels.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::recurrence {
@@ -21,14 +24,21 @@ struct Asked {
   Process process;
   RecurrenceData data;
   std::vector<ForecastRow> rows;
-  std::vector<Quantity> ahead;  ///< of forecasts; empty: none
+  std::vector<Quantity> ahead;            ///< of forecasts; empty: none
+  std::vector<double> ages;               ///< at which one unit is asked about [SI]
+  std::optional<LifeLevels> levels = {};  ///< predict.level and sides; empty: intervals hold 90 %
+  std::optional<ClassicalLevel> classical = {};
+  std::vector<Parameter> parameters = {};
+  DensityUnit density = {};
+
+  /// The probability beyond each end of the intervals.
+  double outside() const { return levels ? levels->below() : 0.05; }
+  /// "90 %", or "95 % one-sided" of each end.
+  std::string interval_name() const;
 };
 
-/// Bounds of the mean cumulative function and ends of intervals hold 90 %.
-inline constexpr double report_level = 0.9;
-
 /// The mean cumulative function, tests, forecasts: tables, terminal text, `repairable` in summary.json.
-PresetAddition recurrence_addition(const Asked& asked, const WeightedDraws& draws);
+PresetAddition recurrence_addition(const Asked& asked, const Fit& fit);
 
 /// The mean cumulative function with its band, and the fitted one.
 std::map<std::string, std::vector<html::Figure>> recurrence_figures(const Asked& asked,
@@ -42,5 +52,7 @@ std::string given_quantity(const Quantity& quantity);
 
 /// An age for people, in the unit of the data: "3 256.3", at most six digits.
 std::string age_number(double in_unit);
+/// "3 256.3 h", of an age in SI.
+std::string age_text(const RecurrenceData& data, double si);
 
 }  // namespace wearwell::recurrence

@@ -7,16 +7,11 @@
 
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/input/prior.h"
-#include "wearwell/models/recurrence/recurrence_report.h"
+#include "wearwell/models/recurrence/recurrence_predictions.h"
 #include "wearwell/present/plain.h"
-#include "wearwell/study/posterior_summary.h"
 
 namespace wearwell::recurrence {
 namespace {
-
-std::string age_text(const RecurrenceData& data, double si) {
-  return fmt::format("{} {}", age_number(from_si(data.unit, si)), data.unit.text);
-}
 
 void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceData& data,
                  Process& process) {
@@ -139,102 +134,6 @@ void read_parameters(const TomlReader& root, const Asked& asked, PosteriorStudy&
   }
 }
 
-QuantityRequest quantity(const char* name, const std::string& of, const std::string& at,
-                         const Unit& unit) {
-  QuantityRequest request{};
-  request.name = name;
-  request.of = of;
-  request.at = at;
-  request.unit = unit;
-  request.safe_end = 0.05;
-  return request;
-}
-
-void add_quantity(PosteriorStudy& study, const QuantityRequest& request, const Function& value) {
-  study.quantity_groups.push_back(
-      {{request}, [value](const WeightedDraws& draws) {
-         const QuantityDistribution known(draws, value);
-         return std::vector<QuantityQuantiles>{
-             {known.quantile(0.05), known.quantile(0.5), known.quantile(0.95), 0, 0, 0}};
-       }});
-}
-
-void add_next_failure(PosteriorStudy& study, QuantityRequest request, const Process& process,
-                      const UnitState& unit) {
-  request.name = "time to the next failure";
-  request.headline = false;
-  study.quantity_groups.push_back(
-      {{request}, [=](const WeightedDraws& draws) {
-         const auto at = [&](double p) { return time_to_failure(process, draws, unit, p); };
-         return std::vector<QuantityQuantiles>{{at(0.05), at(0.5), at(0.95), 0, 0, 0}};
-       }});
-}
-
-// The ages at which one unit is asked about: as stated, else that of the oldest unit.
-std::vector<double> read_ages(const std::optional<TomlReader>& predict, const Asked& asked,
-                              PosteriorStudy& study) {
-  std::vector<double> ages;
-  if (predict && predict->has("age")) {
-    if (!asked.process.minimal_repair())
-      predict->fail("age",
-                    "does not matter for process = \"renewal\": a repaired unit is as good as new");
-    for (const Quantity& age : predict->quantities("age", asked.data.si)) {
-      if (!(age.si() > 0)) predict->fail("age", "must be positive");
-      ages.push_back(age.si());
-      study.reaches.push_back(
-          {"the age of " + given_quantity(age),
-           "the oldest unit was observed until " + age_text(asked.data, asked.data.longest()),
-           age.si(), asked.data.longest()});
-    }
-  }
-  if (ages.empty()) ages.push_back(asked.data.longest());
-  return ages;
-}
-
-void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& study) {
-  const auto predict = root.table("predict");
-  const RecurrenceData& data = asked.data;
-  const Process& process = asked.process;
-  ForecastRow all{data.units.size() == 1 ? "unit " + data.units[0].name
-                                         : fmt::format("all {} units", data.units.size()),
-                  "from the end of observation on",
-                  {}};
-  for (const UnitHistory& unit : data.units) all.units.push_back(state_at_end(unit));
-  asked.rows.push_back(all);
-  if (process.minimal_repair()) {
-    for (const double age : read_ages(predict, asked, study)) {
-      QuantityRequest mtbf = quantity("mean time between failures", "one unit",
-                                      "at age " + age_text(data, age), data.unit);
-      mtbf.headline = true;
-      add_quantity(study, mtbf,
-                   [process, age](const double* x) { return 1 / process.intensity(x, age); });
-      add_next_failure(study, mtbf, process, {age, age});
-      if (data.units.size() > 1 || age != data.units[0].end)
-        asked.rows.push_back({"one unit", "from age " + age_text(data, age) + " on", {{age, age}}});
-    }
-    if (process.kind == ProcessKind::power_law)
-      add_quantity(
-          study, quantity("age at which one failure is expected (eta)", "new unit", "", data.unit),
-          [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
-  } else {
-    static_cast<void>(read_ages(predict, asked, study));
-    QuantityRequest mtbf = quantity("mean time between failures", "one unit", "", data.unit);
-    mtbf.headline = true;
-    add_quantity(study, mtbf, [](const double* x) { return x[1] * std::tgamma(1 + 1 / x[0]); });
-    mtbf.at = "after a repair";
-    add_next_failure(study, mtbf, process, {data.longest(), 0});
-    asked.rows.push_back({"one unit", "from a repair on", {{0, 0}}});
-  }
-  if (!predict) return;
-  asked.ahead = predict->quantities("next", data.si);
-  for (const Quantity& ahead : asked.ahead) {
-    if (!(ahead.si() > 0)) predict->fail("next", "must be positive");
-    study.reaches.push_back({"the forecast over the next " + given_quantity(ahead),
-                             "the oldest unit was observed until " + age_text(data, data.longest()),
-                             data.longest() + ahead.si(), data.longest()});
-  }
-}
-
 // The growth from the first phase to the last, for the verdict.
 std::string growth_clause(const Process& process, const WeightedDraws& draws) {
   const std::size_t last = process.parameters() - 1;
@@ -303,6 +202,8 @@ void read_recurrence_study(const TomlReader& root, const Source& source, Posteri
     study.density.total += term;
   }
   study.density.text = data.unit.text;
+  asked.density = study.density;
+  asked.parameters = study.parameters;
   study.data_columns = data.columns;
   study.data_layout = data.layout;
   const std::size_t failures = data.failures();
@@ -325,9 +226,7 @@ void read_recurrence_study(const TomlReader& root, const Source& source, Posteri
   study.figures = [asked](const Fit& fit) {
     return recurrence_figures(asked, fit.exact ? fit.exact->nodes : fit.pooled);
   };
-  study.addition = [asked](const Fit& fit) {
-    return recurrence_addition(asked, fit.exact ? fit.exact->nodes : fit.pooled);
-  };
+  study.addition = [asked](const Fit& fit) { return recurrence_addition(asked, fit); };
 }
 
 }  // namespace wearwell::recurrence
