@@ -15,11 +15,22 @@
 #include "wearwell/input/prior.h"
 #include "wearwell/models/formula_model/straight_line.h"
 #include "wearwell/study/column_values.h"
+#include "wearwell/study/life_size.h"
 
 namespace wearwell::python {
 namespace {
 
 using Numbers = py::array_t<double, py::array::forcecast>;
+
+// (median, log_sd, failed, the words for both) of the default prior of a life.
+py::tuple size_of_lives(const Table& table, const std::string& lines,
+                        const std::vector<std::string>& runouts, double least,
+                        const std::vector<std::string>& stresses) {
+  LifeHeadings headings = life_headings(lines, table);
+  headings.runouts = runouts;
+  const LifeSize size = life_size_under(table, headings, least, stresses);
+  return py::make_tuple(size.median, size.log_sd, size.failed, words_of(size));
+}
 
 void add_numbers(Column& column, const py::array& values) {
   const Numbers numbers = Numbers::ensure(values);  // the same array where it holds doubles
@@ -123,6 +134,7 @@ void add_tables(py::module_& module) {
   });
   module.def("arrow_stream_of", &arrow_stream_of);
   module.def("rounded_up", &rounded_up);
+  module.def("life_size", &size_of_lives);
   module.def("straight_line", &straight_line);
   module.def("failure_code_of", &failure_code_of);
   module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {

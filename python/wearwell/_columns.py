@@ -6,7 +6,7 @@ from . import _core
 from ._data import columns_of_few_kinds, headings_of, no_column, table_of, values_of
 from ._errors import InputError
 from ._idle_columns import are_counts, are_units, may_be_counts, may_be_units, warn_of_counts, warn_of_units
-from ._toml import unit_text
+from ._toml import table, unit_text
 
 _bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
 # Words of the formula language and of a study's [data.columns], which no column can be called.
@@ -93,6 +93,13 @@ class Columns:
 
         values = numpy.asarray(self._read().numbers(heading))
         return values[numpy.isfinite(values)]
+
+    def life_size(self, rows, modes, least, stresses):
+        """(median, log_sd, why) of the default prior of a life; ``rows`` is [data.columns], ``least`` the least median."""
+        said = {key: rows[key] for key in ("life", "lower", "upper", "status", "count", "entry", "mode") if key in rows}
+        runouts = modes.get("runout", [])
+        median, log_sd, _, why = _core.life_size(self._read(), table("", said), [runouts] if isinstance(runouts, str) else runouts, float(least), list(stresses))
+        return median, int(log_sd) if log_sd == int(log_sd) else log_sd, why
 
     def words(self, heading):
         """The cells of a column as texts, whole numbers without a point."""

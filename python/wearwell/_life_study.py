@@ -7,7 +7,7 @@ from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
 from ._fit_options import fits
 from ._preset_study import level_of_bounds
-from ._proposed import Priors, factor_27, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
+from ._proposed import Priors, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
 from ._study import Study
 
 _slope = ("slope", {"distribution": "lognormal", "median": 1.5, "log_sd": 0.7}, "below 1 early failures, 1 random failures, above wear-out")
@@ -165,7 +165,9 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
         posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak. Scale (``characteristic``, ``median_life`` or
         ``mean_life``; ``life_ref``, at the harshest stresses, where there is a stress): lognormal, log_sd 2, median the
-        largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. ``slope`` of weibull:
+        largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. If few parts failed, the
+        median is what the time on test per failure gives with slope 1.5, and log_sd grows with its distance from the
+        largest life (priors.md). ``slope`` of weibull:
         lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.
         ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5. ``SCALE_scatter`` of ln life between units,
         such as ``characteristic_scatter``: half-normal, scale 1.
@@ -238,8 +240,10 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         rows["mode"] = modes.pop("heading")
     stress = {columns.take(key, "stress"): model for key, model in (stress or {}).items()}
     known = Priors(priors)
-    size, why = (values[len(values) // 2], f"{factor_27} of the middle life") if stress else (values[-1], f"{factor_27} of the largest life")
-    known.add(base, lognormal(rounded_up(size), of, 2), f"{why}, rounded up")
+    least = values[len(values) // 2] if stress else values[-1]
+    size, log_sd, why = columns.life_size({**rows, **({} if isinstance(life, (tuple, list)) else {"life": rows[measured]})}, modes, least, stress)
+    of_what = "middle life" if stress else "largest life"
+    known.add(base, lognormal(rounded_up(size), of, log_sd), f"{why}; about the {of_what if size == least else 'life with slope 1.5'}, rounded up")
     if unit:
         known.add(f"{base}_scatter", half_normal(1.0), "most units are within a factor of ten")
     index = f"[{columns.name(by)}]" if by else "[mode]" if mode is not None else ""

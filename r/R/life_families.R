@@ -25,10 +25,39 @@ called_before <- list(eta = "characteristic", shape = c("slope", "alpha"), media
 
 parameters_of_family <- function(family) c(life_families[[family]]$location, names(life_families[[family]]$shapes))
 
-# Weak priors from the size of the data: `size`, of the location.
-life_priors <- function(family, size, unit) {
+# Weak priors from the size of the data: `size`, of the location, and how wide it is.
+life_priors <- function(family, size, unit, log_sd = 2) {
   own <- life_families[[family]]
-  c(stats::setNames(list(ww_lognormal(quantity_text(rounded_up(size), unit), log_sd = 2)), own$location), own$shapes)
+  c(stats::setNames(list(ww_lognormal(quantity_text(rounded_up(size), unit), log_sd = log_sd)), own$location), own$shapes)
+}
+
+# Where that prior is centred and how wide it is, as life_size.h of the library has it: the characteristic life by the time on test and the
+# number of failures alone, with a slope of 1.5; at least the largest life, and wider the further it lies beyond.
+life_size <- function(study, runouts = NULL) {
+  of <- function(name, otherwise) if (is.null(study[[name]])) otherwise else study[[name]]$values
+  words <- of("status", NULL)
+  mode <- if (is.null(words)) of("mode", NULL)
+  runs <- function(word) is.na(word) | !nzchar(word) | word %in% runouts | tolower(word) %in% c("runout", "right", "censored", "suspended")
+  if (is.null(study$life)) {
+    upper <- of("upper", NA_real_)
+    open <- is.na(upper)
+    lower <- of("lower", rep(0, length(upper)))
+    seen <- ifelse(open, lower, (ifelse(is.na(lower), 0, lower) + upper) / 2)
+  } else {
+    seen <- of("life", NULL)
+    open <- rep(FALSE, length(seen))
+  }
+  open <- open | if (!is.null(words)) runs(words) else if (!is.null(mode)) runs(mode) else FALSE
+  count <- rep_len(of("count", 1), length(seen))
+  entry <- rep_len(of("entry", 0), length(seen))
+  largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
+  modes <- of("mode", NULL)
+  each <- max(1, length(unique(modes[!runs(modes)])))
+  failed <- max(1, sum(count[!open], na.rm = TRUE) / each)
+  estimate <- (sum(count * pmax(0, seen^1.5 - entry^1.5), na.rm = TRUE) / failed)^(1 / 1.5)
+  beyond <- max(0, log(estimate / max(seen, na.rm = TRUE)))
+  if (!is.finite(beyond)) return(list(median = largest, log_sd = 2))
+  list(median = if (beyond > 0) max(largest, estimate) else largest, log_sd = floor(4 * sqrt(1 + beyond^2) + 0.5) / 2)
 }
 
 # [likelihood] of a family: `middle` is an expression of its location, `index` "[group]" if shapes differ.

@@ -55,8 +55,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
   likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes)) index else "")
-  largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
-  proposed <- life_priors(family, largest, lives$unit)
+  size <- life_size(c(study, if (!is.null(modes)) list(mode = study[[modes$name]])), modes$table$runout)
+  proposed <- life_priors(family, size$median, lives$unit, size$log_sd)
   proposed <- c(proposed, effects$priors, effect$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(

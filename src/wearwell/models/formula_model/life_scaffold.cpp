@@ -8,10 +8,12 @@
 
 #include "wearwell/input/prior.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/formula_model/life_columns.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/models/formula_model/step_columns.h"
 #include "wearwell/study/column_values.h"
+#include "wearwell/study/life_size.h"
 
 // Longer than others: what a table of lives can say, one short function for each.
 namespace wearwell::formula_model {
@@ -204,18 +206,31 @@ std::string likelihood(const Lives& lives, const std::string& scale) {
          "shape  = \"slope[mode]\"\n";
 }
 
-std::string life_priors(const Lives& lives, const char* scale, double size) {
+LifeSize size_of(ColumnRoles& roles, const Lives& lives, double least,
+                 const std::vector<std::string>& stresses = {}) {
+  LifeHeadings headings = life_headings(lives.columns, roles.table());
+  if (!lives.runout.empty())
+    headings.runouts = TomlReader::parse({"", lives.runout}).texts("runout");
+  const LifeSize size = life_size_under(roles.table(), headings, least, stresses);
+  if (size.failed == 0)
+    roles.guesses.emplace_back(
+        "no part failed: the data say how short lives are not, and the proposed prior alone how "
+        "long they are. Replace it, or design with lower bounds only");
+  return size;
+}
+
+std::string life_priors(const Lives& lives, const char* scale, const LifeSize& size) {
   return fmt::format(
       "# Prior knowledge: PROPOSED as weak priors from the size of the data. Replace them with "
       "what you know of such\n"
       "# parts.\n"
       "[prior]\n"
-      "{} = {{ distribution = \"lognormal\", median = {}, log_sd = 2 }}    # a factor of 27 to "
-      "either side\n"
+      "{} = {{ distribution = \"lognormal\", median = {}, log_sd = {:.3g} }}    # {}\n"
       "slope = {{ distribution = \"lognormal\", median = 1.5, log_sd = 0.7 }}    # below 1: early "
       "failures, "
       "1: random failures, above: wear-out\n",
-      scale, toml_text(quantity_text(rounded_up(size), lives.unit)));
+      scale, toml_text(quantity_text(rounded_up(size.median), lives.unit)), size.log_sd,
+      words_of(size));
 }
 
 std::string head(const ColumnRoles& roles, const std::string& title) {
@@ -254,7 +269,8 @@ std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
                    : "lives of parts: one Weibull distribution",
       lives->stated ? ReadingFit::general : ReadingFit::possible,
       head(roles, "Lives") + lives->columns + "\n" + likelihood(*lives, "characteristic[mode]") +
-          "\n" + life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
+          "\n" + life_priors(*lives, "characteristic", size_of(roles, *lives, lives->largest)) +
+          "\n[predict]\n" + answers +
           fmt::format("{}survival_to = {}                  # share that survives this life{}\n",
                       lives->modes ? "" : "# ", survival,
                       lives->modes ? ", and that has failed by each mode" : "") +
@@ -287,8 +303,10 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
   const std::string each = !specimen && has_modes(roles) ? "[mode]" : "";
   std::string formula = "life_ref" + each;
   std::vector<std::string> said;
+  std::vector<std::string> stressing;
   if (by_temperature) {
     const Found found = *roles.take("temperature", {"temperature"});
+    stressing.push_back(found.column->name);
     columns += ColumnRoles::line("temperature", found);
     const auto values = values_of(roles.table(), *found.column);
     const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
@@ -306,6 +324,7 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
   }
   for (const std::string_view power : powers) {
     const Found found = *roles.take(std::string(power), {power});
+    stressing.push_back(found.column->name);
     const std::string name(power == "alternating_stress" ? "stress" : power);
     columns += ColumnRoles::line(name, found);
     const auto values = values_of(roles.table(), *found.column);
@@ -336,6 +355,9 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
   const auto lives = take_lives(roles, steps);
   if (!lives || !lives->stated) return {};
   roles.pass_over("unit");
+  // A row of a step-stress test is a step, not a life.
+  const LifeSize size = specimen ? LifeSize{.median = lives->middle, .failed = 1, .parts = 1}
+                                 : size_of(roles, *lives, lives->middle, stressing);
   const std::string how = fmt::format("{}", fmt::join(said, " and "));
   roles.guesses.push_back(
       "predictions are for the mildest conditions tested; state the conditions of use in [predict] "
@@ -348,8 +370,8 @@ std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
           "\n"
           "[formula]                                    # the simplest formula for such lives: " +
           how + "\ncharacteristic = \"" + formula + "\"\n\n" +
-          likelihood(*lives, "characteristic") + "\n" +
-          life_priors(*lives, "life_ref", lives->middle) + priors + "\n[predict]\n" +
+          likelihood(*lives, "characteristic") + "\n" + life_priors(*lives, "life_ref", size) +
+          priors + "\n[predict]\n" +
           fmt::format(
               "given = {{ {} }}    # GUESS: the mildest conditions tested; state those of use\n",
               given) +
