@@ -84,6 +84,10 @@ std::optional<CellText> cell_text(std::string_view cell) {
   return found;
 }
 
+bool is_blank(std::string_view cell) {
+  return cell.find_first_not_of(" \t") == cell.npos;
+}
+
 bool is_missing_mark(std::string_view cell) {
   constexpr std::array<std::string_view, 18> marks = {
       "NA", "N/A", "N.A.", "#N/A", "#NV",     "#N/D",   "NULL",   "NONE",   "-",

@@ -16,6 +16,9 @@ struct CellText {
 /// Empty if the cell holds anything else, or only a number.
 std::optional<CellText> cell_text(std::string_view cell);
 
+/// Whether a cell is empty or only blanks, as some programs write an empty one.
+bool is_blank(std::string_view cell);
+
 /// Whether a cell marks a missing value: "NA", "n/a", "#NV", "-".
 bool is_missing_mark(std::string_view cell);
 

@@ -10,6 +10,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/heading.h"
 
 namespace wearwell {
@@ -170,7 +171,7 @@ std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const st
 }
 
 std::string cell_word(const Column& column, std::size_t row) {
-  if (!column.is_number) return column.text[row];
+  if (!column.is_number) return is_blank(column.text[row]) ? "" : column.text[row];
   return std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]);
 }
 

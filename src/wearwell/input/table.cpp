@@ -77,7 +77,7 @@ CellValue cell_value(const Table& table, const Column& column, std::size_t index
   if (!column.doubt.empty()) throw InputError(fmt::format("{}, {}", table.source, column.doubt));
   if (column.is_number) return {column.numbers[index]};
   const std::string& text = column.text[index];
-  if (text.empty() || is_missing_mark(text)) return {};
+  if (is_blank(text) || is_missing_mark(text)) return {};
   const auto found = cell_text(text);
   CellValue value;
   if (found) value.sign = found->sign;

@@ -206,5 +206,26 @@ TEST_F(StepStressTest, RefusesRowsThatAreNoSteps) {
               HasSubstr("begins before the last step"));
 }
 
+// A shape that changes between the steps has no equivalent age: refused as in a ramp. One that differs between
+// specimens has.
+TEST_F(StepStressTest, OnlyTheScaleChangesBetweenSteps) {
+  const std::string head = "h,kV,mm,specimen,status,oven\n";
+  const std::string rows = head + "10,10,1,A,runout,x\n20,12,1,A,failed,y\n15,10,2,B,failed,x\n";
+  const std::string columns =
+      columns_of_steps + "thickness = { column = \"mm\", unit = \"mm\" }\noven = \"oven\"\n";
+  const auto shaped = [&](const std::string& shape) {
+    return columns +
+           "[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta * inverse_power(voltage, 10 "
+           "[kV], n)\"\nshape = \"" +
+           shape + "\"\n" + by_specimen + priors_of_steps;
+  };
+  EXPECT_THAT(refusal(rows, shaped("beta * voltage/10 [kV]")),
+              AllOf(HasSubstr("steps"), HasSubstr("shape depends on 'voltage'; cumulative exposure "
+                                                  "needs a distribution of which only the scale "
+                                                  "does")));
+  EXPECT_THAT(refusal(rows, shaped("beta[oven]")), HasSubstr("shape depends on 'oven'"));
+  EXPECT_NO_THROW(model(rows, shaped("beta * thickness/1 [mm]")));
+}
+
 }  // namespace
 }  // namespace wearwell::formula_model

@@ -30,6 +30,35 @@ class RecurrenceDataTest : public ScratchTest {
   }
 };
 
+// Counts are the rows that they stand for: data and likelihood are the same.
+TEST_F(RecurrenceDataTest, CountsOfFailuresAtOneAge) {
+  const std::string heading = "unit,age [h],event,count", event = "event = \"event\"\n";
+  const std::string rounding = "rounding = \"1 h\"\n", counted = event + "count = \"count\"\n";
+  const RecurrenceData counts =
+      read("a,10,failure,3\na,40,end,\nb,20,failure,1\nb,30,end,0\n", rounding, counted, heading);
+  const RecurrenceData rows = read(
+      "a,10,failure\na,10,failure\na,10,failure\na,40,end\nb,20,failure\nb,30,end\n", rounding);
+  ASSERT_EQ(counts.units.size(), rows.units.size());
+  EXPECT_EQ(counts.failures(), 4U);
+  for (std::size_t i = 0; i < rows.units.size(); ++i) {
+    EXPECT_EQ(counts.units[i].failures, rows.units[i].failures);
+    EXPECT_EQ(counts.units[i].end, rows.units[i].end);
+  }
+  ASSERT_EQ(counts.gaps.size(), rows.gaps.size());
+  const auto refused = [&](const std::string& table, const std::string& columns) {
+    return refusal(table, rounding, columns, heading);
+  };
+  EXPECT_THAT(refused("a,10,failure,1.5\na,40,end,\n", counted), HasSubstr("whole number from 1"));
+  EXPECT_THAT(refused("a,10,failure,0\na,40,end,\n", counted), HasSubstr("whole number from 1"));
+  EXPECT_THAT(refused("a,10,failure,2\na,40,end,3\n", counted), HasSubstr("an end is one row"));
+  EXPECT_THAT(refused("a,10,failure,2\na,40,end,1\n", event),
+              HasSubstr("write count = \"count\" in [data.columns]"));
+  EXPECT_THAT(refused("a,10,failure,2\na,40,end,1\na,50,failure,1\n", counted),
+              HasSubstr("in row 2"));
+  EXPECT_THAT(refusal("a,10,failure,2\na,40,end,1\n", "", counted, heading),
+              HasSubstr("data.rounding"));
+}
+
 TEST_F(RecurrenceDataTest, UnitsWithTheirEvents) {
   const RecurrenceData data = read("a,10,failure\nb,30,end\na,15,failure\na,40,end\n");
   ASSERT_EQ(data.units.size(), 2U);

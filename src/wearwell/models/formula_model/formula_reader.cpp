@@ -1,4 +1,5 @@
 #include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/exposure_parameters.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -109,6 +110,7 @@ class Reader {
     read_effects();
     compile_population();
     add_ramp_exposure();
+    require_step_exposure();
     compile_measured();
     order_rows(*model_, root_);
     require_rising(*model_);
@@ -341,6 +343,45 @@ class Reader {
     } catch (const InputError& error) {
       fail_at_place(root_, table, error.what());
     }
+  }
+
+  // What changes between the steps of a specimen: the life itself excepted.
+  std::vector<ChangingStress> stresses_of_steps(const std::string& life) const {
+    std::vector<ChangingStress> all;
+    const auto& symbols = model_->row_symbols;
+    for (std::size_t i = 0; i < symbols.columns.size(); ++i) {
+      const std::string& name = symbols.columns[i].name;
+      const NumberColumn* column = model_->data.number(name);
+      if (!column || name == life || name == model_->steps->duration) continue;
+      if (changes_between_steps(*model_->steps, column->values, model_->data))
+        all.push_back({name, static_cast<int>(i)});
+    }
+    for (std::size_t i = 0; i < symbols.labels.size(); ++i) {
+      const std::string& name = symbols.labels[i].name;
+      const LabelColumn* label = model_->data.label(name);
+      if (!label || name == model_->steps->label) continue;
+      const std::vector<double> levels(label->at.begin(), label->at.end());
+      if (changes_between_steps(*model_->steps, levels, model_->data))
+        all.push_back({name, static_cast<int>(i), true});
+    }
+    return all;
+  }
+
+  void require_step_exposure() {
+    if (!model_->steps) return;
+    const WrittenLikelihood& life = written_.front();
+    const TomlReader table = table_of(life);
+    Measured given;
+    add_wanted(life, model_->data.number(life.column)->unit.powers, given);
+    const std::string scale = scale_parameter(table.required_text("family"));
+    std::optional<formula::WrittenGraph> written;
+    try {
+      written = formula::written_graph(model_->lines, given.wanted, model_->row_symbols);
+    } catch (const InputError& error) {
+      fail_at_place(root_, table, error.what());
+    }
+    for (const ChangingStress& each : stresses_of_steps(life.column))
+      require_scale_alone(table, "steps", scale, *written, given.wanted, each);
   }
 
   void read_use_rate() {

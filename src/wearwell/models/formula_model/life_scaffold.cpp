@@ -13,6 +13,7 @@
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/models/formula_model/step_columns.h"
 #include "wearwell/study/column_values.h"
+#include "wearwell/study/heading_words.h"
 #include "wearwell/study/life_size.h"
 
 // Longer than others: what a table of lives can say, one short function for each.
@@ -45,6 +46,17 @@ bool is_interval(const ColumnRoles& roles) {
     if (b[i] < a[i]) return false;
   }
   return true;
+}
+
+// The unit that a word of a heading names: "Hours Lower" is in hours. Without one, "1".
+std::string unit_by_word(const std::string& heading) {
+  constexpr std::pair<const char*, const char*> words[] = {
+      {"hours", "h"},      {"days", "day"},   {"weeks", "week"},
+      {"months", "month"}, {"years", "year"}, {"minutes", "min"},
+      {"km", "km"},        {"miles", "mile"}, {"cycles", "cycles"}};
+  for (const auto& [word, unit] : words)
+    if (is_called(heading, word)) return with_multiple(heading, unit, word);
+  return "1";
 }
 
 // A column of status that says what the ends of each interval say already.
@@ -115,6 +127,8 @@ std::optional<Lives> take_lives(ColumnRoles& roles, const std::string& steps = "
       lives.ends_are_status = true;
     }
     Found a = lower, b = upper;
+    for (Found* end : {&a, &b})
+      if (end->unit == "1") end->unit = unit_by_word(end->column->name);
     if (a.unit == "1") a.unit = b.unit;
     if (b.unit == "1") b.unit = a.unit;
     lives.columns = ColumnRoles::line("lower", a) + ColumnRoles::line("upper", b);

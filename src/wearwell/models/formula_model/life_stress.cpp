@@ -57,7 +57,9 @@ std::string words_of_held(const FormulaModel& model, const Conditions& held,
   for (const auto& [name, value] : held.numbers) {
     if (name == column) continue;
     const Unit& unit = model.data.number(name)->unit.unit;
-    add(fmt::format("{} = {}", name, html::quantity(from_si(unit, value), unit.text)));
+    const std::string in = html::unit(unit.text);
+    add(fmt::format("{} = {}{}{}", name, html::given(from_si(unit, value)),
+                    in.empty() ? "" : "\u00a0", in));
   }
   for (const auto& [name, level] : held.labels)
     add(fmt::format("{} = {}", name,

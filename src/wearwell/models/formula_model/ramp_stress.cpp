@@ -12,6 +12,7 @@
 #include "wearwell/formula/written_graph.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/math/quadrature.h"
+#include "wearwell/models/formula_model/exposure_parameters.h"
 #include "wearwell/models/formula_model/step_stress.h"
 
 namespace wearwell::formula_model {
@@ -215,18 +216,13 @@ std::string threshold_of(const TomlReader& likelihood, RampStress& ramp,
       static_cast<int>(std::find_if(symbols.columns.begin(), symbols.columns.end(),
                                     [&](const auto& each) { return each.name == ramp.stress; }) -
                        symbols.columns.begin());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const ByColumn by = by_column(written.graph, written.roots[i], column);
-    if (written.graph[written.roots[i]].by_path)
+  for (const int root : written.roots)
+    if (written.graph[root].by_path)
       likelihood.fail("ramp", "is not possible with expressions that depend on earlier rows");
-    if (i == scale ? by.depends : !by.depends) continue;
-    likelihood.fail("ramp", i == scale
-                                ? fmt::format("{} of '{}' does not depend on '{}'", ramp.parameter,
-                                              likelihood.required_text(ramp.parameter), ramp.stress)
-                                : fmt::format("{} depends on '{}'; cumulative exposure needs a "
-                                              "distribution of which only the {} does",
-                                              wanted[i].name, ramp.stress, ramp.parameter));
-  }
+  require_scale_alone(likelihood, "ramp", ramp.parameter, written, wanted, {ramp.stress, column});
+  if (!depends_on(written.graph, written.roots[scale], {ramp.stress, column}))
+    likelihood.fail("ramp", fmt::format("{} of '{}' does not depend on '{}'", ramp.parameter,
+                                        likelihood.required_text(ramp.parameter), ramp.stress));
   const std::set<std::string> by_stress = lines_by_stress(ramp.stress, lines);
   for (const std::string& each : by_stress)
     if (each.find('(') != each.npos)

@@ -96,6 +96,10 @@ struct Reading {
   std::size_t end_gap = 0;  // once it has ended
 };
 
+std::size_t row_of_file(const Table& table, std::size_t row) {
+  return table.origins.empty() ? row + 1 : table.origins[row];
+}
+
 void check_age(const Table& table, const ColumnChoice& age, double value, const Reading& unit,
                const UnitHistory& history, std::size_t row) {
   const std::string cell = cell_word(table.column(age.column), row);
@@ -105,11 +109,12 @@ void check_age(const Table& table, const ColumnChoice& age, double value, const 
   if (!(value >= 0)) refuse("must be 0 or more");
   if (unit.ended)
     refuse(fmt::format("follows the end of observation of unit '{}' in row {}", history.name,
-                       unit.last_row + 1));
+                       row_of_file(table, unit.last_row)));
   if (unit.begun && value < unit.last)
     refuse(fmt::format(
         "is less than {}, the age of unit '{}' in row {}: ages of a unit must not go back",
-        cell_word(table.column(age.column), unit.last_row), history.name, unit.last_row + 1));
+        cell_word(table.column(age.column), unit.last_row), history.name,
+        row_of_file(table, unit.last_row)));
   if (value < history.start)
     refuse(fmt::format("lies before the start of observation of unit '{}'", history.name));
 }
@@ -128,7 +133,7 @@ void check_failure(const Table& table, const ColumnChoice& age, const Gap& gap, 
   if (rounding > 0) return;
   throw InputError(
       fmt::format("{}: unit '{}' fails again at {}: either the row is a copy, then remove it; or "
-                  "two failures fell into one "
+                  "several failures fell into one "
                   "rounded age, then state the rounding, for example data.rounding = \"1 {}\"",
                   where, history.name, cell, age.unit.text));
 }
@@ -144,6 +149,56 @@ void add_failure_at_end(const Table& table, const ColumnChoice& age, const Readi
   end.from = end.to;
   end.first = false;
   data.gaps.push_back(failure);
+}
+
+// A column of counts that no key reads would count each row once.
+void refuse_idle_counts(const TomlReader& section, const Table& table) {
+  const std::vector<std::string> unused = section.texts("unused");
+  for (const Column& column : table.columns) {
+    if (!column.is_number || folded_word(column.name) != "count" || contains(unused, column.name))
+      continue;
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      if (!(column.numbers[row] > 1)) continue;
+      throw InputError(fmt::format(
+          "{}: {:.10g} can be the number of failures of the unit at that age, then write count = "
+          "\"{}\" in [data.columns]; or something else, then write unused = [\"{}\"] in [data]",
+          place(table, column.name, row), column.numbers[row], column.name, column.name));
+    }
+  }
+}
+
+// A row for each failure of a row that counts several at one age. An end of observation is one row: its count is
+// 1, 0 or empty.
+Table each_failure(const TomlReader& section, const EventWords& words, Table table) {
+  const TomlReader columns = section.required_table("columns");
+  if (!columns.has("count")) {
+    refuse_idle_counts(section, table);
+    return table;
+  }
+  const std::string heading =
+      study_column(columns, "count",
+                   columns.is_text("count")
+                       ? columns.required_text("count")
+                       : columns.required_table("count").required_text("column"),
+                   table)
+          .name;
+  for (Column& column : table.columns) {
+    if (column.name != heading) continue;
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      if (read_event(table, words, row)) continue;
+      const std::string cell = cell_word(column, row);
+      if (!cell.empty() && cell != "0" && cell != "1")
+        throw InputError(
+            fmt::format("{}: {} ends of observation of one unit; an end is one row, with a count "
+                        "of 1, 0 or none",
+                        place(table, heading, row), cell));
+      if (column.is_number)
+        column.numbers[row] = 1;
+      else
+        column.text[row] = "1";
+    }
+  }
+  return with_counts(columns, std::move(table));
 }
 
 std::vector<double> read_starts(const TomlReader& columns, const Table& table,
@@ -220,13 +275,14 @@ std::optional<bool> is_failure_word(const std::string& word, std::optional<int> 
 RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source) {
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
-  const Table table = read_table(section, source);
+  const Table written = read_table(section, source);
+  const EventWords words = read_event_words(columns, written);
+  const Table table = each_failure(section, words, written);
   RecurrenceData data;
   const auto unit_column = read_word_column(columns, "unit", table);
   if (!unit_column)
     columns.fail("unit", "is missing: the column that names the unit of each event");
   const ColumnChoice age = read_age(columns, table, data.si);
-  const EventWords words = read_event_words(columns, table);
   std::optional<ColumnChoice> start;
   const std::vector<double> starts = read_starts(columns, table, data.si, start);
   if (const auto rounding = section.quantity("rounding", data.si)) {

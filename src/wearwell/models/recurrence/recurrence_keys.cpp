@@ -18,6 +18,9 @@ StudyKeys study_keys() {
             {"data.columns.event.failure", "\"repaired\"",
              "your word for a failure, or its code 1 or 0"},
             {"data.columns.event.end", "\"retired\"", "your word for the end of observation"},
+            {"data.columns.count", "\"count\"",
+             "number of failures of the unit at that age, if a row is several; needs "
+             "`data.rounding`; 1, 0 or empty at an end of observation"},
             {"data.columns.start", "{ column = \"start\", unit = \"day\" }",
              "age at which observation of the unit began (0)"},
             {"data.end", "\"last failure\"",

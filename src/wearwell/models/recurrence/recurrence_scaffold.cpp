@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -32,17 +34,22 @@ const Column* unit_column(const ColumnRoles& roles) {
 struct Histories {
   std::size_t units = 0, ended = 0, failures = 0, most_rows = 0;
   bool ends_come_last = true;
-  bool rises = true;  // in the order of the table
+  bool rises = true;     // in the order of the table
+  bool several = false;  // failures of a unit at one age
 };
 
 struct History {
   std::size_t rows = 0;
+  bool fails = false;
   double last = 0, last_failure = 0, end = std::numeric_limits<double>::infinity();
 };
 
 // Empty if a cell is neither a failure nor an end.
 std::optional<Histories> histories_of(const Table& table, const Column& unit, const Column& age,
-                                      const Column& event, std::optional<int> failure_code) {
+                                      const Column& event, std::optional<int> failure_code,
+                                      const Column* count) {
+  const std::vector<double> counts =
+      count ? numbers_of(table, *count) : std::vector<double>(table.rows, 1);
   std::map<std::string, History> of_unit;
   Histories all;
   const std::vector<double> ages = numbers_of(table, age);
@@ -54,8 +61,11 @@ std::optional<Histories> histories_of(const Table& table, const Column& unit, co
     history.last = ages[row];
     all.most_rows = std::max(all.most_rows, history.rows);
     if (*failed) {
+      if (!(counts[row] >= 1)) return {};
+      all.several |= counts[row] > 1 || (history.fails && history.last_failure == ages[row]);
+      history.fails = true;
       history.last_failure = std::max(history.last_failure, ages[row]);
-      ++all.failures;
+      all.failures += static_cast<std::size_t>(counts[row]);
     } else {
       all.ends_come_last &= history.end == std::numeric_limits<double>::infinity();
       history.end = ages[row];
@@ -68,6 +78,22 @@ std::optional<Histories> histories_of(const Table& table, const Column& unit, co
   return all;
 }
 
+// The step to which ages are written: several failures of a unit fell into one.
+std::string rounding_line(const Table& table, const Found& age) {
+  double step = 1;
+  for (const double least = 1e-6; step > least; step /= 10) {
+    const std::vector<double> ages = numbers_of(table, *age.column);
+    if (std::all_of(ages.begin(), ages.end(), [&](double each) {
+          return std::abs(each / step - std::round(each / step)) < 1e-6;
+        }))
+      break;
+  }
+  if (age.unit == "1" || std::isdigit(static_cast<unsigned char>(age.unit.front()))) return "";
+  return fmt::format(
+      "rounding = {}    # GUESS: the step of the ages; a unit has several failures at one age\n",
+      toml_text(fmt::format("{:.6g} {}", step, age.unit)));
+}
+
 }  // namespace
 
 std::optional<Scaffold> scaffold(ColumnRoles& roles) {
@@ -75,10 +101,12 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
   const auto age = roles.find({"life", "time", "distance", "cycles", "revolutions"});
   const Column* unit = unit_column(roles);
   if (!event || !age || !unit || unit == event->column || unit == age->column) return {};
-  if (roles.has({"depth", "volume", "mass", "crack", "mode", "count", "entry"})) return {};
+  if (roles.has({"depth", "volume", "mass", "crack", "mode", "entry"})) return {};
   std::optional<int> code = roles.choices().failure;
   if (!code) code = failure_code_of(event->column->name);
-  const auto all = histories_of(roles.table(), *unit, *age->column, *event->column, code);
+  const auto count = roles.find({"count"});
+  const auto all = histories_of(roles.table(), *unit, *age->column, *event->column, code,
+                                count ? count->column : nullptr);
   // Rows in rising order can be lives in sorted order; with an end of each unit they are not.
   if (!all || all->most_rows < 2 || all->failures == 0 || !all->ends_come_last) return {};
   const bool each_ends = all->ended == all->units;
@@ -86,6 +114,9 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
   const Found taken = *roles.take("age", {"life", "time", "distance", "cycles", "revolutions"});
   roles.take_column("unit", *unit, role_form("unit"));
   roles.take_column("event", *event->column, role_form("status"));
+  const std::string counts =
+      count ? ColumnRoles::line("count", *roles.take("count", {"count"})) : "";
+  const std::string rounding = all->several ? rounding_line(roles.table(), taken) : "";
   const std::string heading = toml_text(event->column->name);
   const std::string end =
       all->ended > 0 ? "" : "end = \"last failure\"    # GUESS: no row is an end of observation\n";
@@ -100,8 +131,8 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
                   "model = \"repairable\"\n"
                   "process = \"power_law\"    # minimal repair, as bad as old; or \"renewal\", as "
                   "good as new\n\n"
-                  "{}{}[data.columns]\n"
-                  "unit = {}\n{}event = {}    # failure, or end of observation\n\n"
+                  "{}{}{}[data.columns]\n"
+                  "unit = {}\n{}event = {}    # failure, or end of observation\n{}\n"
                   "# Prior knowledge: PROPOSED as weak priors. Replace them with what you know of "
                   "such units.\n"
                   "[prior]\n"
@@ -112,9 +143,10 @@ std::optional<Scaffold> scaffold(ColumnRoles& roles) {
                   "failures of one "
                   "unit until the largest age\n",
                   toml_text("Failures of repaired units, from " + roles.file()),
-                  roles.data_section(), end, toml_text(unit->name), ColumnRoles::line("age", taken),
+                  roles.data_section(), end, rounding, toml_text(unit->name),
+                  ColumnRoles::line("age", taken),
                   code ? fmt::format("{{ column = {}, failure = {} }}", heading, *code) : heading,
-                  static_cast<double>(all->failures) / static_cast<double>(all->units)));
+                  counts, static_cast<double>(all->failures) / static_cast<double>(all->units)));
 }
 
 }  // namespace wearwell::recurrence
