@@ -61,7 +61,7 @@
 
   function tabs() {
     part('steps').append(...steps.map((each, i) => {
-      const tab = element('button', {type: 'button', role: 'tab', id: `step-${each}`, 'aria-controls': `panel-${each}`}, `${i + 1} ${strings.steps[each]}`);
+      const tab = element('button', {type: 'button', role: 'tab', id: `step-${each}`, 'aria-controls': `panel-${each}`}, element('span', {class: 'count'}, `${i + 1} `), strings.steps[each]);
       tab.addEventListener('click', () => wearwell.step(each));
       return tab;
     }));

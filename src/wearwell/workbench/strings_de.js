@@ -61,7 +61,7 @@ wearwell.languages.de = {
 
   askTitle: 'Fragen', lifeTitle: 'Welche Lebensdauer? Die einer neuen Einheit, oder die Restlebensdauer einer Einheit der Daten',
   fields: {unit: ['Einheit (Exemplar)', 'J7, oder leer'], survived: ['Ohne Ausfall erreicht', '1e4 cycles'], horizon: ['Ausfall innerhalb von', '500 cycles'],
-           risk: ['Zulässige Ausfallwahrscheinlichkeit bis zur nächsten Inspektion', '1 %'], level: ['Vertrauensgrenze mit Wahrscheinlichkeit', '95 %']},
+           risk: ['Zulässiges Ausfallrisiko bis zur nächsten Inspektion', '1 %'], level: ['Vertrauensgrenze mit Wahrscheinlichkeit', '95 %']},
   sides: 'Welche Vertrauensgrenze', sideNames: {lower: 'untere', upper: 'obere', both: 'beide'}, ask: 'Antworten',
   noLives: 'Dieses Ergebnis hat keine A-posteriori-Verteilung, die befragt werden kann. Passen Sie zuerst eine Studie an.', sameCommand: 'Dasselbe auf der Kommandozeile', samePython: 'Dasselbe in Python',
   decideTitle: 'Wann austauschen, wann inspizieren?', decideLead: 'Die geringsten Kosten auf lange Sicht, aus den Kosten eines Ausfalls im Betrieb und eines vorbeugenden Austauschs.',
