@@ -335,7 +335,7 @@ async function readings(browser) {
 }
 
 // In German: by the browser's language and by choice; what was typed into the study stays, and no English sentence of the page is seen.
-async function german(browser, {name, ...options}) {
+async function inGerman(browser, {name, ...options}) {
   const complaints = [];
   const inside = fresh(name);
   writeFileSync(join(inside, 'pumps.csv'), `hours [h],status\n${hours.map((each, i) => `${each},${i < 11 ? 'failure' : 'running'}\n`).join('')}`);
@@ -377,7 +377,7 @@ async function german(browser, {name, ...options}) {
     const found = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     while (walker.nextNode()) {
       const {parentElement: parent, data} = walker.currentNode;
-      if (english.has(data.trim()) && !parent.closest('[lang="en"], script, style, .form, td, tbody th, caption')) found.push(data.trim());
+      if (english.has(data.trim()) && !parent.closest('[lang="en"], script, style, .form, td, tbody th')) found.push(data.trim());
     }
     for (const each of document.querySelectorAll('[aria-label], [placeholder]'))
       for (const label of [each.getAttribute('aria-label'), each.getAttribute('placeholder')]) if (english.has(label)) found.push(label);
@@ -415,7 +415,7 @@ for (const each of [
 for (const each of [
   {name: 'german-wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
   {name: 'german-narrow-light', viewport: {width: 390, height: 844}, colorScheme: 'light'},
-]) await german(browser, each);
+]) await inGerman(browser, each);
 await errors(browser);
 await tabs(browser);
 await readings(browser);

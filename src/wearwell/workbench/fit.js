@@ -23,14 +23,16 @@
   const short = (text) => (text.length < 25 ? 'short' : '');
 
   // Columns without a cell are left out, as in the report.
-  wearwell.table = function table({id, caption, columns: given, rows: every, all}) {
+  wearwell.table = function table({id, caption, columns: given, rows: every, all, lang}) {
     const kept = given.map((_, i) => i).filter((i) => i === 0 || every.some((cells) => cells[i] !== ''));
     const columns = kept.map((i) => given[i]), rows = every.map((cells) => kept.map((i) => cells[i]));
     const parts = [element('caption', {}, caption), element('thead', {}, element('tr', {}, ...columns.map((each) => element('th', {scope: 'col'}, each)))),
                    element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((each, i) => element(i ? 'td' : 'th', i ? {class: short(each)} : {scope: 'row'}, each)))))];
-    return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption}, element('table', {id: `table-${id}`}, ...parts)),
+    return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption, lang}, element('table', {id: `table-${id}`}, ...parts)),
         rows.length < all ? element('p', {class: 'note'}, strings.ofRows(rows.length, all)) : null);
   };
+
+  const ofProgram = (found) => wearwell.table({...found, lang: 'en'});
 
   function checks(all) {
     const advised = all.some((each) => each.advice);
@@ -51,8 +53,8 @@
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
     place.result.replaceChildren(element('h3', {}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [wearwell.table(main)] : []), checks(found.checks),
-        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(wearwell.table)),
+        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks),
+        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),
         details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)),
         ...wearwell.sameLines(found));
     wearwell.askPanel.result(found);

@@ -231,7 +231,7 @@
 
   function roles() {
     place.roles.hidden = false;
-    place.role.replaceChildren(...table.roles.map((each) => element('option', {value: each}, each)));
+    place.role.replaceChildren(...table.roles.map((each) => element('option', {value: each, lang: 'en'}, each)));
     place.column.replaceChildren(element('option', {value: ''}, strings.noColumn), ...(table.headings ?? table.columns.map((each) => each.name)).slice(0, 1000).map((each) => element('option', {value: each}, each)));
     place.chosen.replaceChildren(...(choices.columns.length ? [element('p', {}, `${strings.chosenRoles}: ${choices.columns.join('; ')} `),
         wearwell.button(strings.forget, () => { choices = {columns: []}; wearwell.attempt(() => wearwell.data.ofTable(guess)); }, 'plain')] : []));
