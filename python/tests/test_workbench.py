@@ -50,7 +50,7 @@ def served(tmp_path_factory):
     with opened(folder) as ask:
         session = ask("/api/open", {"file": "pumps.csv"}) and ask("/api/session")
         study = ask("/api/guess", {"file": "pumps.csv", "number": session["table_number"]})["readings"][0]["text"]
-        for name, family in (("pumps", "weibull"), ("other", "lognormal")):
+        for name, family in (("pumps", "weibull"), ("other", "gamma")):
             text = study.replace('family = "weibull"', f'family = "{family}"')
             ask("/api/save", {"file": f"{name}.toml", "text": text, "before": None})
             ask("/api/fit", {"file": f"{name}.toml", "text": text})
@@ -66,7 +66,7 @@ def served(tmp_path_factory):
 @pytest.mark.parametrize("path, question, function", [
     ("life", {}, "unit_life"),
     ("life", {"survived": "400 h", "horizon": "100 h", "risk": "1 %", "level": "95 %", "sides": "lower"}, "unit_life"),
-    ("decide", {"failure_cost": "800 EUR", "replacement_cost": "120 EUR", "claims": "2 %", "month": "60 h"}, "decide"),
+    ("decide", {"failure_cost": "800 EUR", "replacement_cost": "120 EUR", "claims": "2 %", "inspection_cost": "10 EUR"}, "decide"),
 ])
 def test_the_line_of_a_question_prints_the_answer(served, tmp_path, path, question, function):
     ask, _ = served
