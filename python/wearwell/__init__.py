@@ -30,6 +30,7 @@ Further work:
 
 =====================================================  =======================================================
 ``compare``, ``backtest``                              rank models by prediction; check forecasts of lives
+``unit_life``                                          the life of a new unit, the rest of a unit's life
 ``decide``, ``plan``                                   when to replace or inspect; which tests to run
 ``rainflow``, ``spectrum``, ``damage``, ``design``     load cycles, damage along an S-N curve, design curves
 ``select``                                             the terms of a regression
@@ -81,6 +82,7 @@ from ._spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectr
 from ._study import Study, fit
 from ._tools import Selection, rainflow, select
 from ._track import Quantiles, UnitTracker, track
+from ._unit_life import unit_life
 from ._update import update
 
 __version__ = _core.version
@@ -93,7 +95,7 @@ __all__ = [
     "life", "degradation", "sn", "staircase", "joint", "bearing", "clutch", "repairable", "returns",
     "Study", "fit", "Fit", "Check", "Plot",
     # Of fits.
-    "compare", "Comparison", "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "LivesAgainst", "decide", "plan", "Plan",
+    "compare", "Comparison", "update", "track", "UnitTracker", "Quantiles", "backtest", "Backtest", "LivesAgainst", "unit_life", "decide", "plan", "Plan",
     "export_c", "export_sql", "Monitor",
     # Tools.
     "rainflow", "spectrum", "LoadSpectrum", "damage", "Damage", "design", "DesignCurves", "select", "Selection",

@@ -565,6 +565,17 @@ def compare(
     progress: _Progress = ...,
 ) -> Comparison: ...
 
+def unit_life(
+    fit: Fit | str | os.PathLike[str],
+    unit: str | None = ...,
+    *,
+    survived: _Quantity | None = ...,
+    horizon: _Quantity | None = ...,
+    risk: str | None = ...,
+    level: float | str | None = ...,
+    sides: Literal["lower", "upper", "both"] | None = ...,
+) -> Plan: ...
+
 def decide(
     lives: Any,
     *,

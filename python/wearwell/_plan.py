@@ -52,7 +52,7 @@ Plan.__module__ = "wearwell"
 
 def answer(kind, arguments, about=None, name="", tables=None, threads=0, progress=None):
     """The Plan of this kind."""
-    plan = Plan(*found(kind, arguments, about, name, tables, threads, progress), "decisions" if kind == "decide" else "plan")
+    plan = Plan(*found(kind, arguments, about, name, tables, threads, progress), {"decide": "decisions", "life": "life"}.get(kind, "plan"))
     if not plan.trusted:
         warn("the fit that this plan rests on is not trusted: see its checks")
     return plan

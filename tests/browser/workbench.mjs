@@ -1,7 +1,7 @@
 // `wearwell open` itself in headless Chromium: from a messy table of lives with suspensions to a B10 with its bound, in at most
 // ten actions, and `wearwell fit` of the study file that it leaves gives the same digits. At both widths, light and dark, each step
-// is clean for axe-core, as wide as the screen, logs no error and fetches nothing from elsewhere; it is worked by keyboard, and names
-// in a hostile table stay names.
+// is clean for axe-core, as wide as the screen, logs no error and fetches nothing from elsewhere; it is worked by keyboard, names
+// in a hostile table stay names, and German is German.
 //
 //   node workbench.mjs NODE_MODULES SCREENSHOTS WEARWELL FOLDER
 import {spawn, spawnSync} from 'node:child_process';
@@ -334,6 +334,74 @@ async function readings(browser) {
   faults.push(...complaints.map((each) => `readings: ${each}`));
 }
 
+// In German: by the browser's language and by choice; what was typed into the study stays, and no English sentence of the page is seen.
+async function inGerman(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  writeFileSync(join(inside, 'pumps.csv'), `hours [h],status\n${hours.map((each, i) => `${each},${i < 11 ? 'failure' : 'running'}\n`).join('')}`);
+  const {address, stop} = await serve(join(inside, 'pumps.csv'));
+  const context = await browser.newContext({...options, locale: 'de-AT'});
+  const page = await open(context, address, complaints);
+  const shot = (step) => page.screenshot({path: join(screenshots, `workbench-${name}-${step}.png`), fullPage: true});
+  const language = () => page.evaluate(() => document.documentElement.lang);
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  check(await language() === 'de', `${name}: a German browser gets ${await language()}`);
+  check(await page.textContent('#step-fit') === '3 Anpassung', `${name}: the step Fit is ${await page.textContent('#step-fit')}`);
+  await looks(page, `${name} data`, complaints);
+  await shot('data');
+  await page.click('#step-model');
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await looks(page, `${name} model`, complaints);
+  await shot('model');
+  await page.click('#step-fit');
+  await page.click('#panel-fit button');
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  check((await page.textContent('#result .command')).startsWith('wearwell fit ') && (await page.textContent('#result .python')).includes('ww.fit('), `${name}: the fit has no lines`);
+  await looks(page, `${name} fit`, complaints);
+  await shot('fit');
+  await page.click('#step-ask');
+  await page.fill('#ask-survived', '400 h');
+  await page.click('#panel-ask form button');
+  await page.waitForSelector('.card .python', {timeout: 60000});
+  await looks(page, `${name} ask`, complaints);
+  await shot('ask');
+  // Program texts are marked as English; elsewhere none of its sentences is left.
+  const left = await page.evaluate(() => {
+    const sentences = [];
+    const collect = (table) => { for (const each of Object.values(table)) { if (typeof each === 'object') collect(each); else if (typeof each === 'string') sentences.push(each); } };
+    collect(wearwell.languages.en);
+    const german = [];
+    const collectGerman = (table) => { for (const each of Object.values(table)) { if (typeof each === 'object') collectGerman(each); else if (typeof each === 'string') german.push(each); } };
+    collectGerman(wearwell.languages.de);
+    const english = new Set(sentences.filter((each) => !german.includes(each) && /[a-z]{3}/.test(each)));
+    const found = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+      const {parentElement: parent, data} = walker.currentNode;
+      if (english.has(data.trim()) && !parent.closest('[lang="en"], script, style, .form, td, tbody th')) found.push(data.trim());
+    }
+    for (const each of document.querySelectorAll('[aria-label], [placeholder]'))
+      for (const label of [each.getAttribute('aria-label'), each.getAttribute('placeholder')]) if (english.has(label)) found.push(label);
+    return found;
+  });
+  check(left.length === 0, `${name}: in English: ${left.join('; ')}`);
+
+  await page.click('#step-model');
+  await page.fill('#study', `${await page.inputValue('#study')}# mine\n`);
+  await page.selectOption('#language', 'en');
+  await page.waitForFunction(() => document.documentElement.lang === 'en' && document.querySelector('#study')?.value.includes('# mine'), null, {timeout: 60000});
+  check((await page.textContent('.editing')).includes('not saved') && await page.inputValue('#study-file') === 'pumps.toml', `${name}: the text that is kept is not the one that was edited`);
+  await page.waitForSelector('#panel-data tbody tr', {state: 'attached', timeout: 60000});
+  check((await page.inputValue('#study')).includes('# mine'), `${name}: the table that is open replaced the edited text`);
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await page.reload();
+  await page.waitForSelector('#panel-data tbody tr', {state: 'attached', timeout: 60000});
+  check(await language() === 'en', `${name}: the choice is not kept`);
+  check(!(await page.inputValue('#study')).includes('# mine'), `${name}: a text that was given up comes back`);
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `${name}: ${each}`));
+}
+
 mkdirSync(screenshots, {recursive: true});
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -344,6 +412,10 @@ for (const each of [
   {name: 'wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
   {name: 'narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
 ]) await walk(browser, each);
+for (const each of [
+  {name: 'german-wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
+  {name: 'german-narrow-light', viewport: {width: 390, height: 844}, colorScheme: 'light'},
+]) await inGerman(browser, each);
 await errors(browser);
 await tabs(browser);
 await readings(browser);

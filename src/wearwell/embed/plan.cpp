@@ -18,9 +18,12 @@
 #include "wearwell/plan/inspect.h"
 #include "wearwell/plan/next_question.h"
 #include "wearwell/plan/size.h"
+#include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/known_lives.h"
+#include "wearwell/prognosis/life_bounds.h"
+#include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/lives_against_report.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/next_reading.h"
@@ -176,6 +179,40 @@ Work decide(PlanArguments& arguments, const Subject& subject, const Monitor&) {
   };
 }
 
+// `wearwell life` without readings: that of a new unit or of one of the data.
+Work unit_life(PlanArguments& arguments, const Subject& subject, const Monitor&) {
+  prognosis::LifeQuestion question;
+  std::string survived, horizon, risk, level, sides;
+  arguments.text("unit", question.unit);
+  arguments.text("survived", survived);
+  arguments.text("horizon", horizon);
+  arguments.text("risk", risk);
+  arguments.text("level", level);
+  arguments.text("sides", sides);
+  return [=, &subject]() mutable {
+    question.unit = printable(question.unit);  // read as tables are
+    if (!survived.empty()) question.survived = survived;
+    if (!horizon.empty()) question.horizon = horizon;
+    if (!risk.empty()) question.risk = prognosis::tolerated_risk(risk);
+    const prognosis::LifeBounds bounds = prognosis::read_life_bounds(level, sides);
+    if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
+    const Fitted fit{subject.run, subject.path};
+    const prognosis::CarriedState state = state_of(fit);
+    prognosis::require_posterior(state, fit.name());
+    const prognosis::UnitLife life =
+        prognosis::asked_life(state, fit.name(), all_models(), question);
+    const std::string text = prognosis::life_text(life, bounds, {}, state.trusted);
+    present::Section section{"life", "Life"};
+    section.add(present::Verbatim{text});
+    section.add(prognosis::survival_table(life));
+    return plan::Answer{fit.name(),
+                        text,
+                        {section},
+                        prognosis::life_json(life, bounds, {}, state.trusted),
+                        state.trusted};
+  };
+}
+
 Work against(PlanArguments& arguments, const Subject& subject, const Monitor&) {
   prognosis::LivesAgainstRequest request;
   std::string path;
@@ -284,6 +321,7 @@ Reader plan_reader(const std::string& kind) {
   if (kind == "inspect") return &inspect;
   if (kind == "decide") return &decide;
   if (kind == "against") return &against;
+  if (kind == "life") return &unit_life;
   return nullptr;
 }
 

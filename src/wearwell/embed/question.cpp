@@ -17,13 +17,14 @@ Reader reader_of(const std::string& kind) {
   if (const Reader reader = fatigue_reader(kind)) return reader;
   throw InputError(
       fmt::format("there is no question of kind '{}'; it is next, size, demonstrate, inspect, "
-                  "accelerate, decide, against, damage, design or spectrum",
+                  "accelerate, decide, life, against, damage, design or spectrum",
                   printable(kind)));
 }
 
 std::string heading_of(const std::string& kind) {
   static const std::map<std::string, std::string> headings = {
       {"decide", "Decisions"},
+      {"life", "Life"},
       {"against", "Comparison of lives"},
       {"damage", "Life under a load history"},
       {"design", "Design curves"},

@@ -13,8 +13,8 @@ namespace wearwell::embed {
 
 /// What a question is about, as far as its kind asks for it.
 struct Subject {
-  const Run* run = nullptr;          ///< "next", "inspect", "decide", "damage", "against": a fit
-  const Run* other = nullptr;        ///< "against": the fit that it is compared with, if in memory
+  const Run* run = nullptr;    ///< "next", "inspect", "decide", "damage", "life", "against": a fit
+  const Run* other = nullptr;  ///< "against": the fit that it is compared with, if in memory
   const ReadStudy* study = nullptr;  ///< "size"
   /// Instead of `run` the folder of a result; "inspect" and "decide" also a table of lives; "size" a
   /// study file.
@@ -25,7 +25,7 @@ struct Subject {
 };
 
 /// Answers what a command answers. `kind` is "next", "size", "demonstrate", "inspect" or "accelerate"
-/// (of `wearwell plan`), "decide", "against" (`wearwell life --against`), or "damage", "design" or
+/// (of `wearwell plan`), "decide", "life" (`wearwell life`), "against" (`wearwell life --against`), or "damage", "design" or
 /// "spectrum" (`wearwell fatigue life`, `design` and `rainflow`). `arguments` is a JSON object with the options of the command, hyphens
 /// being underscores; values are texts, numbers, truths, or arrays of them; percentages of the
 /// fatigue commands are shares, and "results" of "design" are folders by name. Texts of the answer

@@ -27,8 +27,8 @@
     if (!question.level) delete question.sides;
     const found = await wearwell.post(path, question);
     count += 1;
-    place.cards.prepend(element('article', {class: 'card', 'aria-label': strings.askedFor(count)}, element('pre', {class: 'answer', tabindex: 0}, found.text), picture(found),
-        element('p', {class: 'note'}, strings.sameCommand), element('pre', {class: 'command', tabindex: 0}, found.command)));
+    place.cards.prepend(element('article', {class: 'card', 'aria-label': strings.askedFor(count)}, element('pre', {class: 'answer', tabindex: 0, lang: 'en'}, found.text), picture(found),
+        ...wearwell.sameLines(found)));
   }
 
   function result(found) {

@@ -24,11 +24,10 @@
     const details = element('details', {}, element('summary', {}, strings.comparisonPage), frame);
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = page; });
     const sentences = [answer.conclusion, answer.obstacle].filter(Boolean);
-    place.answer.replaceChildren(...sentences.map((each) => element('p', {class: 'lead'}, each)), ranking(answer),
-        ...answer.cautions.map((each) => element('p', {class: 'note'}, each)),
-        element('details', {}, element('summary', {}, strings.wholeAnswer), element('pre', {class: 'answer', tabindex: 0}, found.text)), details,
-        element('p', {}, element('a', {href: page, target: '_blank', rel: 'noopener'}, strings.comparisonTab)),
-        element('p', {class: 'note'}, strings.sameCommand), element('pre', {class: 'command', tabindex: 0}, found.command));
+    place.answer.replaceChildren(...sentences.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), ranking(answer),
+        ...answer.cautions.map((each) => element('p', {class: 'note', lang: 'en'}, each)),
+        element('details', {}, element('summary', {}, strings.wholeAnswer), element('pre', {class: 'answer', tabindex: 0, lang: 'en'}, found.text)), details,
+        element('p', {}, element('a', {href: page, target: '_blank', rel: 'noopener'}, strings.comparisonTab)), ...wearwell.sameLines(found));
   }
 
   function session(now) {

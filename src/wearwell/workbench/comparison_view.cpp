@@ -10,6 +10,7 @@
 #include "wearwell/study/comparison.h"
 #include "wearwell/workbench/command_line.h"
 #include "wearwell/workbench/folder_files.h"
+#include "wearwell/workbench/python_line.h"
 
 namespace wearwell::workbench {
 namespace {
@@ -38,10 +39,18 @@ nlohmann::ordered_json comparison_answer(const std::filesystem::path& folder,
   const Comparison comparison = comparison_of(folder, names);
   // Names of results stand in the answer, so the command is one of their folder.
   std::string command = fmt::format("cd {} && wearwell compare", quoted_word(folder.string()));
-  for (const std::string& each : names)
+  std::string paths, quoted;
+  for (const std::string& each : names) {
     command += " " + quoted_word(each.starts_with('-') ? "./" + each : each);
-  return {
-      {"text", comparison_text(comparison)}, {"answer", to_json(comparison)}, {"command", command}};
+    paths += python_text(path_in(folder, each).string()) + ", ";
+    quoted += (quoted.empty() ? "" : ", ") + python_text(each);
+  }
+  const std::string python =
+      fmt::format("import wearwell as ww; print(ww.compare({}names=[{}]))", paths, quoted);
+  return {{"text", comparison_text(comparison)},
+          {"answer", to_json(comparison)},
+          {"command", command},
+          {"python", python}};
 }
 
 std::string comparison_page_of(const std::filesystem::path& folder,

@@ -17,20 +17,22 @@
       place.progress.append([strings.running(fit.study), steps, strings.seconds(Math.round(fit.seconds))].filter(Boolean).join(', '));
     }
     if (fit.state === 'stopped') place.progress.append(strings.stopped);
-    place.problem.replaceChildren(...(fit.state === 'failed' ? [element('p', {class: 'wrong'}, strings.failed), element('pre', {tabindex: 0}, fit.problem)] : []));
+    place.problem.replaceChildren(...(fit.state === 'failed' ? [element('p', {class: 'wrong'}, strings.failed), element('pre', {tabindex: 0, lang: 'en'}, fit.problem)] : []));
   }
 
   const short = (text) => (text.length < 25 ? 'short' : '');
 
   // Columns without a cell are left out, as in the report.
-  wearwell.table = function table({id, caption, columns: given, rows: every, all}) {
+  wearwell.table = function table({id, caption, columns: given, rows: every, all, lang}) {
     const kept = given.map((_, i) => i).filter((i) => i === 0 || every.some((cells) => cells[i] !== ''));
     const columns = kept.map((i) => given[i]), rows = every.map((cells) => kept.map((i) => cells[i]));
     const parts = [element('caption', {}, caption), element('thead', {}, element('tr', {}, ...columns.map((each) => element('th', {scope: 'col'}, each)))),
                    element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((each, i) => element(i ? 'td' : 'th', i ? {class: short(each)} : {scope: 'row'}, each)))))];
-    return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption}, element('table', {id: `table-${id}`}, ...parts)),
+    return element('div', {}, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption, lang}, element('table', {id: `table-${id}`}, ...parts)),
         rows.length < all ? element('p', {class: 'note'}, strings.ofRows(rows.length, all)) : null);
   };
+
+  const ofProgram = (found) => wearwell.table({...found, lang: 'en'});
 
   function checks(all) {
     const advised = all.some((each) => each.advice);
@@ -38,7 +40,7 @@
     return element('div', {class: 'scroll whole', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
         element('thead', {}, element('tr', {}, ...heads.map((each) => element('th', {scope: 'col'}, each)))),
         element('tbody', {}, ...all.map((each) => element('tr', {}, element('th', {scope: 'row'}, each.name),
-            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {}, each.detail), advised ? element('td', {}, each.advice) : null)))));
+            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {lang: 'en'}, each.detail), advised ? element('td', {lang: 'en'}, each.advice) : null)))));
   }
 
   async function result() {
@@ -51,9 +53,10 @@
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
     place.result.replaceChildren(element('h3', {}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        ...found.leads.map((each) => element('p', {class: 'lead'}, each)), element('dl', {class: 'tiles'}, ...tiles), ...(main ? [wearwell.table(main)] : []), checks(found.checks),
-        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(wearwell.table)),
-        details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)));
+        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks),
+        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),
+        details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)),
+        ...wearwell.sameLines(found));
     wearwell.askPanel.result(found);
   }
 

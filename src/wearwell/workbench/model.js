@@ -5,7 +5,7 @@
   const place = {};
   const replaced = [];
   let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -79,7 +79,7 @@
     gutter(found.line);
     place.text.setAttribute('aria-invalid', found.problem ? 'true' : 'false');
     place.check.replaceChildren(...(found.problem ? problem(found) : [element('p', {class: 'good'}, strings.checkGood),
-        element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0}, found.description))]));
+        element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0, lang: 'en'}, found.description))]));
     form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
     if (place.priors.open) priors();
@@ -126,7 +126,7 @@
   }
 
   function problem(found) {
-    const parts = [element('p', {class: 'wrong'}, strings.checkBad), element('pre', {tabindex: 0}, found.problem)];
+    const parts = [element('p', {class: 'wrong'}, strings.checkBad), element('pre', {tabindex: 0, lang: 'en'}, found.problem)];
     if (found.line) parts.push(wearwell.button(strings.goTo(found.line), () => goTo(found.line, found.column), 'plain'));
     return parts;
   }
@@ -155,7 +155,7 @@
           const id = `key-${key.path}`;
           const make = key.value.includes('\n') ? wearwell.area : wearwell.field;
           const field = make(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
-          if (key.meaning) field.append(element('small', {id: `${id}-meaning`}, plain(key.meaning)));
+          if (key.meaning) field.append(element('small', {id: `${id}-meaning`, lang: 'en'}, plain(key.meaning)));
           field.querySelector('input, textarea').addEventListener('change', (event) => wearwell.attempt(async () => {
             const before = text();
             try {
@@ -173,7 +173,7 @@
     if (focus) document.getElementById(focus)?.focus();
   }
 
-  const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {}, each)))) : null);
+  const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {lang: 'en'}, each)))) : null);
 
   // The options of a reading, as `wearwell new` has them: {"--column", "depth=wear"}.
   function choose(options) {
@@ -193,7 +193,7 @@
   }
 
   function reasons(reading) {
-    const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {}, question.text),
+    const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {lang: 'en'}, question.text),
         ...question.readings.map((each) => wearwell.button(each.text, () => choose(each.options), 'plain'))));
     place.reasons.replaceChildren(...[...asked, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
   }
@@ -231,7 +231,7 @@
 
   function roles() {
     place.roles.hidden = false;
-    place.role.replaceChildren(...table.roles.map((each) => element('option', {value: each}, each)));
+    place.role.replaceChildren(...table.roles.map((each) => element('option', {value: each, lang: 'en'}, each)));
     place.column.replaceChildren(element('option', {value: ''}, strings.noColumn), ...(table.headings ?? table.columns.map((each) => each.name)).slice(0, 1000).map((each) => element('option', {value: each}, each)));
     place.chosen.replaceChildren(...(choices.columns.length ? [element('p', {}, `${strings.chosenRoles}: ${choices.columns.join('; ')} `),
         wearwell.button(strings.forget, () => { choices = {columns: []}; wearwell.attempt(() => wearwell.data.ofTable(guess)); }, 'plain')] : []));
@@ -311,8 +311,25 @@
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));
     panel.append(element('h2', {}, strings.modelTitle), place.empty, place.work);
-    addEventListener('beforeunload', (event) => { if (isEdited()) event.preventDefault(); });
+    addEventListener('beforeunload', (event) => { if (isEdited() && !left) event.preventDefault(); });
   }
 
-  wearwell.model = {build, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
+  // A page that is loaded again in another language goes on with the text that was edited.
+  const draft = 'wearwell-draft';
+  function leave() {
+    if (!isEdited()) return;
+    sessionStorage.setItem(draft, JSON.stringify({content: text(), name: place.name.value, saved, savedName}));
+    left = true;
+  }
+
+  function resume() {
+    const kept = JSON.parse(sessionStorage.getItem(draft));
+    if (!kept) return;
+    sessionStorage.removeItem(draft);
+    show(kept.name, kept.content);
+    [saved, savedName] = [kept.saved, kept.savedName];
+    marks();
+  }
+
+  wearwell.model = {build, leave, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
 })();

@@ -18,6 +18,10 @@
     return element('div', {class: 'field'}, element('label', {for: id}, label), area);
   };
 
+  // What gives the same without the page.
+  wearwell.sameLines = ({command, python}) => (command ? [element('p', {class: 'note'}, strings.sameCommand), element('pre', {class: 'command', tabindex: 0}, command),
+      element('p', {class: 'note'}, strings.samePython), element('pre', {class: 'python', tabindex: 0}, python)] : []);
+
   function complain(message) {
     const shown = element('div', {class: 'callout fail'}, element('pre', {}, message));
     shown.append(wearwell.button(strings.close, () => shown.remove(), 'plain'));
@@ -57,7 +61,7 @@
 
   function tabs() {
     part('steps').append(...steps.map((each, i) => {
-      const tab = element('button', {type: 'button', role: 'tab', id: `step-${each}`, 'aria-controls': `panel-${each}`}, `${i + 1} ${strings.steps[each]}`);
+      const tab = element('button', {type: 'button', role: 'tab', id: `step-${each}`, 'aria-controls': `panel-${each}`}, element('span', {class: 'count'}, `${i + 1} `), strings.steps[each]);
       tab.addEventListener('click', () => wearwell.step(each));
       return tab;
     }));
@@ -83,6 +87,9 @@
   }
 
   async function start() {
+    part('skip').textContent = strings.skip;
+    for (const each of [part('navigation'), part('steps')]) each.setAttribute('aria-label', strings.stepsLabel);
+    part('connection').before(wearwell.languageSwitch(() => wearwell.model.leave()));
     for (const [name, built] of [['data', wearwell.data], ['model', wearwell.model], ['fit', wearwell.fit], ['compare', wearwell.compare], ['ask', wearwell.askPanel]]) built.build(part(`panel-${name}`));
     tabs();
     connection('wait');
@@ -92,6 +99,7 @@
       const now = await wearwell.get('/api/session');
       session(now);
       if (now.study) await wearwell.model.restore();
+      wearwell.model.resume();
       if (now.table) await wearwell.data.restore();
       else if (now.workbook) await wearwell.data.openNamed(now.workbook);
       wearwell.step(now.table ? 'data' : now.study ? 'model' : now.result ? 'fit' : 'data');

@@ -9,8 +9,12 @@ namespace wearwell::resource {
 std::string_view workbench_html();
 std::string_view workbench_css();
 std::string_view workbench_css_sha256();
-std::string_view workbench_strings_js();
-std::string_view workbench_strings_js_sha256();
+std::string_view workbench_strings_en_js();
+std::string_view workbench_strings_en_js_sha256();
+std::string_view workbench_strings_de_js();
+std::string_view workbench_strings_de_js_sha256();
+std::string_view workbench_language_js();
+std::string_view workbench_language_js_sha256();
 std::string_view workbench_server_js();
 std::string_view workbench_server_js_sha256();
 std::string_view workbench_scatter_js();

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -16,6 +18,7 @@
 #include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/result_lives.h"
 #include "wearwell/workbench/command_line.h"
+#include "wearwell/workbench/python_line.h"
 
 namespace wearwell::workbench {
 namespace {
@@ -50,6 +53,13 @@ std::string command_of(const char* command, const std::filesystem::path& folder,
     if (!text.empty()) line += fmt::format(" {}={}", option_of(name), quoted_word(text));
   }
   return line;
+}
+
+std::string python_of(const char* function, const std::filesystem::path& folder,
+                      const nlohmann::json& question, Fields fields) {
+  std::vector<std::pair<std::string, std::string>> arguments;
+  for (const char* name : fields) arguments.emplace_back(name, field_text(question, name));
+  return python_question(function, folder.string(), arguments);
 }
 
 // "--failure-cost: ..." -> "failure cost: ...": a page has fields, not options.
@@ -114,7 +124,8 @@ ordered_json life_answer(const std::filesystem::path& folder, Models models,
         prognosis::asked_life(state, folder.filename().string(), models, asked);
     return {{"text", prognosis::life_text(life, bounds, {}, state.trusted)},
             {"answer", prognosis::life_json(life, bounds, {}, state.trusted)},
-            {"command", command_of("life", folder, question, life_fields)}};
+            {"command", command_of("life", folder, question, life_fields)},
+            {"python", python_of("unit_life", folder, question, life_fields)}};
   } catch (const InputError& error) {
     throw InputError(in_fields(error.what(), life_fields));
   }
@@ -135,7 +146,8 @@ ordered_json decision_answer(const std::filesystem::path& folder, Models models,
         prognosis::decide(request, std::move(lives.lives), units);
     ordered_json found = {{"text", prognosis::decisions_text(report)},
                           {"answer", prognosis::decisions_json(report)},
-                          {"command", command_of("decide", folder, question, decision_fields)}};
+                          {"command", command_of("decide", folder, question, decision_fields)},
+                          {"python", python_of("decide", folder, question, decision_fields)}};
     if (report.decisions.age) found["curve"] = curve_json(report);
     return found;
   } catch (const InputError& error) {

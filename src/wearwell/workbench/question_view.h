@@ -8,8 +8,8 @@
 namespace wearwell::workbench {
 
 /// Questions on a result folder. Each field of a question is a text and optional, named as the option
-/// of the command with "_" for "-". Each answer is {text, answer, command}: what the command prints,
-/// what it prints with --json, and the command. Throws InputError.
+/// of the command with "_" for "-". Each answer is {text, answer, command, python}: what the command prints,
+/// what it prints with --json, the command, and the line of Python that gives the same. Throws InputError.
 
 /// The answer of `wearwell life` to {"unit", "survived", "horizon", "risk", "level", "sides"}.
 nlohmann::ordered_json life_answer(const std::filesystem::path& folder, Models models,

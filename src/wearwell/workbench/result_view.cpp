@@ -1,15 +1,22 @@
 #include "wearwell/workbench/result_view.h"
 
+#include <fmt/format.h>
+
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <variant>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/text_file.h"
 #include "wearwell/present/section.h"
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/saved_result.h"
+#include "wearwell/workbench/command_line.h"
+#include "wearwell/workbench/folder_files.h"
+#include "wearwell/workbench/python_line.h"
 
 namespace wearwell::workbench {
 namespace {
@@ -63,6 +70,23 @@ void add_lives(const std::filesystem::path& folder, ordered_json& json) {
   }
 }
 
+// The lines that fit the study again, where it stands beside its result as it was fitted.
+void add_lines(const std::filesystem::path& folder, ordered_json& json) {
+  constexpr std::string_view ending = "-results";
+  std::string stem = folder.filename().string();
+  if (!stem.ends_with(ending)) return;
+  stem.resize(stem.size() - ending.size());
+  const std::filesystem::path study = folder.parent_path() / (stem + ".toml");
+  std::error_code error;
+  for (const auto& each : {study, folder / "study.toml"})
+    if (!std::filesystem::is_regular_file(each, error)) return;
+  if (read_text_file(study).text != read_text_file(folder / "study.toml").text) return;
+  json["command"] = fmt::format("wearwell fit {} -o {}", quoted_word(study.string()),
+                                quoted_word(folder.string()));
+  json["python"] = fmt::format("import wearwell as ww; ww.fit({}).write({})",
+                               python_text(study.string()), python_text(folder.string()));
+}
+
 }  // namespace
 
 ordered_json result_json(const std::filesystem::path& folder) {
@@ -81,6 +105,7 @@ ordered_json result_json(const std::filesystem::path& folder) {
   for (const present::Table* each : present::tables(saved.sections))
     json["tables"].push_back(table_texts(*each));
   add_lives(folder, json);
+  add_lines(folder, json);
   return json;
 }
 

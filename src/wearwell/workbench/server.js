@@ -11,7 +11,7 @@
   async function answer(path, request = {}) {
     const response = await fetch(path, {cache: 'no-store', ...request, headers: {Authorization: `Bearer ${token}`, ...request.headers}});
     const json = await response.json().catch(() => ({}));
-    if (!response.ok) throw Object.assign(new Error(json.error || `status ${response.status}`), {status: response.status});
+    if (!response.ok) throw Object.assign(new Error(json.error || wearwell.strings.status(response.status)), {status: response.status});
     return json;
   }
 

@@ -1,11 +1,13 @@
 'use strict';
-// All sentences of the workbench, in one table.
-wearwell.strings = {
+// All sentences of the workbench in English. Other languages have the same keys (strings_de.js); language.js chooses.
+wearwell.languages = {};
+wearwell.languages.en = {
+  language: 'English', languages: 'Language', skip: 'Skip to the step', stepsLabel: 'Steps',
   steps: {data: 'Data', model: 'Model', fit: 'Fit', compare: 'Compare', ask: 'Ask'},
   connected: 'Connected', connecting: 'Connecting', lost: 'The program has ended or cannot be reached',
   noToken: 'This address lacks its token. Open the address that wearwell open printed.',
   unsaved: 'not saved',
-  close: 'Close this message',
+  close: 'Close this message', status: (code) => `The program answered with status ${code}.`,
 
   dataTitle: 'Data', chooseFile: 'Choose a table', dropHere: 'or drop one here: CSV, text, xlsx, Parquet or JSON. It is copied into the folder.',
   inFolder: 'In the folder', open: 'Open', nothingHere: 'no tables, studies or results yet',
@@ -40,7 +42,7 @@ wearwell.strings = {
   columnRole: 'Name a role of a column', role: 'Role', column: 'Column', noColumn: '(no column)', setRole: 'Set', chosenRoles: 'Chosen', forget: 'Forget these choices',
   formTitle: 'Values', wholeStudy: 'study', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,
   undo: 'Undo last replacement', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
-  description: 'What will be fitted', checking: 'Checking',
+  description: 'What will be fitted',
 
   priorsTitle: 'Priors as curves, and what they imply before any data', improper: 'no density (improper)', implied: 'Before any data, 5 to 95 % of the draws of the priors',
   quantity: 'Quantity', unit: 'Unit', never: 'never', priorRange: (low, high, middle, unit) => `${low} to ${high} (90 %), median ${middle} ${unit}`,
@@ -62,7 +64,7 @@ wearwell.strings = {
   fields: {unit: ['Unit', 'J7, or empty'], survived: ['Has survived', '1e4 cycles'], horizon: ['Does it end within', '500 cycles'],
            risk: ['Tolerated risk until the next inspection', '1 %'], level: ['Bound with probability', '95 %']},
   sides: 'Which bound', sideNames: {lower: 'lower', upper: 'upper', both: 'both'}, ask: 'Answer',
-  noLives: 'This result has no posterior to ask. Fit a study first.', sameCommand: 'The same on the command line',
+  noLives: 'This result has no posterior to ask. Fit a study first.', sameCommand: 'The same on the command line', samePython: 'The same in Python',
   decideTitle: 'When to replace, when to inspect?', decideLead: 'The least cost in the long run, from the cost of a failure in service and of a preventive replacement.',
   costs: {failure_cost: ['Cost of a failure, with the replacement', '12000 EUR'], replacement_cost: ['Cost of a preventive replacement', '900 EUR'], inspection_cost: ['Cost of an inspection', '60 EUR, or empty'],
           downtime_cost: ['Cost of an undetected failure per use', '5 EUR/h, or empty'], claims: ['Share that may fail under warranty', '2 %, or empty'],

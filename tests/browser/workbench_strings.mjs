@@ -1,0 +1,70 @@
+// The sentences of the workbench: both languages have the same keys, none is empty or in the other language, each is used, and no
+// sentence stands in the scripts outside the tables. Without a browser.
+//
+//   node workbench_strings.mjs SCRIPTS
+import {readFileSync, readdirSync} from 'node:fs';
+import {join} from 'node:path';
+import {runInNewContext} from 'node:vm';
+
+const [scripts] = process.argv.slice(2);
+const read = (name) => readFileSync(join(scripts, name), 'utf8');
+const faults = [];
+const check = (holds, fault) => { if (!holds) faults.push(fault); };
+
+const {languages} = runInNewContext(`const wearwell = {};\n${read('strings_en.js')}\n${read('strings_de.js')}\nwearwell`, {});
+
+// Of each sentence its place, its text and its kind. A function is called with rising and with falling numbers, and shows each argument.
+function sentences(table, place = '') {
+  return Object.entries(table).flatMap(([key, value]) => {
+    const here = place ? `${place}.${key}` : key;
+    if (typeof value === 'object') return sentences(value, here);
+    if (typeof value !== 'function') return [[here, String(value), 'text']];
+    const rising = Array.from({length: value.length}, (_, i) => 7001 + i), falling = rising.toReversed();
+    const texts = [value(...rising), value(...falling)];
+    rising.forEach((each, i) => check(texts[0].includes(each) || texts[1].includes(falling[i]), `${here} drops its argument ${i + 1}: ${texts[0]}`));
+    return [[here, texts[0], `function of ${value.length}`]];
+  });
+}
+
+const tables = Object.entries(languages).map(([name, table]) => [name, new Map(sentences(table).map(([place, ...rest]) => [place, rest]))]);
+check(tables.map(([name]) => name).join() === 'en,de', `languages: ${tables.map(([name]) => name)}`);
+const [[, english], ...others] = tables;
+check(english.size > 150, `only ${english.size} sentences`);
+// Names of formats, numbers with units and abbreviations are the same in both.
+const same = /^([^a-zA-Z]|Text|EUR|cycles|e|s)*$/;
+for (const [name, table] of others) {
+  for (const [place, [text, kind]] of english) {
+    const [own, ownKind] = table.get(place) ?? [];
+    check(own !== undefined, `${name} lacks ${place}`);
+    if (own === undefined) continue;
+    check(ownKind === kind, `${name}: ${place} is a ${ownKind}, in English a ${kind}`);
+    check(own !== text || same.test(text), `${name}: ${place} is in English: ${text}`);
+  }
+  for (const place of table.keys()) check(english.has(place), `en lacks ${place} of ${name}`);
+}
+for (const [name, table] of tables)
+  for (const [place, [text]] of table) check(text.trim() === text && text.length > 0, `${name}: ${place} is empty or has blanks at its ends`);
+
+// What scripts use, and what stands in them beside that.
+const top = new Set(Object.keys(languages.en)), used = new Set();
+const technical = /^(use strict|input:checked|allow-scripts allow-downloads allow-popups|study\.toml|data\..*|Bearer .*|Content-Type|scroll whole|callout (warn|fail)|choices question| label label-.*|\/api\/.*|M\$\{.*)$/;
+for (const name of readdirSync(scripts).filter((each) => each.endsWith('.js') && !each.startsWith('strings_'))) {
+  const code = read(name).replace(/^\s*\/\/.*$/gm, '').replace(/ \/\/ .*$/gm, '');
+  for (const [, key] of code.matchAll(/\bstrings\.([A-Za-z_]+)/g)) {
+    used.add(key);
+    check(top.has(key), `${name}: strings.${key} is in no table`);
+  }
+  if (code.includes('strings[kind]')) for (const key of ['tables', 'studies', 'results']) used.add(key);
+  for (const [, plain, filled] of code.matchAll(/'((?:[^'\\\n]|\\.)*)'|`((?:[^`\\]|\\.)*)`/g)) {
+    const text = plain ?? filled.replace(/\$\{[^}]*\}/g, '');
+    check(technical.test(text) || !/[A-Z][a-z]+|[a-z]+ [a-z]+|[a-z]{2}[.!?:]/.test(text) || /strings\b/.test(filled ?? ''), `${name}: not in the tables: ${text}`);
+  }
+  for (const [found] of code.matchAll(/(element\('[a-z]+', \{[^}]*\}, |textContent = |['"]aria-label['"]: |placeholder: |title: |button\(|field\()'[^']*[A-Za-z][^']*'/g)) check(false, `${name}: not in the tables: ${found}`);
+}
+const markup = read('workbench.html').replace(/<[^>]*>/g, '').replace(/\s+/g, ' ').trim();
+check(markup === 'wearwell', `workbench.html: not in the tables: ${markup}`);
+check(!/aria-label=|title=|alt=|placeholder=/.test(read('workbench.html')), 'workbench.html: a label is not in the tables');
+for (const key of top) check(used.has(key) || key === 'language', `strings.${key} is used by no script`);
+
+for (const each of faults) console.log(each);
+process.exit(faults.length ? 1 : 0);
