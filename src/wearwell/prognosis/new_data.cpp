@@ -13,6 +13,7 @@
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/prognosis/carry.h"
+#include "wearwell/prognosis/doubted_rows.h"
 #include "wearwell/prognosis/matched_rows.h"
 
 namespace wearwell::prognosis {
@@ -174,7 +175,7 @@ class Joining {
       : table_(std::move(table)), roles_(std::move(roles)), repeated_(repeated) {}
 
   void add(const Table& fresh, const std::vector<std::string>& needed, JoinedData& joined) {
-    refuse_doubt(fresh);
+    refuse_doubted_rows(fresh, table_);
     const MatchedRows matched = matched_rows(fresh, roles_, needed, table_);
     for (const std::string& note : matched.notes) joined.notes.push_back(note);
     Places given;
@@ -202,23 +203,6 @@ class Joining {
   const Table& table() const { return table_; }
 
  private:
-  // Of a monitor's export, unless the study has such a column itself.
-  void refuse_doubt(const Table& fresh) const {
-    constexpr const char* name = "doubt";
-    if (!places_of(table_, {name}).empty()) return;
-    for (const std::size_t c : places_of(fresh, {name})) {
-      const Column& column = fresh.columns[c];
-      if (!column.is_number) continue;
-      const auto doubted = std::count_if(column.numbers.begin(), column.numbers.end(),
-                                         [](double x) { return x == 1; });
-      if (doubted == 0) continue;
-      throw InputError(fmt::format(
-          "{}: {} of {} rows have doubt = 1: the monitor found that these readings do not follow "
-          "the "
-          "forecast of their unit. Remove these rows, or the column to learn from all of them",
-          fresh.source, doubted, fresh.rows));
-    }
-  }
   [[noreturn]] void refuse(const Table& fresh, std::size_t row, std::size_t there) const {
     throw InputError(fmt::format(
         "{}, row {} equals {}: it may be the same {} again, or another one with an equal result; "

@@ -21,10 +21,10 @@ bool depends_on(const formula::Graph& graph, int root, const ChangingStress& str
 
 void require_scale_alone(const TomlReader& likelihood, const char* key, const std::string& scale,
                          const formula::WrittenGraph& written,
-                         const std::vector<formula::Wanted>& wanted, const ChangingStress& stress) {
+                         const std::vector<formula::Wanted>& wanted,
+                         const std::set<std::size_t>& may, const ChangingStress& stress) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i].name == scale || wanted[i].name == "threshold") continue;
-    if (depends_on(written.graph, written.roots[i], stress))
+    if (!may.contains(i) && depends_on(written.graph, written.roots[i], stress))
       likelihood.fail(key, fmt::format("{} depends on '{}'; cumulative exposure needs a "
                                        "distribution of which only the {} does",
                                        wanted[i].name, stress.name, scale));

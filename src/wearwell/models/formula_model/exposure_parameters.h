@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,11 @@ struct ChangingStress {
 bool depends_on(const formula::Graph& graph, int root, const ChangingStress& stress);
 
 /// Cumulative exposure (step_stress.h, ramp_stress.h) needs a distribution of which only the scale changes during
-/// the test: throws InputError at `key` of the likelihood if another parameter depends on the stress. The
-/// threshold is that of the exposure.
+/// the test: throws InputError at `key` of the likelihood if a parameter depends on the stress that is
+/// not among those that `may` (places in `wanted`: the scale, and the threshold of the exposure).
 void require_scale_alone(const TomlReader& likelihood, const char* key, const std::string& scale,
                          const formula::WrittenGraph& written,
-                         const std::vector<formula::Wanted>& wanted, const ChangingStress& stress);
+                         const std::vector<formula::Wanted>& wanted,
+                         const std::set<std::size_t>& may, const ChangingStress& stress);
 
 }  // namespace wearwell::formula_model

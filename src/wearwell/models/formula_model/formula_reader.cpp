@@ -380,8 +380,13 @@ class Reader {
     } catch (const InputError& error) {
       fail_at_place(root_, table, error.what());
     }
+    std::set<std::size_t> may;
+    for (std::size_t i = 0; i < given.family_parameter.size(); ++i) {
+      const std::string_view name = life.form->family_parameters[given.family_parameter[i]].name;
+      if (name == scale || name == "threshold") may.insert(i);
+    }
     for (const ChangingStress& each : stresses_of_steps(life.column))
-      require_scale_alone(table, "steps", scale, *written, given.wanted, each);
+      require_scale_alone(table, "steps", scale, *written, given.wanted, may, each);
   }
 
   void read_use_rate() {

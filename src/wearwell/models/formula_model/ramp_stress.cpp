@@ -219,7 +219,8 @@ std::string threshold_of(const TomlReader& likelihood, RampStress& ramp,
   for (const int root : written.roots)
     if (written.graph[root].by_path)
       likelihood.fail("ramp", "is not possible with expressions that depend on earlier rows");
-  require_scale_alone(likelihood, "ramp", ramp.parameter, written, wanted, {ramp.stress, column});
+  require_scale_alone(likelihood, "ramp", ramp.parameter, written, wanted, {scale},
+                      {ramp.stress, column});
   if (!depends_on(written.graph, written.roots[scale], {ramp.stress, column}))
     likelihood.fail("ramp", fmt::format("{} of '{}' does not depend on '{}'", ramp.parameter,
                                         likelihood.required_text(ramp.parameter), ramp.stress));
