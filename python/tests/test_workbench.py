@@ -4,6 +4,7 @@ import contextlib
 import json
 import subprocess
 import sys
+import threading
 import time
 import urllib.request
 
@@ -28,7 +29,17 @@ def opened(folder):
             with urllib.request.urlopen(request, timeout=300) as answer:
                 return json.load(answer)
 
+        ended = threading.Event()
+
+        def stay():  # the program ends a minute after its page is closed
+            while not ended.wait(10):
+                ask("/api/session")
+
+        page = threading.Thread(target=stay, daemon=True)
+        page.start()
         yield ask
+        ended.set()
+        page.join()
     finally:
         process.terminate()
         process.wait(30)

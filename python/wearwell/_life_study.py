@@ -67,6 +67,8 @@ def _conditions(columns, by, stress, given):
         value = given.pop(heading, None)
         if heading == by:
             levels = columns.levels(by)
+            if not levels:
+                raise InputError(f"by: column '{by}' is empty; it names the group of each row")
             value = levels[0] if value is None else str(value)
             if value not in levels:
                 raise InputError(f"given: column '{by}' has no '{value}' ({', '.join(levels[:10])})")
@@ -167,7 +169,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         ``mean_life``; ``life_ref``, at the harshest stresses, where there is a stress): lognormal, log_sd 2, median the
         largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. If few parts failed, the
         median is what the time on test per failure gives with slope 1.5, and log_sd grows with its distance from the
-        largest life (priors.md). ``slope`` of weibull:
+        largest life. ``slope`` of weibull:
         lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.
         ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5. ``SCALE_scatter`` of ln life between units,
         such as ``characteristic_scatter``: half-normal, scale 1.

@@ -37,7 +37,10 @@ life_size <- function(study, runouts = NULL) {
   of <- function(name, otherwise) if (is.null(study[[name]])) otherwise else study[[name]]$values
   words <- of("status", NULL)
   mode <- if (is.null(words)) of("mode", NULL)
-  runs <- function(word) is.na(word) | !nzchar(word) | word %in% runouts | tolower(word) %in% c("runout", "right", "censored", "suspended")
+  runs <- function(word) {
+    word <- iconv(as.character(word), "UTF-8", "UTF-8", sub = "?")  # what is not UTF-8 is refused where it is read
+    is.na(word) | !nzchar(word) | word %in% runouts | tolower(word) %in% c("runout", "right", "censored", "suspended")
+  }
   if (is.null(study$life)) {
     upper <- of("upper", NA_real_)
     open <- is.na(upper)

@@ -87,7 +87,11 @@ failures_of <- function(each, what) {
   heading <- each$heading
   if (length(dim(values)) > 1 || is.character(values)) column_values(values, place_of(each))
   if (is.factor(values)) values <- as.character(values)
-  if (is.character(values)) return(values)
+  if (is.character(values)) {
+    empty <- which(is.na(values) | grepl("^[ \t]*$", values, useBytes = TRUE))
+    if (length(empty)) stop_input(place_of_row(each, empty[1]), ": no value; state how this test ended")
+    return(values)
+  }
   if (is.numeric(values) && !is.object(values) || is.logical(values)) {
     if (anyNA(values)) stop_input(place_of_row(each, which(is.na(values))[1]), ": a value is missing; ", what, " needs one")
     if (says_stopped(heading) && !says_failure(heading) && is_name(heading)) {

@@ -66,7 +66,7 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
   EXPECT_EQ(csv.exit_code, 0);
   EXPECT_THAT(content(folder() / "r.csv"),
               HasSubstr("machine,key,time,received,depth [um],force [N],distance "
-                        "[km]\nM00,1,2023-11-14T22:14:20.000Z,"));
+                        "[km],doubt\nM00,1,2023-11-14T22:14:20.000Z,"));
   EXPECT_EQ(run_wearwell("monitor '" + config.string() +
                          "' --once --json < /dev/null | grep -c '\"all\":3'")
                 .out,

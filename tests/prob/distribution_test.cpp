@@ -107,7 +107,7 @@ Distribution any_distribution() {
                                                of("generalized-gamma", {1, 0.6, -0.5}),
                                                of("generalized-gamma", {1, 0.6, 0.02}),
                                                of("birnbaum-saunders", {1, 0.8}),
-                                               of("frechet", {1, 2.5}),
+                                               of("frechet", {0.01, 2.5}),
                                                of("exponentiated-weibull", {1, 1.5, 2}),
                                                Flat{},
                                                Uniform{},

@@ -86,6 +86,7 @@ TextLayout layout_of(const TableFile& file, bool skip_bad) {
     const std::optional<char> decimal = decimal_of(file, heading);
     if (!decimal) throw;
     layout.decimal_marks = std::string(1, *decimal);
+    layout.plain = *decimal == '.';
     return layout;
   }
 }

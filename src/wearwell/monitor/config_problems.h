@@ -24,8 +24,11 @@ class Problems {
     } catch (const InputErrors& errors) {
       for (const std::string& each : errors.all) add(each);
     } catch (const InputError& error) {
-      add(example.empty() ? error.what()
-                          : fmt::format("{}; for example: {}", error.what(), example));
+      const std::string what = error.what();
+      const bool has_excerpt = what.find("\n    ") != what.npos;
+      add(example.empty() || what.find("\n    right: ") != what.npos ? what
+          : has_excerpt ? fmt::format("{}\n    right: {}", what, example)
+                        : fmt::format("{}; for example: {}", what, example));
     }
     return false;
   }

@@ -3,7 +3,8 @@
 (() => {
   const {element, quantity, clock} = wearwell;
   const meanings = {
-    installed: 'a part goes into service', replaced: 'a new part is installed', repaired: 'repaired in part', removed: 'taken out of service', failed: 'failed', sensor: 'sensor exchanged',
+    replaced: 'a new part is installed', repaired: 'repaired in part', removed: 'taken out of service', failed: 'failed',
+    sensor: 'sensor exchanged', installed: 'a part goes into service',
     corrected: 'reading corrected', withdrawn: 'reading withdrawn', cancelled: 'event cancelled',
     acknowledged: 'alarm acknowledged',
   };

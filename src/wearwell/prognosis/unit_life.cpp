@@ -242,6 +242,16 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
   return life;
 }
 
+// A wrong value of --survived is an error of the option, not of the study that carries it; empty
+// if the message is about anything else.
+std::string problem_of_survived(const std::string& message) {
+  const std::string key = "predict.survived: ";
+  const std::size_t at = message.find(key);
+  if (at == message.npos) return {};
+  const std::string why = message.substr(at + key.size());
+  return "--survived: " + why.substr(0, why.find('\n'));
+}
+
 }  // namespace
 
 std::vector<double> life_percentages(double risk, const std::vector<double>& shares) {
@@ -313,7 +323,14 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   std::vector<std::pair<std::string, std::string>> keys;
   if (distribution && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
-  auto asked = read(with_wishes(source, keys));
+  std::unique_ptr<const Study> asked;
+  try {
+    asked = read(with_wishes(source, keys));
+  } catch (const InputError& error) {
+    const std::string problem = problem_of_survived(error.what());
+    if (problem.empty()) throw;
+    throw InputError(problem);
+  }
   const PosteriorStudy& fitted = require_posterior_study(*asked);
   const std::vector<QuantityRequest> requests = lives_asked(fitted);
   if (requests.empty()) refuse_repairable(fitted, fitted.title);

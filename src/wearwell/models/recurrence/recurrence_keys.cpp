@@ -21,6 +21,8 @@ StudyKeys study_keys() {
             {"data.columns.count", "\"count\"",
              "number of failures of the unit at that age, if a row is several; needs "
              "`data.rounding`; 1, 0 or empty at an end of observation"},
+            {"data.unused", "[\"count\"]",
+             "headings of columns that look like a number of failures but are not"},
             {"data.columns.start", "{ column = \"start\", unit = \"day\" }",
              "age at which observation of the unit began (0)"},
             {"data.end", "\"last failure\"",
