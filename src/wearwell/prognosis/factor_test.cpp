@@ -83,8 +83,9 @@ void FactorTest::add(const Tracker& tracker, const WatchedColumns& columns, cons
     if (other.unit) other.unit->update(other_reading, readings(column, i, taken_.size()));
     const double level = log_probability(*fresh, other_reading, column) - as_new;
     other.is_nearer = level >= nearer;
-    if (!(level > farther)) other.log_evidence = -std::numeric_limits<double>::infinity();
-    if (!is_alive(other)) other.unit.reset();
+    if (level > farther && is_alive(other)) continue;
+    other.log_evidence = -std::numeric_limits<double>::infinity();  // also in place of NaN
+    other.unit.reset();
   }
   if (any || !taken_.empty()) taken_.push_back(watched);
   judge(tracker, column, value);
