@@ -24,7 +24,6 @@
 #include "wearwell/present/table.h"
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/known_lives.h"
-#include "wearwell/prognosis/life_bounds.h"
 #include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/tracked_life.h"
 #include "wearwell/prognosis/unit_life.h"
@@ -125,13 +124,9 @@ int run_life(const LifeOptions& options, Models models) {
   if (!options.confidence.empty()) throw InputError("--confidence: needs --against");
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
                      {{"--output", options.output}, {"--path", options.path}});
-  prognosis::LifeQuestion question;
-  question.unit = printable(options.unit);  // read as tables are
-  if (!options.survived.empty()) question.survived = options.survived;
-  if (!options.horizon.empty()) question.horizon = options.horizon;
-  if (!options.risk.empty()) question.risk = prognosis::tolerated_risk(options.risk);
-  const prognosis::LifeBounds bounds = prognosis::read_life_bounds(options.level, options.sides);
-  if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
+  const auto [question, bounds] =
+      prognosis::read_life_request({options.unit, options.survived, options.horizon, options.risk,
+                                    options.level, options.sides});
   prognosis::CarriedState state = read_carried(options.result);
   const LifeAnswer answer = life_asked(options, models, state, question);
   const UnitLife& life = answer.life;

@@ -22,7 +22,6 @@
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/known_lives.h"
-#include "wearwell/prognosis/life_bounds.h"
 #include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/lives_against_report.h"
 #include "wearwell/prognosis/new_data.h"
@@ -181,21 +180,15 @@ Work decide(PlanArguments& arguments, const Subject& subject, const Monitor&) {
 
 // `wearwell life` without readings: that of a new unit or of one of the data.
 Work unit_life(PlanArguments& arguments, const Subject& subject, const Monitor&) {
-  prognosis::LifeQuestion question;
-  std::string survived, horizon, risk, level, sides;
-  arguments.text("unit", question.unit);
-  arguments.text("survived", survived);
-  arguments.text("horizon", horizon);
-  arguments.text("risk", risk);
-  arguments.text("level", level);
-  arguments.text("sides", sides);
-  return [=, &subject]() mutable {
-    question.unit = printable(question.unit);  // read as tables are
-    if (!survived.empty()) question.survived = survived;
-    if (!horizon.empty()) question.horizon = horizon;
-    if (!risk.empty()) question.risk = prognosis::tolerated_risk(risk);
-    const prognosis::LifeBounds bounds = prognosis::read_life_bounds(level, sides);
-    if (bounds.asked) question.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
+  prognosis::LifeRequest request;
+  arguments.text("unit", request.unit);
+  arguments.text("survived", request.survived);
+  arguments.text("horizon", request.horizon);
+  arguments.text("risk", request.risk);
+  arguments.text("level", request.level);
+  arguments.text("sides", request.sides);
+  return [=, &subject] {
+    const auto [question, bounds] = prognosis::read_life_request(request);
     const Fitted fit{subject.run, subject.path};
     const prognosis::CarriedState state = state_of(fit);
     prognosis::require_posterior(state, fit.name());

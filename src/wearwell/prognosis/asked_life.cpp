@@ -27,6 +27,12 @@ void refuse_two_meanings(const CarriedState& state, const std::string& name,
                     printable(name)));
 }
 
+double tolerated_risk(const std::string& text) {
+  const double risk = option_value("--risk", text, "1", Allowed::positive);
+  if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
+  return risk;
+}
+
 }  // namespace
 
 void require_posterior(const CarriedState& state, const std::string& result) {
@@ -38,10 +44,17 @@ void require_posterior(const CarriedState& state, const std::string& result) {
                     result));
 }
 
-double tolerated_risk(const std::string& text) {
-  const double risk = option_value("--risk", text, "1", Allowed::positive);
-  if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
-  return risk;
+ReadLifeRequest read_life_request(const LifeRequest& request) {
+  ReadLifeRequest read;
+  LifeQuestion& question = read.question;
+  question.unit = printable(request.unit);  // read as tables are
+  if (!request.survived.empty()) question.survived = request.survived;
+  if (!request.horizon.empty()) question.horizon = request.horizon;
+  if (!request.risk.empty()) question.risk = tolerated_risk(request.risk);
+  read.bounds = read_life_bounds(request.level, request.sides);
+  const double below = read.bounds.levels.below();
+  if (read.bounds.asked) question.shares = {below, 1 - below};
+  return read;
 }
 
 std::optional<AskedPart> asked_part(const CarriedState& state, const std::string& result,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wearwell/prognosis/carried_state.h"
+#include "wearwell/prognosis/life_bounds.h"
 #include "wearwell/prognosis/tracker.h"
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/study/model.h"
@@ -30,7 +31,15 @@ UnitLife asked_life(const CarriedState& state, const std::string& result, Models
 /// Throws InputError for a result without a posterior, a clutch campaign; `result`: its name.
 void require_posterior(const CarriedState& state, const std::string& result);
 
-/// The value of --risk: "1 %". Throws InputError that names the option.
-double tolerated_risk(const std::string& text);
+/// A question about a life as its options are written; what is empty is not asked.
+struct LifeRequest {
+  std::string unit, survived, horizon, risk, level, sides;
+};
+struct ReadLifeRequest {
+  LifeQuestion question;
+  LifeBounds bounds;
+};
+/// Throws InputError that names the option: "--risk".
+ReadLifeRequest read_life_request(const LifeRequest& request);
 
 }  // namespace wearwell::prognosis

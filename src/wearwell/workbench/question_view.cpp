@@ -14,7 +14,6 @@
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/decisions_tables.h"
-#include "wearwell/prognosis/life_bounds.h"
 #include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/result_lives.h"
 #include "wearwell/workbench/command_line.h"
@@ -107,17 +106,10 @@ prognosis::DecisionRequest request_of(const nlohmann::json& question) {
 ordered_json life_answer(const std::filesystem::path& folder, Models models,
                          const nlohmann::json& question) {
   try {
-    prognosis::LifeQuestion asked;
-    asked.unit = field_text(question, "unit");
-    const std::string survived = field_text(question, "survived");
-    const std::string horizon = field_text(question, "horizon");
-    const std::string risk = field_text(question, "risk");
-    if (!survived.empty()) asked.survived = survived;
-    if (!horizon.empty()) asked.horizon = horizon;
-    if (!risk.empty()) asked.risk = prognosis::tolerated_risk(risk);
-    const prognosis::LifeBounds bounds =
-        prognosis::read_life_bounds(field_text(question, "level"), field_text(question, "sides"));
-    if (bounds.asked) asked.shares = {bounds.levels.below(), 1 - bounds.levels.below()};
+    const auto [asked, bounds] = prognosis::read_life_request(
+        {field_text(question, "unit"), field_text(question, "survived"),
+         field_text(question, "horizon"), field_text(question, "risk"),
+         field_text(question, "level"), field_text(question, "sides")});
     const prognosis::CarriedState state = prognosis::read_state(folder);
     prognosis::require_posterior(state, folder.filename().string());
     const prognosis::UnitLife life =
