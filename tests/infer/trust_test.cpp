@@ -143,6 +143,38 @@ TEST(Tails, AProperPriorWithAPoleIsProper) {
   }
 }
 
+// Lives of two groups with one Weibull shape, flat priors: towards a shape of 0 the likelihood is about shape^r exp(-n) for scales up to
+// e^(1/shape), so the integral over both scales is infinite. For a given scale there is no mode of the others.
+TEST(Tails, FlatPriorsOfTwoWeibullGroupsAreImproper) {
+  const std::vector<std::vector<double>> lives = {{312, 480, 510, 640}, {150, 210, 260, 330, 420}};
+  const Parameter first = positive_parameter("first", Flat{}),
+                  second = positive_parameter("second", Flat{});
+  Parameter shape = positive_parameter("shape", Flat{});
+  std::vector<Parameter> parameters = {first, second, shape};
+  parameters[0].start = 500;
+  parameters[1].start = 300;
+  parameters[2].start = 2;
+  const Posterior posterior(
+      parameters, std::make_shared<Formula>(3, [=](auto x, std::span<double> gradient) {
+        double sum = 0;
+        std::fill(gradient.begin(), gradient.end(), 0.0);
+        for (int group = 0; group < 2; ++group) {
+          for (const double t : lives[static_cast<std::size_t>(group)]) {
+            const double log_ratio = std::log(t / x[group]), power = std::exp(x[2] * log_ratio);
+            sum += std::log(x[2]) + x[2] * log_ratio - std::log(t) - power;
+            gradient[group] += x[2] / x[group] * (power - 1);
+            gradient[2] += 1 / x[2] + log_ratio * (1 - power);
+          }
+        }
+        return sum;
+      }));
+  const auto found = tails(posterior, find_mode(posterior, posterior.start()));
+  EXPECT_FALSE(all_integrable(found));
+  for (const Tail& tail : found) {
+    EXPECT_TRUE(tail.integrable() || (tail.upward && tail.parameter < 2)) << tail.parameter;
+  }
+}
+
 // The two traps: lognormal with unbounded sigma, at any number of data sets, and normal with three.
 TEST(Trust, ImproperPosteriorsFail) {
   for (const std::size_t rows : {3, 4, 5, 6}) {

@@ -36,6 +36,7 @@ ExactPosterior BoxIntegrator::result() {
   exact.evaluations = evaluations_;
   exact.error = error_ / control_;
   exact.highest = reference_ + highest_;
+  if (!failure_.empty()) return exact;
   std::vector<std::pair<const Cell*, std::vector<std::size_t>>> kept;
   Eigen::Index n = 0;
   for (const Cell& cell : cells_) {

@@ -43,8 +43,7 @@ struct ExactPosterior {
   double highest = 0;        ///< log density (on the real line) of the highest node
   long evaluations = 0;      ///< of the density
   bool along_ridge = false;  ///< its lattice follows the ridge of a funnel (lattice_chart.h)
-  std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
-                        ///< not to be trusted
+  std::string failure;  ///< empty when the mass converged; else what happened, without nodes
   bool contradicted = false;  ///< it failed because of what the walk along the ridge met
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "wearwell/infer/funnel.h"
@@ -60,18 +61,27 @@ double prior_index(const Parameter& parameter, bool upward, bool towards_bound) 
   return (upward ? 1 : -1) * log_density(prior, x).slope * distance;
 }
 
+// A parameter along which the density rises beyond that of the mode, out of reach: without a proper
+// prior its integral is infinite. `slope` is that of the log density on the real line.
+struct Escape {
+  int parameter = 0;
+  bool outward = true;  // on the real line
+  double slope = 0;
+};
+
 // The stations of the walk: logarithms of the distance (from 0, or to the bound), of the
 // parameter's marginal density, and of the likelihood.
 struct Walk {
   std::vector<double> log_distance, log_density, log_likelihood;
-  std::vector<bool> converged;  // whether the conditional mode exists
-  bool lost = false;            // the conditional mode or finite numbers were lost
-  bool vanished = false;        // the density vanished
-  bool left = false;            // another parameter left the range
+  std::vector<bool> converged;   // whether the conditional mode exists
+  bool lost = false;             // the conditional mode or finite numbers were lost
+  bool vanished = false;         // the density vanished
+  bool left = false;             // another parameter left the range
+  std::optional<Escape> escape;  // if it left towards a higher density than that of the mode
 
   // Without the stations that have no conditional mode.
   Walk sound() const {
-    Walk kept{{}, {}, {}, {}, lost, vanished, left};
+    Walk kept{{}, {}, {}, {}, lost, vanished, left, escape};
     for (std::size_t i = 0; i < converged.size(); ++i) {
       if (!converged[i]) continue;
       kept.log_distance.push_back(log_distance[i]);
@@ -170,16 +180,22 @@ bool levels_out(Walk& walk) {
   return true;
 }
 
-// Other parameters with a bound, whose real line counts factors of e.
-bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
-                     const Eigen::VectorXd& rest) {
+// The other parameter that is farthest from the mode, if that is out of reach. Only those with a
+// bound count: their real line has factors of e.
+std::optional<Escape> out_of_reach_at(const Posterior& posterior, const Mode& mode, int i,
+                                      const Eigen::VectorXd& rest) {
+  std::optional<Escape> farthest;
+  double most = out_of_reach;
   for (Eigen::Index j = 0; j < rest.size(); ++j) {
     const Eigen::Index from = j + (j >= i);
     const Distribution& prior = parameter_of(posterior, static_cast<int>(from)).prior;
     const bool bounded = std::isfinite(prior.lower) || std::isfinite(prior.upper);
-    if (bounded && !(std::abs(rest[j] - mode.position[from]) < out_of_reach)) return true;
+    const double way = rest[j] - mode.position[from];
+    if (!bounded || std::abs(way) < most) continue;
+    farthest = Escape{static_cast<int>(from), way > 0};
+    most = std::abs(way);
   }
-  return false;
+  return farthest;
 }
 
 // `to_the_end`: continues after the density has vanished.
@@ -204,8 +220,14 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
       if (!walk.vanished) (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
       break;
     }
-    if (is_out_of_reach(posterior, mode, i, station.rest)) {
+    if (std::optional<Escape> away = out_of_reach_at(posterior, mode, i, station.rest)) {
       walk.left = true;
+      const double rise = station.log_density - posterior.value(view(mode.position));
+      if (rise > 0 && station.log_marginal > top) {
+        const int j = away->parameter;
+        away->slope = rise / std::abs(slice.whole(station.rest)[j] - mode.position[j]);
+        walk.escape = away;
+      }
       break;
     }
     if (tail.highest_at.size() == 0 || station.log_density > tail.highest) {
@@ -237,7 +259,8 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
   return walk;
 }
 
-Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool proper) {
+Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool proper,
+             std::optional<Escape>& escape) {
   const Parameter& parameter = parameter_of(posterior, i);
   const Distribution& prior = parameter.prior;
   // On a half-line z is minus the log of the closeness to the bound; below an upper bound it runs
@@ -257,6 +280,7 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   const bool to_the_end = tail.towards_bound && !prior.proper && of_prior > 1 - slack;
   const bool may_slow = !tail.towards_bound && !proper;
   const Walk all = walk(posterior, mode, tail, outward, to_the_end), way = all.sound();
+  escape = all.escape;
   tail.index = tail.towards_bound ? -infinity : infinity;
   if (!way.vanished && way.stations() >= enough) {
     tail.index = way.index(may_slow);
@@ -325,9 +349,18 @@ std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
   const bool proper = all_proper(posterior);
   // Walks are independent; they dominate the time for an expensive likelihood.
   std::vector<Tail> all(2 * static_cast<std::size_t>(posterior.dimension()));
+  std::vector<std::optional<Escape>> escapes(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, proper);
+    all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, proper, escapes[k]);
   });
+  for (const std::optional<Escape>& escape : escapes) {
+    if (!escape || parameter_of(posterior, escape->parameter).prior.proper) continue;
+    Tail& tail = all[2 * static_cast<std::size_t>(escape->parameter) + (escape->outward ? 1 : 0)];
+    if (!tail.known || !tail.integrable()) continue;
+    // Per factor of e the density of the parameter itself changes by one more, or one less.
+    tail.index = tail.towards_bound ? 1 + escape->slope : 1 - escape->slope;
+    tail.known = true;
+  }
   return all;
 }
 
