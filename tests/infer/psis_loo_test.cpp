@@ -10,6 +10,7 @@
 
 #include "infer/test_posteriors.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/infer/left_out.h"
 #include "wearwell/math/view.h"
 #include "wearwell/prob/standard_distribution.h"
 
@@ -280,6 +281,24 @@ TEST(PsisLoo, CountsAreRepetitions) {
   EXPECT_NEAR(counted.elpd(), repeated.elpd(), 1e-12);
   EXPECT_NEAR(counted.se(), repeated.se(), 1e-12);
   EXPECT_NEAR(counted.p_loo(), repeated.p_loo(), 1e-12);
+}
+
+// The density of a unit with many readings in metres is e^400 and more: another unit of y shifts both means of log p by a constant.
+TEST(LeftOutSums, DoNotDependOnTheUnitOfTheReadings) {
+  const std::vector<double> weights = {0.2, 0.5, 0.3}, log_p = {-1.5, 0.25, -3};
+  double with = 0, inverse = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    with += weights[i] * std::exp(log_p[i]);
+    inverse += weights[i] * std::exp(-log_p[i]);
+  }
+  for (const double shift : {-3000.0, -400.0, 0.0, 400.0, 3000.0}) {
+    LeftOut first, second;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      (i < 2 ? first : second).add(std::log(weights[i]), log_p[i] + shift, nullptr);
+    first.add(second);
+    EXPECT_NEAR(first.lpd() - shift, std::log(with), 1e-11) << shift;
+    EXPECT_NEAR(first.elpd() - shift, -std::log(inverse), 1e-11) << shift;
+  }
 }
 
 // By hand: differences 1, 2, 6 have the standard deviation sqrt(7).

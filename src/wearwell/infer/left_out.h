@@ -10,11 +10,12 @@
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/infer/loo.h"
+#include "wearwell/math/log_sum_exp.h"
 
 namespace wearwell {
 
 /// Sums over weighted posterior points for the leave-one-out prediction of one term: w/p, with the
-/// term's density p at a point of weight w. Relative to the largest so far.
+/// term's density p at a point of weight w, relative to the largest so far; and the sum of w p.
 class LeftOut {
  public:
   void add(double log_weight, double log_p, const NormalScore* score) {
@@ -23,7 +24,7 @@ class LeftOut {
     rescale(std::max(top_, log_inverse));
     const double weight = std::exp(log_inverse - top_);
     sum_ += weight;
-    with_ += std::exp(log_weight + log_p - top_);
+    with_.add(log_weight + log_p);
     if (!score) return;
     if (score->exact()) {
       const double beyond = normal_cdf(-std::abs(score->high));
@@ -40,26 +41,27 @@ class LeftOut {
     rescale(std::max(top_, other.top_));
     const double factor = std::exp(other.top_ - top_);
     sum_ += factor * other.sum_;
-    with_ += factor * other.with_;
+    with_.add(other.with_);
     below_ += factor * other.below_;
     above_ += factor * other.above_;
   }
 
   double log_sum() const { return top_ + std::log(sum_); }  ///< log of the sum of w/p
   double elpd() const { return -log_sum(); }
-  double lpd() const { return top_ + std::log(with_); }
+  double lpd() const { return with_.value(); }  ///< log of the sum of w p
   double tail() const { return std::min(1.0, 2 * std::min(below_, above_) / sum_); }
 
  private:
   void rescale(double top) {
     if (top == top_) return;
     const double factor = std::exp(top_ - top);
-    for (double* each : {&sum_, &with_, &below_, &above_}) *each *= factor;
+    for (double* each : {&sum_, &below_, &above_}) *each *= factor;
     top_ = top;
   }
 
   double top_ = -std::numeric_limits<double>::infinity();
-  double sum_ = 0, with_ = 0, below_ = 0, above_ = 0;
+  double sum_ = 0, below_ = 0, above_ = 0;
+  RunningLogSum with_;  // its scale is another: w p and w/p differ by p squared
 };
 
 /// The sums of each term over all points, in parts of fixed size, so that they do not depend on

@@ -15,4 +15,25 @@ inline double log_sum_exp(std::span<const double> values) {
   return highest + std::log(sum);
 }
 
+/// The same sum, value by value: relative to the largest so far.
+class RunningLogSum {
+ public:
+  void add(double value) {
+    if (value == -INFINITY) return;
+    if (value > top_) {
+      sum_ = sum_ * std::exp(top_ - value) + 1;
+      top_ = value;
+    } else {
+      sum_ += std::exp(value - top_);
+    }
+  }
+  void add(const RunningLogSum& other) {
+    if (other.sum_ > 0) add(other.value());
+  }
+  double value() const { return top_ + std::log(sum_); }  ///< minus infinity without values
+
+ private:
+  double top_ = -INFINITY, sum_ = 0;
+};
+
 }  // namespace wearwell

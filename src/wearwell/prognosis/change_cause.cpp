@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "wearwell/present/number.h"
 
@@ -17,8 +18,25 @@ using Since = std::span<const ReadingSince>;
 constexpr double most_cost = 25;  // of one deviation, in squares of its spread
 constexpr double near = 4;        // spreads: within them a reading agrees
 constexpr double parameter = 6;   // the cost of an estimated number
-constexpr double choice = 3.6;    // of one of six factors, 2 ln 6
-constexpr std::array factors = {1000.0, 25.4, 10.0, 0.1, 1 / 25.4, 0.001};
+constexpr double choice = 5.3;    // of one of fourteen factors, 2 ln 14
+
+// Units that are taken for each other.
+struct UnitPair {
+  double factor;
+  const char *larger, *smaller;
+};
+constexpr std::array unit_pairs = {UnitPair{1e6, "m", "um"},  UnitPair{25400, "inches", "um"},
+                                   UnitPair{1e4, "cm", "um"}, UnitPair{1000, "mm", "um"},
+                                   UnitPair{100, "m", "cm"},  UnitPair{25.4, "inches", "mm"},
+                                   UnitPair{10, "cm", "mm"}};
+constexpr std::array<double, 2 * unit_pairs.size()> factors = [] {
+  std::array<double, 2 * unit_pairs.size()> all{};
+  for (std::size_t i = 0; i < unit_pairs.size(); ++i) {
+    all[i] = unit_pairs[i].factor;
+    all[all.size() - 1 - i] = 1 / unit_pairs[i].factor;
+  }
+  return all;
+}();
 
 double cost(double deviation, double spread) {
   const double z = deviation / spread;
@@ -134,11 +152,11 @@ std::span<const double> unit_factors() {
 }
 
 std::string unit_change(double factor) {
-  const bool small = factor > 1;
-  const double size = small ? factor : 1 / factor;
-  if (size == 1000) return small ? "such as mm in place of um" : "such as um in place of mm";
-  if (size == 10) return small ? "such as cm in place of mm" : "such as mm in place of cm";
-  return small ? "inches in place of mm" : "mm in place of inches";
+  for (const auto& [size, larger, smaller] : unit_pairs) {
+    if (factor == size) return fmt::format("such as {} in place of {}", larger, smaller);
+    if (factor == 1 / size) return fmt::format("such as {} in place of {}", smaller, larger);
+  }
+  throw std::logic_error("unit_change: not one of unit_factors()");
 }
 
 std::string wrong_unit(double factor) {
@@ -146,7 +164,7 @@ std::string wrong_unit(double factor) {
 }
 
 std::string factor_text(double factor) {
-  return factor < 1 ? fmt::format("1/{:g}", 1 / factor) : fmt::format("{:g}", factor);
+  return factor < 1 ? fmt::format("1/{:.7g}", 1 / factor) : fmt::format("{:.7g}", factor);
 }
 
 ChangeCause cause_of(Since since, double before, const std::optional<AsNew>& as_new) {

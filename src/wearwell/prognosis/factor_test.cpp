@@ -120,6 +120,7 @@ void FactorTest::judge(const Tracker& tracker, std::size_t column, double last) 
 void FactorTest::save(ByteWriter& to) const {
   to.byte(ended_);
   to.u64(seen_);
+  to.u64(count);
   for (const Other& other : others_) {
     to.number(other.log_evidence);
     to.byte(other.is_nearer);
@@ -132,6 +133,7 @@ void FactorTest::save(ByteWriter& to) const {
 void FactorTest::load(ByteReader& from, const Tracker& tracker) {
   ended_ = from.flag();
   seen_ = from.u64();
+  if (from.u64() != count) from.fail("of another version");
   for (Other& other : others_) {
     other = {};
     other.log_evidence = from.number();

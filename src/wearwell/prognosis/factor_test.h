@@ -36,7 +36,7 @@ class FactorTest {
   void load(ByteReader& from, const Tracker& tracker);
 
  private:
-  static constexpr std::size_t count = 6;  // of factors
+  static constexpr std::size_t count = 14;  // of factors
   struct Other {
     double log_evidence = 0;
     bool is_nearer = false;  // the last reading is more probable with it

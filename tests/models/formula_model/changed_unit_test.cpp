@@ -77,7 +77,7 @@ TEST(ChangedUnit, ReportsMillimetres) {
         {10.0, "by 1/10"},
         {0.1, "by 10:"},
         {25.4, "by 1/25.4"},
-        {1 / 25.4, "by 25.4: the unit has changed (inches"}}) {
+        {1 / 25.4, "by 25.4: the unit has changed (such as inches"}}) {
     const WatchedGuide other = reports(factor, 0.031, 220);
     EXPECT_TRUE(other.watch.in_doubt()) << factor;
     EXPECT_THAT(other.watch.reason(), HasSubstr(words));
@@ -117,6 +117,9 @@ TEST(ChangedUnit, ReadsInAnotherUnitFromTheFirstReadingOn) {
   std::string reason;
   for (const auto& [factor, words] :
        {std::pair(0.001, "by 1000: the unit is not that of the study (such as mm in place of um)"),
+        {1e-6, "by 1000000: the unit is not that of the study (such as m in place of um)"},
+        {1e-4, "by 10000: the unit is not that of the study (such as cm in place of um)"},
+        {0.01, "by 100:"},
         {0.1, "by 10:"},
         {1 / 25.4, "by 25.4:"},
         {10.0, "by 1/10"},

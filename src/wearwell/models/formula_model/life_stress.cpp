@@ -82,11 +82,11 @@ std::vector<double> spread_over(double low, double high) {
   return at;
 }
 
-struct Points {
+struct Markers {
   Numbers x, y;
 };
 
-void add_points(const Points& points, const char* shape, const plot::Look& look,
+void add_points(const Markers& points, const char* shape, const plot::Look& look,
                 std::vector<plot::Json>& marks) {
   if (points.x.empty()) return;
   marks.push_back(
@@ -179,7 +179,7 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
     cover(middle.back());
     cover(b10.back());
   }
-  Points failed, went_on;
+  Markers failed, went_on;
   bool dead = false;
   for (const LifeGroup& group : stress.tested) {
     for (const Response& each : group.responses) {
@@ -189,7 +189,7 @@ html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& str
         dead = true;
         continue;
       }
-      Points& points = above ? went_on : failed;
+      Markers& points = above ? went_on : failed;
       points.x.push_back(from_si(column.unit.unit, group.conditions.numbers.at(stress.column)));
       points.y.push_back(from_si(measured.unit, life));
       cover(points.y.back());
