@@ -35,8 +35,10 @@ std::string explanation(const TrackedUnit& fresh, const Reading& reading, std::s
         "the sensor, its unit or the counter of use is not that of the study, or the {} is not one "
         "of its population",
         noun);
-  return fmt::format("after multiplication by {} it fits: {}", factor_text(found),
-                     wrong_unit(found));
+  // One reading fits one of many factors easily.
+  return fmt::format(
+      "after multiplication by {} it fits: {}, or the counter of use is not that of the study",
+      factor_text(found), wrong_unit(found));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/models/formula_model/node_points.h"
+#include "wearwell/models/formula_model/unit_nodes.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -141,6 +142,82 @@ TEST(RateChange, AgreesWithGrids) {
     EXPECT_NEAR(forecast.rate_change->since50 / h, ByGrids::quantile(grids.since, 0.5), 0.15) << t;
   }
   EXPECT_GT(unit.unit->forecast().rate_change->probability, 0.8);
+}
+
+// A population that five machines leave uncertain: the rate, its scatter, the noise of readings.
+std::vector<std::vector<double>> uncertain_population() {
+  Rng rng(7, 0);
+  std::vector<std::vector<double>> all;
+  for (int i = 0; i < 256; ++i)
+    all.push_back({0.6 * std::exp(0.15 * rng.normal()), 0.35 * std::exp(0.3 * rng.normal()),
+                   0.3 * std::exp(0.15 * rng.normal())});
+  return all;
+}
+
+// The share of the remaining lives of a unit y = b t within `until`, of those that are left, and the effective number of draws: importance sampling
+// of the population, the rate, the place and the factor of its change.
+std::pair<double, double> share_within(const std::vector<std::vector<double>>& population,
+                                       const std::vector<std::pair<double, double>>& readings,
+                                       double until) {
+  constexpr int draws = 300'000;
+  const double now = readings.back().second, middle = readings[9].first / readings[9].second;
+  Rng rng(9, 0);
+  std::vector<double> log_weight, left;
+  for (int i = 0; i < draws; ++i) {
+    const auto& x = population[static_cast<std::size_t>(rng.uniform() * 256)];
+    const double u = rng.normal(), v = rng.normal(), c = (0.3 + 0.7 * rng.uniform()) * now;
+    const double log_b = std::log(middle) + 0.12 * u, log_f = std::log(3) + 0.35 * v;
+    const double b = std::exp(log_b), f = std::exp(log_f);
+    const double z = (log_b - std::log(x[0])) / x[1], g = log_f / std::log(2);
+    double log_w = 0.5 * (u * u + v * v - z * z - g * g) - std::log(x[1]) - ByGrids::hazard * c;
+    for (const auto& [y, t] : readings) {
+      const double off = (y - b * (t <= c ? t : c + f * (t - c))) / x[2];
+      log_w -= 0.5 * off * off + std::log(x[2]);
+    }
+    log_weight.push_back(log_w);
+    left.push_back((ByGrids::limit / b - c - f * (now - c)) / f);
+  }
+  std::vector<double> weight;
+  normalize(log_weight, weight);
+  double within = 0, all = 0, squares = 0;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    within += left[i] > 0 && left[i] <= until ? weight[i] : 0;
+    all += left[i] > 0 ? weight[i] : 0;
+    squares += weight[i] * weight[i];
+  }
+  return {within / all, 1 / squares};
+}
+
+// A change to three times the rate is rare under its prior: few of the particles that begin with it explain the next reading.
+TEST(RateChange, AgreesWithImportanceSamplingForManyUnits) {
+  const std::vector<std::vector<double>> population = uncertain_population();
+  std::vector<std::vector<double>> in_si = population;
+  for (auto& x : in_si) x = {x[0] * um / h, x[1], x[2] * um};
+  const Watched watched(with_change(straight), some_rows(), points(in_si));
+  Rng rng(3, 0);
+  double sum = 0;
+  int count = 0;
+  for (int u = 0; u < 12; ++u) {
+    FollowedUnit unit(*watched.tracker, "new " + std::to_string(u));
+    const double b = 0.6 * std::exp(0.2 * rng.normal());
+    std::vector<std::pair<double, double>> readings;
+    for (int i = 1; i <= 15; ++i) {
+      const double t = 0.5 * i;
+      readings.emplace_back(b * (t <= 5 ? t : 5 + 3 * (t - 5)) + 0.3 * rng.normal(), t);
+      ASSERT_TRUE(unit.update({readings.back().first * um, t * h}).counted);
+    }
+    const Forecast forecast = unit.unit->forecast();
+    if (forecast.passed > 0.5) continue;  // few lives are left to compare
+    for (const double p : {0.05, 0.5, 0.95}) {
+      const auto [exact, effective] =
+          share_within(population, readings, forecast.remaining.quantile(p) / h);
+      ASSERT_GT(effective, 300) << u;
+      EXPECT_NEAR(exact, p, 0.06) << u;
+      sum += std::abs(exact - p);
+      ++count;
+    }
+  }
+  EXPECT_LT(sum / count, 0.02);
 }
 
 TEST(RateChange, ThatIsAsGoodAsImpossibleLeavesTheForecast) {

@@ -7,6 +7,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/math/log_sum_exp.h"
 #include "wearwell/models/formula_model/node_points.h"
+#include "wearwell/models/formula_model/rate_change_moves.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -14,9 +15,8 @@ namespace {
 constexpr std::size_t proposed = 1024;  // particles that have changed since the last reading
 constexpr std::size_t least_born = 32;  // of them kept, at least
 constexpr std::size_t most_particles = 2 * RateChangeUnit::usual;
-constexpr double least_diverse = 0.5;  // of `usual`: a smaller effective number is resampled
-constexpr double of_interest = 1e-4;   // a smaller probability of a change needs no moves
-constexpr int moves = 6;
+constexpr double least_diverse = 0.5;     // of `usual`: a smaller effective number is resampled
+constexpr double of_interest = 1e-4;      // a smaller probability of a change needs no moves
 constexpr std::uint64_t seed = 20070518;  // any; streams are numbered by updates
 constexpr double hardly = 1e-4;           // TrackedUnit: a smaller p-value contradicts
 
@@ -101,25 +101,27 @@ ChangedUnits RateChangeUnit::newborn(double until, Rng& rng) const {
   return born;
 }
 
-// Multiplies weights of particles by the likelihood of a reading; returns the logarithm of that of
-// the unit without a change.
-double RateChangeUnit::weigh(const UnitReading& reading, ChangedUnits& born) {
-  for (ChangedUnits* each : {&changed_, &born}) {
-    if (each->count() == 0) continue;
-    std::vector<double> value(each->count());
-    std::vector<NodePath> after = each->paths;
-    const std::vector<double> places = each->places(reading.place);
-    shared_->rows.look(each->nodes, reading, each->paths, &after, value, nullptr, nullptr,
+// Log-likelihoods of a reading, after which the paths of the particles are.
+RateChangeUnit::Likelihoods RateChangeUnit::likelihoods(const UnitReading& reading,
+                                                        ChangedUnits& born) {
+  const auto look = [&](ChangedUnits& units) {
+    std::vector<double> value(units.count());
+    if (value.empty()) return value;
+    std::vector<NodePath> after = units.paths;
+    const std::vector<double> places = units.places(reading.place);
+    shared_->rows.look(units.nodes, reading, units.paths, &after, value, nullptr, nullptr,
                        places.data());
-    for (std::size_t i = 0; i < value.size(); ++i) each->log_weight[i] += value[i];
-    each->paths = std::move(after);
-  }
+    units.paths = std::move(after);
+    return value;
+  };
+  Likelihoods found{look(changed_), look(born), 0};
   std::vector<double> value(base_->log_weight_.size());
   shared_->tracked->rows.look(base_->nodes_.nodes, reading, base_->paths_, nullptr, value, nullptr,
                               nullptr);
   const double before = log_sum_exp(base_->log_weight_);
   for (std::size_t i = 0; i < value.size(); ++i) value[i] += base_->log_weight_[i];
-  return log_sum_exp(value) - before;
+  found.unchanged = log_sum_exp(value) - before;
+  return found;
 }
 
 // Keeps new particles in proportion to their share of all that have changed.
@@ -139,95 +141,45 @@ void RateChangeUnit::thin(ChangedUnits& born, Rng& rng) const {
   born.log_weight.assign(born.count(), mass - std::log(static_cast<double>(born.count())));
 }
 
-void RateChangeUnit::look_at_all(const std::vector<UnitReading>& all, ChangedUnits& at,
-                                 std::vector<double>& log_likelihood) const {
-  at.paths = shared_->rows.paths();
-  log_likelihood.assign(at.count(), 0);
-  std::vector<double> value(at.count());
-  std::vector<NodePath> after = at.paths;
-  for (const UnitReading& each : all) {
-    const std::vector<double> places = at.places(each.place);
-    shared_->rows.look(at.nodes, each, at.paths, &after, value, nullptr, nullptr, places.data());
-    for (std::size_t i = 0; i < value.size(); ++i) log_likelihood[i] += value[i];
-    std::swap(at.paths, after);
-  }
+// All readings along the axis, this one at the end.
+std::vector<UnitReading> RateChangeUnit::all_readings(const UnitReading& last,
+                                                      const prognosis::History& history) const {
+  std::vector<UnitReading> all = base_->all_of(history);
+  all.insert(all.begin(), base_->seen_.begin(), base_->seen_.end());
+  sort_along(all);
+  all.push_back(last);
+  return all;
 }
 
-double RateChangeUnit::log_target(std::size_t i, const ChangedUnits& at) const {
-  // None after the last reading: those are among the unchanged.
-  if (at.axis.since[i] > last_place()) return -infinity;
-  double sum = shared_->prior.log_density(at.axis.since[i], start_, at.score[i]);
-  for (const std::vector<double>& z : at.z)
-    if (!z.empty()) sum -= 0.5 * z[i] * z[i];
-  return sum;
-}
-
-// Moves of effects, place and factor of each particle by the difference of two others.
-void RateChangeUnit::move(const std::vector<UnitReading>& all, Rng& rng) {
-  const FormulaModel& model = *shared_->tracked->model;
-  const std::size_t d = model.effects.size(), count = changed_.count();
-  std::vector<Population> population;
-  PopulationAt population_at(model);
-  for (std::size_t i = 0; d > 0 && i < count; ++i)
-    population.push_back(
-        population_at(changed_.nodes.parameters->row(static_cast<Eigen::Index>(i)).data()));
-  std::vector<double> now, then;
-  look_at_all(all, changed_, now);
-  const double usual_scale = 2.38 / std::sqrt(2.0 * static_cast<double>(d + 2));
-  for (int step = 0; step < moves; ++step) {
-    ChangedUnits to = changed_;
-    const double scale = step % 3 == 2 ? 1 : usual_scale;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto other = [&] {
-        return static_cast<std::size_t>(rng.uniform() * static_cast<double>(count));
-      };
-      const std::size_t a = other(), b = other();
-      const auto moved = [&](const std::vector<double>& x, double tiny) {
-        return x[i] + scale * (x[a] - x[b]) + tiny * rng.normal();
-      };
-      double z[2] = {};
-      for (std::size_t e = 0; e < d; ++e) to.z[e][i] = z[e] = moved(changed_.z[e], 1e-4);
-      for (std::size_t e = 0; e < d; ++e) to.nodes.effect[e][i] = population[i].value(model, e, z);
-      to.score[i] = moved(changed_.score, 1e-4);
-      to.axis.since[i] = moved(changed_.axis.since, 1e-6 * (last_place() - start_));
-      to.axis.factor[i] = shared_->prior.factor(to.score[i]);
-    }
-    look_at_all(all, to, then);
-    std::vector<std::size_t> better;  // accepted, among both
-    for (std::size_t i = 0; i < count; ++i) {
-      const double ratio = then[i] + log_target(i, to) - now[i] - log_target(i, changed_);
-      const bool accepted = std::log(rng.uniform()) < ratio;
-      better.push_back(accepted ? count + i : i);
-      if (accepted) now[i] = then[i];
-    }
-    const double each = changed_.log_weight.front();
-    changed_.append(to);
-    changed_ = changed_.taken(better);
-    changed_.log_weight.assign(count, each);
-  }
-}
-
-// Resamples where few particles carry the weight, or there are too many.
-void RateChangeUnit::keep_diverse(const prognosis::Reading& reading,
-                                  const prognosis::History& history, Rng& rng) {
-  const double mass = log_sum_exp(changed_.log_weight);
+// Weights after a reading; resampled and moved where few particles carry them, or there are too many.
+void RateChangeUnit::weigh(const UnitReading& reading, Likelihoods of, ChangedUnits born,
+                           const prognosis::History& history, Rng& rng) {
+  std::vector<double> after;
+  for (const auto& [units, values] : {std::pair(&changed_, &of.changed), {&born, &of.born}})
+    for (std::size_t i = 0; i < values->size(); ++i)
+      after.push_back(units->log_weight[i] + (*values)[i]);
+  const double mass = after.empty() ? -infinity : log_sum_exp(after);
   if (!(mass > -infinity)) {
     changed_ = {};
     return;
   }
-  const bool matters = probability() > of_interest;
-  const bool poor =
-      matters && effective_number(changed_.log_weight) < least_diverse * static_cast<double>(usual);
-  if (!poor && changed_.count() <= most_particles) return;
+  const bool matters = mass - log_unchanged_ > std::log(of_interest);
+  const bool many = changed_.count() + least_born > most_particles;
+  if (matters && (many || effective_number(after) < least_diverse * static_cast<double>(usual))) {
+    changed_.append(born);
+    of.changed.insert(of.changed.end(), of.born.begin(), of.born.end());
+    const RateChangeMoves moves(*shared_, all_readings(reading, history), base_->seen_, start_);
+    moves.take_last(changed_, std::move(of.changed), usual, rng);
+    return;
+  }
+  std::copy_n(after.begin(), changed_.count(), changed_.log_weight.begin());
+  std::copy(after.begin() + static_cast<std::ptrdiff_t>(changed_.count()), after.end(),
+            born.log_weight.begin());
+  if (born.count() > 0) thin(born, rng);
+  if (born.count() > 0) changed_.append(born);
+  if (!many) return;
   changed_ = changed_.taken(resampled(changed_.log_weight, usual, rng.uniform()));
   changed_.log_weight.assign(usual, mass - std::log(static_cast<double>(usual)));
-  if (!matters) return;
-  std::vector<UnitReading> all = base_->all_of(history);
-  UnitReading last;
-  if (shared_->tracked->reader.read(reading, last).empty()) all.push_back(std::move(last));
-  all.insert(all.begin(), base_->seen_.begin(), base_->seen_.end());
-  sort_along(all);
-  move(all, rng);
 }
 
 prognosis::UpdateResult RateChangeUnit::update(const prognosis::Reading& reading,
@@ -246,7 +198,7 @@ prognosis::UpdateResult RateChangeUnit::update_in_order(const prognosis::Reading
   const ChangedUnits before = changed_;
   Rng rng(seed, updates_);
   ChangedUnits born = newborn(y.place, rng);
-  const double log_evidence = weigh(y, born);
+  const Likelihoods of = likelihoods(y, born);
   const double length = std::max(0.0, y.place - last_place());
   prognosis::UpdateResult taken = base_->update(reading, history);
   if (!taken.counted) {
@@ -254,12 +206,8 @@ prognosis::UpdateResult RateChangeUnit::update_in_order(const prognosis::Reading
     return taken;
   }
   ++updates_;
-  log_unchanged_ += log_evidence - shared_->prior.hazard * length;
-  if (born.count() > 0) {
-    thin(born, rng);
-    if (born.count() > 0) changed_.append(born);
-  }
-  if (changed_.count() > 0) keep_diverse(reading, history, rng);
+  log_unchanged_ += of.unchanged - shared_->prior.hazard * length;
+  weigh(y, of, std::move(born), history, rng);
   const double changed = changed_.count() > 0 ? log_sum_exp(changed_.log_weight) : -infinity;
   const double both[] = {log_unchanged_, changed};
   const double all = log_sum_exp(both);

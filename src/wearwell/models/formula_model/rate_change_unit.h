@@ -16,10 +16,9 @@ using UnchangedUnit = TrackedUnit;
 ///
 /// The unit without a change has the nodes of TrackedUnit; those with one are particles. Each
 /// reading adds particles that have changed since the reading before it, drawn from the nodes and
-/// the prior of the change, and multiplies all weights by its likelihood. When few particles carry
-/// the weight they are resampled and moved by differential evolution (ter Braak 2006), whose target
-/// is the posterior of all readings: resample-move (Gilks and Berzuini 2001). Random numbers follow
-/// from the readings, so the same sequence gives the same bits.
+/// the prior of the change, and multiplies all weights by its likelihood. Where few particles would
+/// carry the weight, they are resampled and moved (rate_change_moves.h; resample-move, Gilks and
+/// Berzuini 2001). Random numbers follow from the readings, so the same sequence gives the same bits.
 class RateChangeUnit final : public prognosis::TrackedUnit {
  public:
   RateChangeUnit(std::shared_ptr<const RateChanges> shared,
@@ -44,13 +43,16 @@ class RateChangeUnit final : public prognosis::TrackedUnit {
  private:
   ChangedUnits newborn(double until, Rng& rng) const;
   ChangedUnits drawn_from_base(const std::vector<std::size_t>& which, Rng& rng) const;
-  double weigh(const UnitReading& reading, ChangedUnits& born);
+  struct Likelihoods {
+    std::vector<double> changed, born;  // of each particle
+    double unchanged = 0;               // of the unit without a change
+  };
+  Likelihoods likelihoods(const UnitReading& reading, ChangedUnits& born);
   void thin(ChangedUnits& born, Rng& rng) const;
-  void keep_diverse(const prognosis::Reading& reading, const prognosis::History& history, Rng& rng);
-  void move(const std::vector<UnitReading>& all, Rng& rng);
-  double log_target(std::size_t i, const ChangedUnits& at) const;
-  void look_at_all(const std::vector<UnitReading>& all, ChangedUnits& at,
-                   std::vector<double>& log_likelihood) const;
+  std::vector<UnitReading> all_readings(const UnitReading& last,
+                                        const prognosis::History& history) const;
+  void weigh(const UnitReading& reading, Likelihoods of, ChangedUnits born,
+             const prognosis::History& history, Rng& rng);
   prognosis::UpdateResult update_in_order(const prognosis::Reading& reading,
                                           const prognosis::History& history);
   prognosis::UpdateResult run_again(const prognosis::Reading& reading,

@@ -294,6 +294,15 @@ UnitNodes place_nodes(const NodePopulation& population, const std::vector<UnitRe
   return laid;
 }
 
+std::vector<double> log_likelihoods(const FormulaModel& model, const PopulationPoints& points,
+                                    const std::vector<UnitReading>& rows) {
+  const UnitAt at(model, rows);
+  std::vector<double> found;
+  for (Eigen::Index j = 0; j < points.values->rows(); ++j)
+    found.push_back(at.log_likelihood(points.values->row(j).data()));
+  return found;
+}
+
 double effective_number(std::span<const double> log_weight) {
   double top = -infinity;
   for (const double each : log_weight) top = std::max(top, each);

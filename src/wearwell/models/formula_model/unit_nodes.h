@@ -63,6 +63,10 @@ struct UnitNodes {
 UnitNodes place_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
                       const std::vector<UnitReading>& all, const UnitNodes& before);
 
+/// Of each point: the log-likelihood of rows of one unit, its effects integrated out.
+std::vector<double> log_likelihoods(const FormulaModel& model, const PopulationPoints& points,
+                                    const std::vector<UnitReading>& rows);
+
 /// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 if all are
 /// zero.
 double effective_number(std::span<const double> log_weight);
