@@ -91,7 +91,8 @@ TEST_F(Repairs, AreSeenInThePath) {
   catch_up();
   const auto level_at = [&](double at) {
     std::vector<double> levels;
-    for (const auto& each : fleet_->unit("a")->path)
+    const UnitDetail detail = fleet_->unit("a").value();
+    for (const auto& each : detail.path)
       if (each.at == at) levels.push_back(each.level.q50);
     return levels;
   };
