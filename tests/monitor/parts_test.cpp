@@ -75,12 +75,11 @@ TEST_F(MonitoredParts, AStressThatIsLeftOutIsThatBefore) {
   EXPECT_EQ(given.problem, "");
   EXPECT_EQ(given.readings, 15U);
   int n = 0;
-  for (const char* stress :
-       {R"(, "alternating_stress": null)", "", R"(, "alternating_stress": "")"})
-    EXPECT_EQ(
-        deliver(fmt::format(R"({{"part": "json", "n": {}, "life": 1e5{}}})", ++n, stress)).readings,
-        1U)
-        << stress;
+  for (const char* stress : {R"(, "alternating_stress": null)", ""}) {
+    const std::string row =
+        fmt::format(R"({{"part": "json", "n": {}, "life": 1e5{}}})", ++n, stress);
+    EXPECT_EQ(deliver(row).readings, 1U) << row;
+  }
   const auto units = stored_units(*store_, population());
   const auto forecast = [&](const char* unit) {
     return units.at(unit).state->forecast().remaining;
@@ -95,7 +94,7 @@ TEST_F(MonitoredParts, AStressThatIsLeftOutIsThatBefore) {
       units.at("empty").last_problem,
       "a reading has no alternating_stress; that of the reading before holds for its use, too");
   // Nothing is before these.
-  EXPECT_EQ(units.at("json").not_counted, 3U);
+  EXPECT_EQ(units.at("json").not_counted, 2U);
   EXPECT_THAT(units.at("json").last_problem, HasSubstr("alternating_stress is missing"));
 }
 
