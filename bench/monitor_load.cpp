@@ -95,7 +95,8 @@ int main(int argc, char** argv) {
         const long long k = static_cast<long long>(tick) * per_tick + i;
         const int unit = static_cast<int>(k % units), n = static_cast<int>(k / units) + 1;
         Rng rng(static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(n));
-        const double km = 0.05 * n, depth = (0.5 + 0.0006 * unit) * km + 1.2 * rng.normal();
+        const double km = 0.05 * n,
+                     depth = (0.5 + 0.0006 * (unit % 1000)) * km + 1.2 * rng.normal();
         messages.push_back(
             {"", fmt::format(R"({{"machine": "M{:04}", "n": {}, "km": {}, "h": {:.4f}}})", unit, n,
                              km, depth)});

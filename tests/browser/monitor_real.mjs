@@ -105,13 +105,13 @@ try {
   await page.screenshot({path: join(folder, 'page.png')});
 
   // A part is replaced, by the form; then the replacement is cancelled.
-  await page.click('.report summary');
-  await page.fill('.report .event-form input[name="by"]', 'A. <b>Smith</b>');
-  await page.fill('.report .event-form input[name="note"]', 'new laser');
-  await page.fill('.report .event-form .fields input[type="number"]', '2500');
-  await page.fill('.report .event-form input[type="datetime-local"]', '2100-01-01T00:00');
+  await page.click('#detail .report summary');
+  await page.fill('#detail .report .event-form input[name="by"]', 'A. <b>Smith</b>');
+  await page.fill('#detail .report .event-form input[name="note"]', 'new laser');
+  await page.fill('#detail .report .event-form .fields input[type="number"]', '2500');
+  await page.fill('#detail .report .event-form input[type="datetime-local"]', '2100-01-01T00:00');
   await page.screenshot({path: join(folder, 'form.png'), fullPage: true});
-  await page.click('.report .event-form button');
+  await page.click('#detail .report .event-form button');
   await page.waitForFunction(() => document.querySelector('.events-list li')?.textContent.includes('A new part is installed'), null, {timeout: 60000})
       .catch(() => faults.push('the reported event does not show'));
   check((await page.textContent('.events-list')).includes('A. <b>Smith</b>'), 'who reported it does not show as text');
@@ -125,6 +125,22 @@ try {
   const back = await (await fetch(`${address}api/v1/units/L00`)).json();
   check(back.part === 1 && back.risk === view.risk && back.quality.readings === 10, 'a cancelled event changes the forecast');
   await page.screenshot({path: join(folder, 'events.png'), fullPage: true});
+
+  // A unit that is not known yet goes into service; the name of a known one is refused.
+  const install = async (name) => {
+    await page.fill('#install input:not([name])', name);
+    await page.fill('#install input[name="by"]', 'A. Smith');
+    await page.fill('#install input[name="time"][type="number"]', '100');
+    await page.click('#install button');
+  };
+  await page.click('#install summary');
+  await install('L00');
+  await page.waitForFunction(() => /is known already/.test(document.querySelector('#install .wrong')?.textContent), null, {timeout: 60000}).catch(() => faults.push('a known unit is put into service'));
+  await install('L 77/b');
+  await page.waitForFunction(() => /^Stored/.test(document.querySelector('#install .note')?.textContent), null, {timeout: 60000}).catch(() => faults.push('a new unit is not put into service'));
+  await page.waitForFunction(() => /L 77\/b/.test(document.querySelector('#rows').textContent), null, {timeout: 60000}).catch(() => faults.push('a new unit does not show'));
+  const fresh = await (await fetch(`${address}api/v1/units/${encodeURIComponent('L 77/b')}`)).json();
+  check(fresh.part === 1 && fresh.events[0].use === 100, `part ${fresh.part} of a unit that begins with its installation`);
 } finally {
   await browser.close();
   program.kill('SIGTERM');

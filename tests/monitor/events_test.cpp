@@ -1,7 +1,7 @@
 // Events of a unit: its state is that of a unit whose readings were right, and of the present part, from the start.
 #include <gmock/gmock.h>
 
-#include "monitor/fleet_rig.h"
+#include "monitor/events_rig.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/stored_units.h"
@@ -12,44 +12,6 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-class Events : public FleetRig {
- protected:
-  Events() { source_.mapping = plain(); }
-  static ReadingMapping plain() {
-    static const GrowthTracker tracker;
-    ReadingMapping mapping = plain_mapping(tracker, false);
-    mapping.unit = "machine";
-    mapping.sequence = "n";
-    return mapping;
-  }
-  Delivery report(const std::string& unit, const std::string& event, const std::string& more) {
-    return deliver(fmt::format(R"({{"machine": "{}", "event": "{}", "by": "A. Smith", {}}})", unit,
-                               event, more));
-  }
-  UnitView view(const std::string& unit) {
-    catch_up();
-    return fleet_->unit(unit).value().view;
-  }
-  /// Two units with the same state, whatever their readings were.
-  void expect_same(const std::string& unit, const std::string& as) {
-    const UnitView a = view(unit), b = view(as);
-    EXPECT_EQ(a.at, b.at);
-    EXPECT_EQ(a.risk, b.risk);
-    EXPECT_EQ(a.level.q95, b.level.q95);
-    EXPECT_EQ(a.remaining.q05, b.remaining.q05);
-    EXPECT_EQ(a.b10, b.b10);
-    EXPECT_EQ(a.doubt, b.doubt);
-    EXPECT_EQ(a.alarm, b.alarm);
-    EXPECT_EQ(a.quality.readings, b.quality.readings);
-  }
-  /// Wear at 1.2 m/h on a counter that shows 500 h when the part is new.
-  void send_two_parts() {
-    for (int n = 1; n <= 10; ++n) deliver(message("a", n, 99.0 * n, 50 * n));
-    for (int n = 11; n <= 20; ++n) deliver(message("a", n, 60.0 * (n - 10), 50 * n));
-    for (int n = 11; n <= 20; ++n) deliver(message("new", n, 60.0 * (n - 10), 50 * (n - 10)));
-  }
-};
 
 TEST_F(Events, ANewPartBeginsAnew) {
   open();
@@ -75,71 +37,55 @@ TEST_F(Events, APartIsInstalled) {
     deliver(message("c", n, n < 11 ? 99.0 * n : 60.0 * (n - 10), 50 * n));
   for (int n = 11; n <= 20; ++n) deliver(message("new", n, 60.0 * (n - 10), 50 * (n - 10)));
   expect_same("c", "new");
+  EXPECT_EQ(view("c").part, 2);
   EXPECT_THAT(report("c", "installed", R"("n": 30)").problem, HasSubstr("time is missing"));
 }
 
-// Wear at 1.2 m/h, of which a repair takes 300 m back at 500 h: the rate stays, and the limit of
-// 1000 m is reached at (1000 + 300) / 1.2 h.
-TEST_F(Events, ARepairTakesBackAPart) {
+// The first part of a unit is part 1, whatever it begins with; a reading before it makes it part 2.
+TEST_F(Events, TheFirstPartIsPart1) {
   open();
-  for (int n = 1; n <= 16; ++n) {
-    deliver(message("a", n, 60.0 * n - (n > 10 ? 300 : 0), 50 * n));
-    deliver(message("never", n, 60.0 * n, 50 * n));
-  }
-  EXPECT_EQ(report("a", "repaired", R"("n": 11, "restored": 300)").events, 1U);
-  const UnitView repaired = view("a"), never = view("never");
-  EXPECT_EQ(repaired.doubt, "");
-  EXPECT_EQ(repaired.part, 1);
-  EXPECT_EQ(repaired.at, never.at);
-  EXPECT_NEAR(repaired.level.q50, never.level.q50 - 300, 1e-9);
-  EXPECT_NEAR(repaired.remaining.q50, 1300 / 1.2 - 800, 10);
-  EXPECT_NEAR(never.remaining.q50, 1000 / 1.2 - 800, 5);
-  // The past is as it was, and as it was measured.
-  const UnitDetail detail = *fleet_->unit("a"), other = *fleet_->unit("never");
-  EXPECT_EQ(detail.events[0].restored, 300);
-  EXPECT_EQ(detail.moments[9].measured, 600);
-  EXPECT_EQ(detail.moments[9].life.q50, other.moments[9].life.q50);
-  EXPECT_EQ(detail.moments[10].measured, 360);
-  // Also after a restart, and where the repair is known before its readings.
-  catch_up();
-  const std::string bits_before = bits();
-  close();
+  report("c", "installed", R"("n": 11, "time": 500)");
+  EXPECT_EQ(view("c").part, 1);
+  for (int n = 11; n <= 15; ++n) deliver(message("c", n, 60.0 * (n - 10), 50 * n));
+  report("c", "replaced", R"("n": 16, "time": 750)");
+  deliver(message("c", 16, 40, 800));
+  EXPECT_EQ(view("c").part, 2);
+  const auto exported = [&] {
+    ExportCounts counts;
+    std::set<std::string> names;
+    std::istringstream lines(readings_as_csv(*store_, tracker_, {}, counts));
+    for (std::string line; std::getline(lines, line);) names.insert(line.substr(0, line.find(',')));
+    return names;
+  };
+  EXPECT_THAT(exported(), ElementsAre("c", "c (part 2)", "machine"));
+  std::uint64_t lives = 0;
+  EXPECT_THAT(lives_as_csv(*store_, tracker_, lives),
+              AllOf(HasSubstr("\nc,250,"), HasSubstr("\nc (part 2),50,")));
+  fleet_->save();
   open();
-  fleet_->refresh(true);
-  EXPECT_TRUE(bits() == bits_before);
-  report("b", "repaired", R"("n": 11, "restored": 300)");
-  for (int n = 1; n <= 16; ++n) deliver(message("b", n, 60.0 * n - (n > 10 ? 300 : 0), 50 * n));
-  expect_same("b", "a");
-  // A new part has not been repaired.
-  report("a", "replaced", R"("n": 17, "time": 800)");
-  deliver(message("a", 17, 60, 850));
-  deliver(message("new", 17, 60, 50));
-  expect_same("a", "new");
-}
-
-// A level beyond the limit before the repair is no alarm after it, and is one without.
-TEST_F(Events, ARepairEndsALevelBeyondTheLimit) {
-  open();
-  for (int n = 1; n <= 10; ++n) deliver(message("a", n, 110.0 * n, 100 * n));
-  EXPECT_TRUE(view("a").beyond);
-  report("a", "repaired", R"("n": 11, "restored": 600)");
-  EXPECT_FALSE(view("a").beyond);
-  EXPECT_EQ(view("a").alarm, Alarm::ok);
-  deliver(message("a", 11, 610, 1100));
-  EXPECT_FALSE(view("a").beyond);
-  for (int n = 12; n <= 16; ++n) deliver(message("a", n, 110.0 * n - 600, 100 * n));
-  EXPECT_TRUE(view("a").beyond);
-}
-
-TEST_F(Events, ARepairIsRefusedWithAReason) {
-  open();
-  deliver(message("a", 1, 10, 10));
-  EXPECT_THAT(report("a", "repaired", R"("n": 2)").problem,
-              AllOf(HasSubstr("restored is missing"), HasSubstr("\"replaced\"")));
-  EXPECT_THAT(report("a", "repaired", R"("n": 2, "restored": 0)").problem, HasSubstr("above 0"));
-  EXPECT_THAT(report("a", "repaired", R"("n": 2, "wear": 3, "restored": 5)").problem,
-              HasSubstr("what the repair takes back or what is left after it"));
-  EXPECT_EQ(store_->events_after(0).size(), 0U);
+  EXPECT_EQ(view("c").part, 2);
+  // A withdrawn reading is of no part.
+  deliver(message("c", 5, 200, 250));
+  EXPECT_EQ(view("c").part, 3);
+  EXPECT_THAT(exported(), ElementsAre("c", "c (part 2)", "c (part 3)", "machine"));
+  report("c", "withdrawn", R"("n": 5)");
+  EXPECT_EQ(view("c").part, 2);
+  // One that has failed was there, without a reading.
+  report("d", "failed", R"("n": 3, "time": 100)");
+  report("d", "installed", R"("n": 4, "time": 0)");
+  EXPECT_EQ(view("d").part, 2);
+  // Another part than that of the study, or the same?
+  GrowthTracker study;
+  study.set_study({{"e", 10}});
+  UnitEvent installed;
+  installed.unit = "e";
+  installed.kind = EventKind::installed;
+  installed.author = "A. Smith";
+  installed.use = 0;
+  EXPECT_THAT(event_problem(installed, study),
+              AllOf(HasSubstr("'e' is a machine of the study"), HasSubstr("\"replaced\"")));
+  installed.unit = "f";
+  EXPECT_EQ(event_problem(installed, study), "");
 }
 
 // When an event comes makes no difference: before the readings, among them, or after a restart that lost the latest states.
@@ -337,6 +283,40 @@ TEST_F(Events, ChangeTheHistory) {
   open();
   catch_up();
   EXPECT_TRUE(fleet_->unit("b"));
+}
+
+TEST_F(Events, ThatNoUnitCanHaveAreRefused) {
+  open();
+  for (int n = 1; n <= 3; ++n) deliver(message("a", n, 100 * n, 100 * n));
+  for (const char* event : {"installed", "replaced", "failed"})
+    EXPECT_THAT(
+        report(event == std::string("installed") ? "z" : "a", event, R"("n": 9, "time": 1e300)")
+            .problem,
+        HasSubstr("more than a million times the life of a new machine"))
+        << event;
+  EXPECT_THAT(report("a", "sensor", R"("n": 9, "wear": -1e300)").problem,
+              HasSubstr("sensor: the offset is more than 10^12 times the threshold of 1"));
+  EXPECT_THAT(report("a", "repaired", R"("n": 9, "restored": 10001)").problem,
+              HasSubstr("repaired: restored is more than ten times the threshold of 1"));
+  EXPECT_TRUE(store_->events_after(0).empty());
+  // What only the readings show.
+  report("a", "repaired", R"("n": 4, "restored": 700)");
+  EXPECT_THAT(view("a").quality.state_problem, HasSubstr("repairs take back more than there was"));
+  report("a", "cancelled", R"("number": 1)");
+  EXPECT_EQ(view("a").quality.state_problem, "");
+  report("a", "failed", R"("n": 4, "time": 120)");
+  EXPECT_THAT(
+      view("a").quality.state_problem,
+      HasSubstr("failed at time = 120, but has a reading before at 300 on the same counter"));
+  std::uint64_t lives = 0;
+  EXPECT_THAT(message_of<InputError>([&] { lives_as_csv(*store_, tracker_, lives); }),
+              AllOf(HasSubstr("unit 'a'"), HasSubstr("has a reading before at 300")));
+  // A part before the first installation of which nothing is known has no life.
+  report("a", "cancelled", R"("number": 3)");
+  report("b", "replaced", R"("n": 1, "time": 400)");
+  deliver(message("b", 1, 50, 450));
+  EXPECT_EQ(lives_as_csv(*store_, tracker_, lives),
+            "machine,time [h],status\na,300,suspended\nb (part 2),50,suspended\n");
 }
 
 TEST_F(Events, AreRefusedWithAReason) {

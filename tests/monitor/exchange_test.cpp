@@ -406,6 +406,8 @@ class RunningMonitors : public FleetRig {
     SourceSettings files = source();
     files.kind = SourceKind::folder;
     files.folder = folder() / "incoming";
+    files.mapping.event = "event";
+    files.mapping.watched = prognosis::watched_columns(GrowthTracker());
     config.sources = {files};
     return config;
   }
@@ -506,6 +508,16 @@ class RunningMonitors : public FleetRig {
     for (int i = 0; i < 8; ++i)
       file << message("m" + std::to_string(i), round, (10 + i) * round, 10.0 * round) << "\n";
   }
+  /// One of each kind, of a reading so far.
+  void send_events(int round, Rng& rng) {
+    std::ofstream file(folder() / "incoming" / "a.jsonl", std::ios::app);
+    for (const char* event :
+         {R"("replaced", "time": 5)", R"("installed", "time": 5)", R"("repaired", "restored": 7)",
+          R"("withdrawn")", R"("corrected", "wear": 11, "time": 12)", R"("sensor", "wear": 3)"})
+      file << fmt::format(R"({{"machine": "m{}", "n": {}, "by": "x", "event": {}}})",
+                          rng.bits() % 8, 1 + rng.bits() % static_cast<unsigned>(round), event)
+           << "\n";
+  }
 };
 
 TEST_F(RunningMonitors, TakeAnotherFit) {
@@ -559,7 +571,7 @@ TEST_F(RunningMonitors, RefuseLearnedReadingsAtTheStart) {
   EXPECT_EQ(population("fleet.sqlite"), "fit-3");
 }
 
-// Killed at any moment of exchanges: readings and states are in the end what they are without.
+// Killed at any moment of exchanges and events: readings, events and states are in the end what they are without.
 TEST_F(RunningMonitors, LoseNothingAmongExchangesAndKills) {
   std::filesystem::create_directories(folder() / "incoming");
   const char* many = std::getenv("WEARWELL_KILLS");
@@ -569,6 +581,7 @@ TEST_F(RunningMonitors, LoseNothingAmongExchangesAndKills) {
     if (i == 1) put_result(1);
     const pid_t child = start("fleet.sqlite");
     send(i);
+    send_events(i, rng);
     std::this_thread::sleep_for(std::chrono::duration<double>(0.4 * rng.uniform()));
     put_result(1 + i % 3);
     std::this_thread::sleep_for(std::chrono::duration<double>(2 * rng.uniform()));
@@ -583,6 +596,9 @@ TEST_F(RunningMonitors, LoseNothingAmongExchangesAndKills) {
   EXPECT_EQ(end(child, SIGTERM), 0) << content(folder() / "log");
   EXPECT_EQ(end(start("undisturbed.sqlite", true), 0), 0) << content(folder() / "log");
   EXPECT_EQ(look("fleet.sqlite")->states("fit-6").size(), 8U);
+  const auto events = look("fleet.sqlite")->events_after(0);
+  EXPECT_GT(events.size(), 5U * static_cast<unsigned>(kills));  // some are the same
+  EXPECT_EQ(events.size(), look("undisturbed.sqlite")->events_after(0).size());
   EXPECT_TRUE(known("fleet.sqlite", 6) == known("undisturbed.sqlite", 6));
 }
 

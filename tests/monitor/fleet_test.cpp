@@ -238,6 +238,21 @@ TEST_F(Fleets, DoubtAForecastThatReadingsDoNotFollow) {
   EXPECT_TRUE(bits() == here);
 }
 
+// Single readings far off at 18 and 28: evidence is still left of the first as the second comes. Each doubt ends with
+// three readings that agree with those before.
+TEST_F(Fleets, EndDoubtWithReadingsThatAgree) {
+  open();
+  const std::map<int, int> off = {{4, 11}, {9, 21}, {10, 11}, {11, 9}, {18, -27}, {28, 35}};
+  std::string doubted;
+  for (int n = 1; n <= 32; ++n) {
+    const auto at = off.find(n);
+    deliver(message("a", n, 20 * n + (at == off.end() ? 0 : at->second), 20 * n));
+    catch_up();
+    doubted += fleet_->unit("a")->view.doubt.empty() ? '.' : 'x';
+  }
+  EXPECT_EQ(doubted, ".................xxxx......xxx..");
+}
+
 TEST_F(Fleets, ActOnALevelBeyondTheThreshold) {
   alarm_.horizon = 1;
   open();

@@ -35,12 +35,16 @@ class Programs : public ProgramRig {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return known(config);
   }
-  /// One of three kinds of events, of the n-th reading of a machine.
+  static constexpr int event_kinds = 5;
+  /// One of these kinds of events, of the n-th reading of a machine.
   static std::string event_line(int kind, int machine, int n) {
     const std::string head =
         fmt::format("{{\"machine\": \"M{:02}\", \"n\": {}, \"by\": \"x\"", machine, n);
     const double km = 0.5 * n;
     if (kind == 0) return head + fmt::format(", \"event\": \"replaced\", \"km\": {}}}", km);
+    if (kind == 3) return head + fmt::format(", \"event\": \"installed\", \"km\": {}}}", km);
+    if (kind == 4)
+      return head + fmt::format(", \"event\": \"repaired\", \"restored\": {}}}", 0.2 * km);
     if (kind == 1)
       return head +
              fmt::format(", \"event\": \"corrected\", \"km\": {}, \"h\": {}}}", km, 0.7 * km);
@@ -89,6 +93,10 @@ TEST_F(Programs, CheckReportsEachProblem) {
   EXPECT_THAT(
       check(keeps).out,
       HasSubstr("readings of parts that have been out of service for 100 days are removed"));
+  std::string nowhere = good;
+  nowhere.replace(nowhere.find("fleet.sqlite"), 12, "sub/fleet.sqlite");
+  EXPECT_EQ(check(nowhere).exit_code, 2);
+  EXPECT_THAT(check(nowhere).err, HasSubstr("/a/sub does not exist"));
   std::string wrong = good;
   wrong.replace(wrong.find("horizon"), 7, "horizont");
   wrong.replace(wrong.find("[store]"), 7, "[store]\nkeep = \"5 min\"");
@@ -219,7 +227,7 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   const auto file = config.parent_path() / "incoming" / "a.jsonl";
   const int rounds = kills(), machines = 8;
   const auto lines = readings(machines, 10 * (rounds + 1));
-  std::vector<std::string> events;  // replacements, corrections and withdrawals among the readings
+  std::vector<std::string> events;  // installations, repairs, corrections ... among the readings
   std::size_t sent = 0;
   for (int round = 0; round <= rounds; ++round) {
     ChildProcess monitor = start(config);
@@ -227,10 +235,10 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
     const std::size_t end = std::min(lines.size(), sent + 10 * machines);
     append(file, {lines.begin() + static_cast<std::ptrdiff_t>(sent),
                   lines.begin() + static_cast<std::ptrdiff_t>(end)});
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < event_kinds; ++i)
       events.push_back(event_line(i, static_cast<int>(rng.bits() % machines),
                                   1 + static_cast<int>(rng.bits() % (end / machines))));
-    append(file, {events.end() - 3, events.end()});
+    append(file, {events.end() - event_kinds, events.end()});
     append(file, {lines[rng.bits() % end], events[rng.bits() % events.size()],
                   "{half"});  // and what comes again
     sent = end;

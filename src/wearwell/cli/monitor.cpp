@@ -115,8 +115,15 @@ void check_files(const MonitoredFleet& read) {
   if (read.config.http) tls_of(*read.config.http);
   const std::string& url = read.config.store;
   std::error_code ignored;
-  if (monitor::is_postgres(url) || !std::filesystem::exists(read.config.folder / url, ignored))
+  if (monitor::is_postgres(url)) return;
+  const std::filesystem::path file = read.config.folder / url;
+  if (!std::filesystem::exists(file, ignored)) {
+    const std::filesystem::path parent = file.parent_path();
+    if (!std::filesystem::is_directory(parent, ignored))
+      throw InputError(
+          fmt::format("store.url = \"{}\": the folder {} does not exist", url, parent.string()));
     return;
+  }
   monitor::open_store(url, read.config.folder, monitor::store_columns(read.config, *read.tracker),
                       monitor::Access::copy);
 }

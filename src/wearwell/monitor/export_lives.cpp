@@ -16,7 +16,8 @@ namespace wearwell::monitor {
 namespace {
 
 struct PartLife {
-  double use = 0;  ///< SI, since the installation
+  double use = 0;     ///< SI, since the installation
+  bool seen = false;  ///< in a reading
   bool failed = false;
 };
 
@@ -30,6 +31,8 @@ PartLife ended(PartLife life, const std::string& unit, const UnitPart& part, con
         "on the same counter: cancel the wrong event",
         unit, name(part.service), reported.tracker().axis().name, reported.at(part.to_use),
         reported.at(part.from_use)));
+  if (const std::string problem = end_problem(part, life.use, reported); !problem.empty())
+    throw InputError(fmt::format("unit '{}': {}", unit, problem));
   if (!std::isnan(part.to_use)) {
     life.use = part.to_use - part.from_use;
   } else if (next && next->from_use >= part.from_use + life.use) {
@@ -49,23 +52,27 @@ std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::u
     if (seen.state != CountedReading::State::counts) return;
     auto& parts = units[unit];
     parts.resize(std::max<std::size_t>(parts.size(), 1));
-    double& use = parts[static_cast<std::size_t>(seen.part - 1)].use;
-    use = std::max(use, seen.reading.numbers[axis]);
+    PartLife& life = parts[static_cast<std::size_t>(seen.part - 1)];
+    life.use = std::max(life.use, seen.reading.numbers[axis]);
+    life.seen = true;
   });
   std::string text = fmt::format(
       "{},{},status\n", printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun()),
       printable_csv_cell(column_heading(tracker.axis())));
   count = 0;
+  const PartNames names(store, events);
   const prognosis::TrackerUnits reported(tracker);
   for (const auto& [unit, lives] : units) {
     const auto of_unit = events_of(events, unit);
     const std::vector<UnitPart>& parts = of_unit->parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
+      // Before the first installation there may have been none, or several.
+      if (i == 0 && !lives[i].seen && std::isnan(parts[i].to_use)) continue;
       const PartLife life =
           ended(lives[i], unit, parts[i], i + 1 < parts.size() ? &parts[i + 1] : nullptr, reported);
       if (!(life.use > 0)) continue;
       ++count;
-      text += fmt::format("{},{},{}\n", printable_csv_cell(part_name(unit, parts[i].number)),
+      text += fmt::format("{},{},{}\n", printable_csv_cell(names.name(unit, parts[i].number)),
                           reported.along(life.use), life.failed ? "failed" : "suspended");
     }
   }

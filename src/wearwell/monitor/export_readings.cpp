@@ -16,12 +16,13 @@ namespace {
 /// Readings that count, under the name of their part.
 void for_each_reading(Store& store, const prognosis::Tracker& tracker,
                       const std::function<void(const StoredReading&)>& visit) {
-  for_each_counted(store, events_of_units(store, tracker),
-                   [&](const std::string& unit, CountedReading& seen) {
-                     if (seen.state != CountedReading::State::counts) return;
-                     seen.reading.unit = part_name(unit, seen.part);
-                     visit(seen.reading);
-                   });
+  const EventsOfUnits events = events_of_units(store, tracker);
+  const PartNames names(store, events);
+  for_each_counted(store, events, [&](const std::string& unit, CountedReading& seen) {
+    if (seen.state != CountedReading::State::counts) return;
+    seen.reading.unit = names.name(unit, seen.part);
+    visit(seen.reading);
+  });
 }
 
 /// Whether it is of a part in doubt.
@@ -38,7 +39,9 @@ bool count_reading(const StoredReading& reading, const DoubtedParts& doubted,
 DoubtedParts doubted_parts(Store& store, const Population& population) {
   DoubtedParts parts;
   for (const auto& [unit, record] : stored_units(store, population)) {
-    if (record.watch.in_doubt()) parts.insert(part_name(unit, record.events->part().number));
+    if (!record.watch.in_doubt()) continue;
+    const UnitEvents& events = *record.events;
+    parts.insert(part_name(unit, events.shown_part(events.part().number, record.earlier_readings)));
   }
   return parts;
 }

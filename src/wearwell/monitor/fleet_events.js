@@ -26,7 +26,7 @@
     return element('ol', {class: 'events-list'}, ...[...view.events].reverse().map((each) => element('li', {class: each.cancelled ? 'cancelled' : ''},
         element('span', {class: 'number'}, `${each.number}.`),
         element('span', {}, element('span', {class: 'what'}, wearwell.capital(description(fleet, each))), each.cancelled ? ' (cancelled)' : '',
-                each.note ? `. ${each.note}` : '', element('span', {class: 'note'}, ` ${each.by}, ${clock(each.received_ms)}`)))));
+                each.note ? `. ${each.note}` : '', element('span', {class: 'note'}, ` · ${each.by}, ${clock(each.received_ms)}`)))));
   }
 
   let serial = 0;
@@ -57,8 +57,8 @@
     if (kind === 'cancelled') return [field('Number of the event', element('input', {name: 'number', type: 'number', step: 1, min: 1, required: true}))];
     const fields = [keyField(fleet, view, kind)];
     if (kind === 'installed' || kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
-    if (kind === 'repaired') fields.push(field(`${wearwell.capital(fleet.limited)} that it takes back`, numeric('restored'), fleet.level_unit));
-    if (kind === 'sensor') fields.push(field(`${wearwell.capital(fleet.limited)} that it shows too much`, numeric(fleet.level_column), fleet.level_unit));
+    if (kind === 'repaired') fields.push(field('Amount that the repair takes back', numeric('restored'), fleet.level_unit));
+    if (kind === 'sensor') fields.push(field('What the new sensor shows too much', numeric(fleet.level_column), fleet.level_unit));
     if (kind === 'corrected') {
       // As messages have them: the use on the counter, the level as the sensor shows it.
       for (const {name, unit} of fleet.columns) fields.push(field(wearwell.capital(name), unit === null ? element('input', {name, required: true}) : numeric(name), unit ?? ''));
@@ -69,7 +69,7 @@
   function bodyOf(form) {
     const body = {};
     for (const input of form.querySelectorAll('input, select')) {
-      if (input.value === '') continue;
+      if (input.value === '' || input.name === '') continue;
       if (input.type === 'datetime-local') body.key = new Date(input.value).getTime();
       else body[input.name] = input.type === 'number' ? Number(input.value) : input.value;
     }
@@ -109,6 +109,34 @@
     const report = element('details', {class: 'report'}, element('summary', {}, 'Report an event'), form);
     report.addEventListener('toggle', () => { if (report.open) choose(); });
     return report;
+  };
+
+  // A unit that is not known yet: its first event may come before its readings.
+  wearwell.installForm = (fleet) => {
+    const name = element('input', {maxlength: 200, required: true, autocomplete: 'off', spellcheck: 'false'});
+    const message = element('p', {class: 'note', role: 'status'});
+    const form = element('form', {class: 'event-form'},
+        element('div', {class: 'fields'}, field(wearwell.capital(fleet.noun), name), ...fieldsOf(fleet, {last_key: 0}, 'installed')),
+        element('div', {class: 'fields'}, field('Reported by', element('input', {name: 'by', required: true, maxlength: 200, autocomplete: 'name'})),
+                field('Note', element('input', {name: 'note', maxlength: 1000, autocomplete: 'off'}))),
+        element('button', {}, 'Report'), message);
+    const known = (path) => wearwell.ask(path).then(() => true, (error) => { if (error.status === 404) return false; throw error; });
+    form.addEventListener('submit', async (event) => {
+      event.preventDefault();
+      message.className = 'note';
+      message.textContent = 'Sending';
+      try {
+        const path = `/api/v1/units/${encodeURIComponent(name.value)}`;
+        if (await known(path)) throw new Error(`${name.value} is known already: open it and report the event there.`);
+        const answer = await wearwell.send(`${path}/events`, {...bodyOf(form), event: 'installed'});
+        message.textContent = answer.events ? `Stored: ${name.value} goes into service with its first reading.` : answer.problem || 'This event is stored already.';
+        name.value = '';
+      } catch (error) {
+        message.className = 'wrong';
+        message.textContent = error.message;
+      }
+    });
+    return element('details', {class: 'report install'}, element('summary', {}, `Put a new ${fleet.noun} into service`), form);
   };
 
   // One a unit, as above: it says who has acknowledged the alarm, or asks.

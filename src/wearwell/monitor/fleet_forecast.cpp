@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,6 +7,24 @@
 
 // The forecasts of a fleet's units, as readers see them.
 namespace wearwell::monitor {
+namespace {
+
+// What only the readings show to be wrong in an event.
+std::string problem_of_events(const UnitRecord& record, const prognosis::Forecast& forecast,
+                              const TrackerUnits& reported) {
+  const UnitEvents& events = *record.events;
+  if (record.readings == 0) return {};
+  if (std::string problem = end_problem(events.part(), forecast.now, reported); !problem.empty())
+    return problem;
+  const prognosis::Tracker& tracker = reported.tracker();
+  if (events.restored() > 0 && tracker.rising() && tracker.limit().value > 0 &&
+      forecast.level95 < 0)
+    return fmt::format("repairs take back more than there was: {} would be {:.3g} {}",
+                       tracker.limited(), reported.level(forecast).q50, tracker.limit().unit.text);
+  return {};
+}
+
+}  // namespace
 
 void Fleet::forecast(Unit& unit) {
   const prognosis::Forecast forecast = unit.record.state->forecast();
@@ -39,16 +58,19 @@ void Fleet::forecast(Unit& unit) {
                                       prognosis::TrackerUnits::factor(*change)};
   view.doubt = watch.reason();
   view.beyond = watch.is_beyond();
-  view.part = part.number;
+  view.part = record.events->shown_part(part.number, record.earlier_readings);
   view.service = part.service;
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;
   view.quality.refused = view.quality.not_counted = record.not_counted;
   view.quality.state_problem = record.last_problem;
-  view.quality.last_problem = record.last_problem;
+  if (std::string problem = problem_of_events(record, forecast, reported_); !problem.empty())
+    view.quality.state_problem = problem;
+  view.quality.last_problem = view.quality.state_problem;
   seen->survival = std::make_shared<const std::vector<UnitDetail::CurvePoint>>(
       survival_curve(forecast.remaining, reported_));
+  seen->last_measured = record.last_measured;
   seen->held = record.held;
   seen->judged = record.judged;
   seen->moments = unit.seen && unit.seen->events == record.events &&

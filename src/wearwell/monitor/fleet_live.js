@@ -164,6 +164,7 @@
   async function begin() {
     try {
       take(await wearwell.ask('/api/v1/fleet'));
+      document.getElementById('install').replaceChildren(wearwell.installForm(fleet));
       const first = await wearwell.list.begin(fleet);
       if (!chosen() && wide.matches && first !== undefined) history.replaceState(null, '', `#unit=${encodeURIComponent(first)}`);
       show();

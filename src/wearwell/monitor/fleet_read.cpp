@@ -149,6 +149,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
     now.key = view.last_key;
     now.time_ms = view.last_reading_ms;
     now.at = view.at;
+    now.measured = seen->last_measured;
     now.level = view.level;
     now.life = {view.at + view.remaining.q05, view.at + view.remaining.q50,
                 view.at + view.remaining.q95};
@@ -157,6 +158,9 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   for (const UnitMoment& each : detail.moments) detail.path.push_back({each.at, each.level});
   std::stable_sort(detail.path.begin(), detail.path.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
+  // After a repair since the last reading.
+  if (view.known && detail.path.back().level.q50 != view.level.q50)
+    detail.path.push_back({view.at, view.level});
   for (const UnitDetail::PathPoint& each : path_ahead(*seen)) {
     if (each.at > view.at) detail.path.push_back(each);
   }

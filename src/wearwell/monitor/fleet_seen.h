@@ -13,6 +13,7 @@ struct Fleet::Seen {
   UnitView view;
   std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival;
   std::shared_ptr<const std::vector<UnitMoment>> moments;
+  std::optional<double> last_measured = {};  ///< as in UnitRecord
   std::uint64_t held = 0, judged = 0;
   std::int64_t place = 0;  ///< of its last processed reading
   std::shared_ptr<const UnitEvents> events;

@@ -54,8 +54,8 @@ struct UnitView {
   std::string doubt = {};     ///< why the forecast is in doubt; empty if it is not
   bool beyond = false;        ///< the last reading measures a level beyond the threshold
   std::int64_t alarm_ms = 0;  ///< Unix time since which the alarm holds; 0: from the start on
-  std::string acknowledged_by = {};  ///< who has acknowledged this alarm; empty: no one
-  std::int64_t part = 1;             ///< which one it is: later ones are installed by `replaced`
+  std::string acknowledged_by = {};       ///< who has acknowledged this alarm; empty: no one
+  std::int64_t part = 1;                  ///< which one it is, the first is 1
   Service service = Service::in_service;  ///< else the alarm is unknown
   Quality quality;
 };

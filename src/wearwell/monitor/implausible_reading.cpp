@@ -11,7 +11,7 @@
 namespace wearwell::monitor {
 namespace {
 
-constexpr double most_lives = 1e6, most_limits = 1e12;
+constexpr double most_lives = 1e6, most_limits = 1e12, most_restored = 10;
 
 /// The longest life of a new unit (of 95 %, or of fewer if these never fail), SI; infinite if
 /// nothing is known of it.
@@ -35,7 +35,36 @@ std::string quantity(double si, const Unit& unit) {
          (unit.text == "1" ? "" : " " + unit.text);
 }
 
+/// Why a position along the axis, shown as `what`, is none; empty if it may be one.
+std::string too_far(double at, double life, const std::string& what,
+                    const prognosis::Tracker& tracker) {
+  if (!(std::abs(at) > most_lives * life)) return {};
+  return fmt::format("{} = {} is more than a million times the life of a new {} ({})", what,
+                     quantity(at, tracker.axis().unit), tracker.noun(),
+                     quantity(life, tracker.axis().unit));
+}
+
 }  // namespace
+
+std::function<std::string(const UnitEvent& event)> implausible_event(
+    const prognosis::Tracker& tracker) {
+  const double life = longest_life(tracker), limit = std::abs(tracker.limit().si());
+  return [&tracker, life, limit](const UnitEvent& event) -> std::string {
+    const std::string what = name(event.kind);
+    const Unit& unit = tracker.limit().unit;
+    const auto beyond = [&](const char* of, double amount, double most, const char* times) {
+      if (!(limit > 0) || !(std::abs(amount) > most * limit)) return std::string();
+      return fmt::format("{}: {} is more than {} times the threshold of {}", what, of, times,
+                         quantity(limit, unit));
+    };
+    if (std::string why = too_far(event.use, life, what + ": " + tracker.axis().name, tracker);
+        !why.empty())
+      return why;
+    if (std::string why = beyond("the offset", event.offset, most_limits, "10^12"); !why.empty())
+      return why;
+    return beyond("restored", event.restored, most_restored, "ten");
+  };
+}
 
 std::function<std::string(const StoredReading& reading)> implausible_reading(
     const prognosis::Tracker& tracker) {
@@ -46,9 +75,9 @@ std::function<std::string(const StoredReading& reading)> implausible_reading(
       return fmt::format("{} = {}", tracker.columns()[column].name,
                          quantity(reading.numbers[column], tracker.columns()[column].unit));
     };
-    if (std::abs(reading.numbers[watched.axis]) > most_lives * life)
-      return fmt::format("{} is more than a million times the life of a new {} ({})",
-                         at(watched.axis), tracker.noun(), quantity(life, tracker.axis().unit));
+    const double use = reading.numbers[watched.axis];
+    if (std::string why = too_far(use, life, tracker.axis().name, tracker); !why.empty())
+      return why;
     if (watched.level && limit > 0 &&
         std::abs(reading.numbers[*watched.level]) > most_limits * limit)
       return fmt::format("{} is more than 10^12 times the threshold of {}", at(*watched.level),

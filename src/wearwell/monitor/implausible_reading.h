@@ -15,4 +15,9 @@ namespace wearwell::monitor {
 std::function<std::string(const StoredReading& reading)> implausible_reading(
     const prognosis::Tracker& tracker);
 
+/// The same of an event: its use, the offset of a sensor, and an amount that a repair takes back, which is
+/// at most ten times the threshold.
+std::function<std::string(const UnitEvent& event)> implausible_event(
+    const prognosis::Tracker& tracker);
+
 }  // namespace wearwell::monitor

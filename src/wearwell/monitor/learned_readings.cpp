@@ -37,13 +37,14 @@ std::string learned_text(const prognosis::Tracker& tracker, const std::string& n
 
 /// Whether one of the stored readings that count for the part with this name is at `position`.
 bool has_reading_at(Store& store, const std::string& unit, const std::string& name,
-                    const UnitEvents& events, std::size_t axis, double position) {
+                    const UnitEvents& events, const PartNames& names, std::size_t axis,
+                    double position) {
   bool found = false;
   store.of_unit(unit, 0, std::numeric_limits<std::int64_t>::max(),
                 [&](const StoredReading& reading) {
                   const CountedReading counted = events.counted(reading);
                   if (found || counted.state != CountedReading::State::counts ||
-                      part_name(unit, counted.part) != name)
+                      names.name(unit, counted.part) != name)
                     return;
                   const double at = counted.reading.numbers[axis];
                   found = std::abs(at - position) <= position_accuracy * std::abs(position);
@@ -69,6 +70,7 @@ std::string learned_units(const prognosis::Tracker& present, const prognosis::Tr
 std::string learned_from(Store& store, const prognosis::Tracker& now) {
   const std::size_t axis = prognosis::watched_columns(now).axis;
   const EventsOfUnits events = events_of_units(store, now);
+  const PartNames names(store, events);
   for (const std::string& name : now.seen()) {
     std::optional<double> position;  // expensive: only of units with stored readings
     for (const std::string& unit : std::set<std::string>{name, unit_of_part(name)}) {
@@ -78,7 +80,7 @@ std::string learned_from(Store& store, const prognosis::Tracker& now) {
       if (!any) continue;
       if (!position) position = last_position(now, name);
       if (*position > 0 &&
-          has_reading_at(store, unit, name, *events_of(events, unit), axis, *position))
+          has_reading_at(store, unit, name, *events_of(events, unit), names, axis, *position))
         return learned_text(now, name);
     }
   }

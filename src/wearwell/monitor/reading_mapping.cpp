@@ -218,8 +218,10 @@ ReadingMapping tracker_checks(const prognosis::Tracker& tracker) {
   ReadingMapping mapping;
   mapping.implausible = implausible_reading(tracker);
   mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
-  mapping.event_problem = [&tracker](const UnitEvent& event) {
-    return event_problem(event, tracker);
+  mapping.event_problem = [&tracker,
+                           implausible = implausible_event(tracker)](const UnitEvent& event) {
+    const std::string problem = event_problem(event, tracker);
+    return problem.empty() ? implausible(event) : problem;
   };
   mapping.watched = prognosis::watched_columns(tracker);
   return mapping;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
+
 namespace wearwell::monitor {
 
 UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns,
@@ -69,15 +71,15 @@ std::string UnitEvents::not_in_force(const UnitEvent& event) const {
 }
 
 void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
-  std::map<std::int64_t, double> installed;
+  std::map<std::int64_t, const UnitEvent*> installed;
   for (const UnitEvent* each : valid) {
-    if (begins_part(each->kind)) installed[each->key] = each->use;
+    if (begins_part(each->kind)) installed[each->key] = each;
   }
-  for (const auto& [key, use] : installed) {
+  for (const auto& [key, event] : installed) {
     UnitPart part;
     part.number = parts_.back().number + 1;
     part.from_key = key;
-    part.from_use = use;
+    part.from_use = event->use;
     parts_.push_back(part);
   }
   for (const UnitEvent* each : valid) {
@@ -91,6 +93,9 @@ void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
     at->to_use = each->use;
     at->service = each->kind == EventKind::failed ? Service::failed : Service::removed;
   }
+  begins_installed_ = !installed.empty() &&
+                      installed.begin()->second->kind == EventKind::installed &&
+                      parts_.front().service == Service::in_service;
 }
 
 const UnitPart& UnitEvents::part_at(std::int64_t key) const {
@@ -105,10 +110,6 @@ double UnitEvents::restored_at(const UnitPart& part, std::int64_t key) const {
   for (auto at = restored_.lower_bound(part.from_key); at != end && at != restored_.end(); ++at)
     sum += at->second;
   return sum;
-}
-
-double UnitEvents::restored() const {
-  return restored_at(part(), std::numeric_limits<std::int64_t>::max());
 }
 
 CountedReading UnitEvents::counted(const StoredReading& reading) const {
@@ -128,8 +129,8 @@ CountedReading UnitEvents::counted(const StoredReading& reading) const {
   counted.reading.numbers[columns_.axis] -= part.from_use;
   if (columns_.level) {
     const auto offset = offsets_.upper_bound(reading.key);
-    if (offset != offsets_.begin())
-      counted.reading.numbers[*columns_.level] -= std::prev(offset)->second;
+    if (offset != offsets_.begin()) counted.offset = std::prev(offset)->second;
+    counted.reading.numbers[*columns_.level] -= counted.offset;
     counted.restored = restored_at(part, reading.key);
     counted.reading.numbers[*columns_.level] += rising_ ? counted.restored : -counted.restored;
   }
@@ -156,6 +157,34 @@ std::string part_name(const std::string& unit, std::int64_t part) {
   return part == 1 ? unit : fmt::format("{} (part {})", unit, part);
 }
 
+PartNames::PartNames(Store& store, const EventsOfUnits& events) {
+  for (const auto& [unit, list] : events) {
+    if (!list->begins_installed()) continue;
+    bool earlier = false;
+    store.of_unit(unit, 0, std::numeric_limits<std::int64_t>::max(),
+                  [&, &list = list](const StoredReading& each) {
+                    earlier = earlier || is_of_earlier_part(list->counted(each));
+                  });
+    if (!earlier) installed_.insert(unit);
+  }
+}
+
+std::string PartNames::name(const std::string& unit, std::int64_t part) const {
+  return part_name(unit, part - (installed_.contains(unit) ? 1 : 0));
+}
+
+std::string end_problem(const UnitPart& part, double farthest,
+                        const prognosis::TrackerUnits& reported) {
+  constexpr double rounding = 1e-9;
+  if (!(part.to_use - part.from_use < farthest * (1 - rounding))) return {};
+  return fmt::format(
+      "it is reported as {} at {} = {:.6g}, but has a reading before at {:.6g} on the same "
+      "counter: "
+      "cancel the wrong event, or withdraw the reading",
+      name(part.service), reported.tracker().axis().name, reported.at(part.to_use),
+      reported.at(part.from_use + farthest));
+}
+
 std::string event_problem(const UnitEvent& event, const prognosis::Tracker& tracker) {
   const std::string what = name(event.kind);
   if (event.author.empty()) return "by is missing: who reports the event";
@@ -167,6 +196,13 @@ std::string event_problem(const UnitEvent& event, const prognosis::Tracker& trac
   if (event.use < 0) return fmt::format("{}: {} is negative", what, tracker.axis().name);
   const std::string refusal = begins ? tracker.refusal(part_name(event.unit, 2)) : "";
   if (!refusal.empty()) return fmt::format("{}: {}", what, refusal);
+  const auto study = tracker.seen();
+  if (event.kind == EventKind::installed &&
+      std::find(study.begin(), study.end(), event.unit) != study.end())
+    return fmt::format(
+        "installed: '{}' is a {} of the study; if another part takes its place, report "
+        "\"replaced\"; if it is the part of the study, it goes on without an event",
+        printable(event.unit), tracker.noun());
   if (event.kind != EventKind::sensor && event.kind != EventKind::repaired) return {};
   if (event.kind == EventKind::repaired && !tracker.can_be_restored())
     return fmt::format(

@@ -11,12 +11,13 @@
 #include "wearwell/monitor/store.h"
 #include "wearwell/monitor/unit_event.h"
 #include "wearwell/prognosis/change_watch.h"
+#include "wearwell/prognosis/tracker_units.h"
 
 namespace wearwell::monitor {
 
 /// A part of a unit: from its installation to the next one.
 struct UnitPart {
-  std::int64_t number = 1;
+  std::int64_t number = 1;  ///< 1: before the first installation
   std::int64_t from_key = std::numeric_limits<std::int64_t>::min();
   double from_use = 0;  ///< SI: what the counter showed when it was installed
   Service service = Service::in_service;
@@ -33,7 +34,13 @@ struct CountedReading {
   /// repair had taken anything back.
   StoredReading reading;
   double restored = 0;  ///< SI: what repairs of the part have taken back by then
+  double offset = 0;    ///< SI: of the sensor then
 };
+
+/// Whether it is of a part before the first installation.
+inline bool is_of_earlier_part(const CountedReading& seen) {
+  return seen.part == 1 && seen.state != CountedReading::State::withdrawn;
+}
 
 /// All events of one unit, and what its readings are in their light. The readings themselves stay
 /// as they were stored.
@@ -51,8 +58,16 @@ class UnitEvents {
   /// At least one; the last one is there now.
   const std::vector<UnitPart>& parts() const { return parts_; }
   const UnitPart& part() const { return parts_.back(); }
-  /// SI: what all repairs of the present part have taken back.
-  double restored() const;
+  /// Whether nothing but a reading can be of a part before the first `installed`.
+  bool begins_installed() const { return begins_installed_; }
+  /// The number of a part for people: its own, and one less if no reading is of a part before the
+  /// first `installed`, so that the first part of a unit is part 1.
+  std::int64_t shown_part(std::int64_t number, bool earlier_readings) const {
+    return number - (begins_installed_ && !earlier_readings);
+  }
+  /// SI: what repairs of the present part have taken back, all or those up to a key.
+  double restored() const { return restored_until(std::numeric_limits<std::int64_t>::max()); }
+  double restored_until(std::int64_t key) const { return restored_at(part(), key); }
   const std::vector<UnitEvent>& list() const { return events_; }
   bool is_cancelled(std::int64_t number) const;
   /// Why an event that is stored already does not hold; empty if it does.
@@ -73,6 +88,7 @@ class UnitEvents {
   std::vector<UnitEvent> events_ = {};
   std::set<std::int64_t> cancelled_ = {};
   std::vector<UnitPart> parts_ = {UnitPart{}};
+  bool begins_installed_ = false;
   bool rising_ = true;
   std::map<std::int64_t, double> offsets_ = {};          // of the sensor, from a key on
   std::map<std::int64_t, double> restored_ = {};         // by a repair, from a key on
@@ -86,9 +102,25 @@ EventsOfUnits events_of_units(Store& store, const prognosis::Tracker& tracker);
 /// Those of one unit; without events if it has none.
 std::shared_ptr<const UnitEvents> events_of(const EventsOfUnits& all, const std::string& unit);
 
-/// The name under which a part is begun and exported: the unit's own for its first part, which may
-/// be one of the study, and "M7 (part 2)" for a later one.
+/// "M7 (part 2)"; of part 1 the unit's own name. A part is begun under the name of its own number: the
+/// first may be one of the study, others are not. It is exported under that of its shown number.
 std::string part_name(const std::string& unit, std::int64_t part);
+
+/// The names under which the parts of a store are exported.
+class PartNames {
+ public:
+  /// Reads the store. Throws StoreError.
+  PartNames(Store& store, const EventsOfUnits& events);
+  std::string name(const std::string& unit, std::int64_t part) const;
+
+ private:
+  std::set<std::string> installed_ = {};  // units whose first part is one that was installed
+};
+
+/// Why a part cannot have ended where an event says: a reading is farther, at this use, SI, since the
+/// installation. Empty if it can, or has not ended.
+std::string end_problem(const UnitPart& part, double farthest,
+                        const prognosis::TrackerUnits& reported);
 
 /// Why an event cannot be, whatever the unit's readings are; empty if it can.
 std::string event_problem(const UnitEvent& event, const prognosis::Tracker& tracker);

@@ -14,18 +14,49 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Without what repairs took back.
+std::optional<double> measured_level(const StoredReading& reading, double added,
+                                     const TrackerUnits& units) {
+  std::optional<double> level = units.measured(reading.numbers);
+  if (level) *level -= units.level(added) - units.level(0);
+  return level;
+}
+
 UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
-                     double restored, const TrackerUnits& units) {
+                     double added, const TrackerUnits& units) {
   UnitMoment moment;
   moment.key = reading.key;
   moment.time_ms = reading.time_ms ? reading.time_ms : reading.received_ms;
   moment.at = units.at(forecast.now);
-  moment.measured = units.measured(reading.numbers);
-  if (moment.measured) *moment.measured -= units.level(restored) - units.level(0);
+  moment.measured = measured_level(reading, added, units);
   moment.level = units.level(forecast);
   const Interval remaining = units.remaining(forecast);
   moment.life = {moment.at + remaining.q05, moment.at + remaining.q50, moment.at + remaining.q95};
   return moment;
+}
+
+/// The forecast as it was at a reading: without later repairs.
+prognosis::Forecast forecast_with(UnitRecord& record, double restored) {
+  record.state->set_restored(restored);
+  prognosis::Forecast forecast = record.state->forecast();
+  record.state->set_restored(record.events->restored());
+  return forecast;
+}
+
+/// Whether a repair lies between a reading and the one before it. The moment before it is kept then,
+/// so that the path falls where the level did.
+bool is_repaired_before(UnitRecord& record, const CountedReading& seen, const TrackerUnits& units) {
+  const double before = record.events->restored_until(record.last_key);
+  if (seen.restored == before) return false;
+  if (record.moments.empty() || record.moments.back().key == record.last_key) return true;
+  const prognosis::Forecast forecast = forecast_with(record, before);
+  StoredReading last;
+  last.key = record.last_key;
+  last.time_ms = record.last_time_ms;
+  last.received_ms = record.last_received_ms;
+  last.numbers.assign(units.tracker().columns().size(), std::nan(""));
+  if (!std::isnan(forecast.passed)) record.moments.push_back(moment_of(last, forecast, 0, units));
+  return true;
 }
 
 /// "alternating_stress": what a reading does not have and takes from the one before.
@@ -101,6 +132,7 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
   record.stored_key = record.place == 0 ? stored.key : std::max(record.stored_key, stored.key);
   record.place = stored.place;
   const CountedReading seen = record.events->counted(stored);
+  record.earlier_readings = record.earlier_readings || is_of_earlier_part(seen);
   if (seen.part != record.events->part().number || seen.state == State::withdrawn) return;
   if (seen.state == State::out_of_service) {
     ++record.not_counted;
@@ -111,18 +143,20 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
     return;
   }
   const StoredReading& reading = seen.reading;
-  record.last_time_ms = std::max(record.last_time_ms, reading.time_ms);
-  record.last_received_ms = reading.received_ms;
   const bool first = record.readings == 0;
   const bool late = !first && reading.key < record.last_key;
+  const bool repaired = !first && !late && is_repaired_before(record, seen, units);
+  record.last_time_ms = std::max(record.last_time_ms, reading.time_ms);
+  record.last_received_ms = reading.received_ms;
   record.late += late;
   record.last_key = first ? reading.key : std::max(record.last_key, reading.key);
   ++record.readings;
   const prognosis::History history = counted_history(record, reading.place - 1, store);
   const std::string part = part_name(record.unit, record.events->part().number);
-  const double restored = record.events->restored();
+  const double added = units.tracker().rising() ? seen.restored : -seen.restored;
   const prognosis::UpdateResult taken =
-      record.watch.update({units.tracker(), units.watched(), part, *record.state, restored},
+      record.watch.update({units.tracker(), units.watched(), part, *record.state,
+                           record.events->restored(), added, seen.offset},
                           {reading.numbers, reading.labels}, late, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
@@ -141,22 +175,18 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
     ++record.not_counted;
     return;
   }
+  if (!late) record.last_measured = measured_level(reading, added, units);
   record.contradicting += taken.contradicts;
   if (!first && !late) {
     constexpr double outside = 0.1;  // of 5 to 95 %, on both sides
     ++record.judged;
     record.held += taken.p_value >= outside;
   }
-  if (!is_kept_moment(record.readings)) return;
-  // As it was then: without later repairs.
-  record.state->set_restored(seen.restored);
-  const prognosis::Forecast forecast = record.state->forecast();
-  record.state->set_restored(restored);
+  if (!is_kept_moment(record.readings) && !repaired) return;
+  const prognosis::Forecast forecast = forecast_with(record, seen.restored);
   // If the continuation was undetermined, there was no forecast.
-  const bool rising = units.tracker().rising();
   if (!std::isnan(forecast.passed))
-    record.moments.push_back(
-        moment_of(reading, forecast, rising ? seen.restored : -seen.restored, units));
+    record.moments.push_back(moment_of(reading, forecast, added, units));
 }
 
 UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker,
@@ -192,6 +222,8 @@ std::string bytes_of(const UnitRecord& record) {
       {"watch", Json::binary({watch.begin(), watch.end()})},
       {"event", record.events->last_of_state()},
       {"stored_key", record.stored_key},
+      {"earlier_readings", record.earlier_readings},
+      {"measured", record.last_measured ? Json(*record.last_measured) : Json()},
   };
   const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
   return {bytes.begin(), bytes.end()};
@@ -220,6 +252,8 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
     json.at("problem").get_to(record.last_problem);
     json.at("key").get_to(record.last_key);
     json.at("stored_key").get_to(record.stored_key);
+    json.at("earlier_readings").get_to(record.earlier_readings);
+    if (!json.at("measured").is_null()) record.last_measured = json.at("measured").get<double>();
     json.at("time_ms").get_to(record.last_time_ms);
     json.at("received_ms").get_to(record.last_received_ms);
     for (const Json& each : json.at("moments")) record.moments.push_back(moment_of(each));

@@ -26,9 +26,13 @@ struct UnitRecord {
   std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
   std::uint64_t held = 0, judged = 0;  ///< readings within 5 to 95 % of their forecast
   std::string last_problem = {};
+  bool earlier_readings =
+      false;                    ///< of a part before the first `installed` (UnitEvents::shown_part)
   std::int64_t last_key = 0;    ///< the largest
   std::int64_t stored_key = 0;  ///< the largest, also of readings that do not count
   std::int64_t last_time_ms = 0, last_received_ms = 0;
+  /// Level of the last reading in order, in the units of the study, as it was measured.
+  std::optional<double> last_measured = {};
   std::vector<UnitMoment> moments = {};
   prognosis::ChangeWatch watch = {};
 };

@@ -76,7 +76,7 @@ void try_factors(Since part, std::size_t first, double before, Best& best) {
     double sum = before + choice;
     bool fits = off;
     for (const ReadingSince& each : part) {
-      const double deviation = factor * each.measured - each.expected;
+      const double deviation = factor * (each.measured - each.added) - (each.expected - each.added);
       fits = fits && std::abs(deviation) <= near * each.spread;
       sum += cost(deviation / factor, each.spread / factor);
     }
@@ -138,6 +138,17 @@ void try_scatter(Since part, std::size_t first, double before, Best& best) {
              before + parameter + logarithms + count * (1 + std::log(square)));
 }
 
+/// The only reading that is far off, where others follow; their number if there is none.
+std::size_t single_outlier(Since since) {
+  std::size_t found = since.size();
+  for (std::size_t i = 0; i < since.size(); ++i) {
+    if (std::abs(since[i].measured - since[i].expected) <= near * since[i].spread) continue;
+    if (found < since.size()) return since.size();
+    found = i;
+  }
+  return found + 1 < since.size() ? found : since.size();
+}
+
 bool are_above(Since part) {
   double sum = 0;
   for (const ReadingSince& each : part)
@@ -188,6 +199,9 @@ ChangeCause cause_of(Since since, double before, const std::optional<AsNew>& as_
   }
   ChangeCause cause = best.cause;
   const Since part = since.subspan(cause.first);
+  if (const std::size_t at = single_outlier(since);
+      cause.kind == ChangeKind::unclear && at < since.size())
+    return {ChangeKind::single, at, 0, since[at].measured > since[at].expected};
   if (cause.kind == ChangeKind::unclear) {  // the last reading alone, or all
     for (cause.first = since.size() - 1; cause.first > 0; --cause.first) {
       const ReadingSince& each = since[cause.first - 1];
@@ -239,6 +253,13 @@ std::string description(const ChangeCause& cause, Since since, std::uint64_t dro
           "{} scatter {} times as much as the forecast allows: the sensor has "
           "changed, or the load",
           last, shown_number(cause.size, 2, Script::terminal));
+    case ChangeKind::single:
+      return fmt::format(
+          "a reading of {} lies {} the forecast of {}, and those after it agree with the earlier "
+          "ones: "
+          "a wrong reading, which can be corrected or withdrawn",
+          reading_text(part.front().measured - part.front().added, words.measured), side,
+          number(from_si(words.measured, part.front().expected - part.front().added)) + unit);
     case ChangeKind::unclear:
       break;
   }
@@ -249,8 +270,8 @@ std::string description(const ChangeCause& cause, Since since, std::uint64_t dro
   return fmt::format(
       "the last reading, {}, lies {} the forecast of {}: a wrong reading, a step, "
       "or a change of the rate",
-      reading_text(only.measured, words.measured), side,
-      number(from_si(words.measured, only.expected)) + unit);
+      reading_text(only.measured - only.added, words.measured), side,
+      number(from_si(words.measured, only.expected - only.added)) + unit);
 }
 
 }  // namespace wearwell::prognosis

@@ -14,6 +14,7 @@ namespace wearwell::prognosis {
 struct ReadingSince {
   double at = 0, measured = 0;
   double expected = 0, spread = 0;
+  double added = 0;  ///< of `measured` and `expected`: what repairs took back, not measured
 };
 
 enum class ChangeKind {
@@ -22,7 +23,8 @@ enum class ChangeKind {
   rate,      ///< off by an amount that grows along the axis
   factor,    ///< a change of unit
   replaced,  ///< as those of a new unit
-  scatter    ///< off in both directions
+  scatter,   ///< off in both directions
+  single     ///< one reading is far off, and those after it agree again
 };
 
 struct ChangeCause {

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/prognosis/predicted_reading.h"
@@ -93,14 +94,17 @@ UpdateResult ChangeWatch::update(const WatchedUnit& of, const Reading& reading, 
                                  const History& history) {
   const double repeat = late ? 1 : repeat_evidence(of, reading);
   ++taken_;
-  if (!late) factor_.add(of.tracker, of.columns, of.name, of.unit, reading);
+  if (!late) factor_.add(of.tracker, of.columns, of.name, of.unit, reading, of.added);
   UpdateResult taken = of.unit.update(reading, history);
   if (!taken.counted && !taken.impossible) return taken;
   const bool doubted = test_.in_doubt() || held_;
   test_.add(taken.tails, repeat);
   if (!late) {
-    if (doubted) hold(of, reading, history);
-    if (taken.counted) population_.add(of.tracker, of.columns, of.name, reading);
+    if (doubted)
+      hold(of, reading, history);
+    else
+      agreeing_ = 0;
+    if (taken.counted) population_.add(of.tracker, of.columns, of.name, reading, of.added);
     const double before_at = last_at_;
     repeats_ = repeat > 1 ? repeats_ * repeat : repeat == 1 ? repeats_ : 1;
     note_values(of, reading);
@@ -133,14 +137,19 @@ void ChangeWatch::note_values(const WatchedUnit& of, const Reading& reading) {
   const double value = reading.numbers[*of.columns.measured];
   if (std::isnan(value)) return;
   const Unit& unit = of.tracker.columns()[*of.columns.measured].unit;
-  coarsest_ = std::min(coarsest_, decimal_step(from_si(unit, value)) * unit.scale);
+  // The sensor has steps in what it shows, not in what follows from that.
+  const double shown = value - of.added + of.offset;
+  coarsest_ = std::min(coarsest_, decimal_step(from_si(unit, shown)) * unit.scale);
   if (value == last_value_) {
     equal_ += moved;
   } else {
-    if (!std::isnan(last_value_)) coarsest_ = std::min(coarsest_, std::abs(value - last_value_));
+    if (!std::isnan(last_value_) && of.added == last_added_ && of.offset == last_offset_)
+      coarsest_ = std::min(coarsest_, std::abs(value - last_value_));
     equal_ = 1;
   }
   last_value_ = value;
+  last_added_ = of.added;
+  last_offset_ = of.offset;
 }
 
 void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, double before_at) {
@@ -148,7 +157,6 @@ void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, d
     since_.clear();
     reference_.reset();
     new_unit_.reset();
-    agreeing_ = 0;
     return;
   }
   if (since_.empty()) {
@@ -158,8 +166,8 @@ void ChangeWatch::note_evidence(const WatchedUnit& of, const Reading& reading, d
   }
   const double measured =
       of.columns.measured ? reading.numbers[*of.columns.measured] : std::nan("");
-  since_.push_back(
-      {alone(of.tracker, of.columns, reading), {reading.numbers[of.columns.axis], measured, 0, 0}});
+  since_.push_back({alone(of.tracker, of.columns, reading),
+                    {reading.numbers[of.columns.axis], measured, 0, 0, of.added}});
   if (since_.size() <= most_since) return;
   since_.pop_front();
   ++dropped_;
@@ -177,7 +185,8 @@ std::string ChangeWatch::described(const WatchedUnit& of, const History& history
     return fmt::format(
         "the last {} readings are all {}: the sensor is stuck, or an old value is "
         "sent again",
-        equal_, reading_text(last_value_, of.tracker.columns()[*of.columns.measured].unit));
+        equal_,
+        reading_text(last_value_ - last_added_, of.tracker.columns()[*of.columns.measured].unit));
   if (population_.is_outside() && (!is_changed() || before_ == 0)) return population_.reason();
   // A cause costs some predictions: later it is found again ever more rarely.
   const std::uint64_t count = since_.size() + dropped_;
@@ -225,7 +234,10 @@ std::vector<ReadingSince> ChangeWatch::predicted_as_new(const WatchedUnit& of, s
   for (std::size_t i = first + fresh.values.size(); i < since_.size(); ++i) {
     Reading moved = since_[i].reading;
     moved.numbers[of.columns.axis] -= start;
+    // A new one has not been repaired.
+    moved.numbers[*of.columns.measured] -= since_[i].values.added;
     ReadingSince values = since_[i].values;
+    values.measured -= std::exchange(values.added, 0);
     if (!predict(*fresh.unit, moved, of.columns, values.spread, values)) {
       new_unit_.reset();
       return {};
@@ -277,7 +289,8 @@ void ChangeWatch::save(ByteWriter& to) const {
   test_.save(to);
   to.text(reason_);
   to.u64(taken_);
-  for (const double each : {last_at_, farthest_at_, last_value_, coarsest_, repeats_, before_at_})
+  for (const double each : {last_at_, farthest_at_, last_value_, last_added_, last_offset_,
+                            coarsest_, repeats_, before_at_})
     to.number(each);
   to.byte(beyond_);
   to.byte(held_);
@@ -287,8 +300,8 @@ void ChangeWatch::save(ByteWriter& to) const {
   to.u64(since_.size());
   for (const Since& each : since_) {
     prognosis::save(to, each.reading);
-    for (const double number :
-         {each.values.at, each.values.measured, each.values.expected, each.values.spread})
+    for (const double number : {each.values.at, each.values.measured, each.values.expected,
+                                each.values.spread, each.values.added})
       to.number(number);
     to.byte(each.predicted);
   }
@@ -298,7 +311,8 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   test_.load(from);
   reason_ = from.text();
   taken_ = from.u64();
-  for (double* each : {&last_at_, &farthest_at_, &last_value_, &coarsest_, &repeats_, &before_at_})
+  for (double* each : {&last_at_, &farthest_at_, &last_value_, &last_added_, &last_offset_,
+                       &coarsest_, &repeats_, &before_at_})
     *each = from.number();
   beyond_ = from.flag();
   held_ = from.flag();
@@ -313,8 +327,8 @@ void ChangeWatch::load(ByteReader& from, const Tracker& tracker) {
   for (std::size_t i = 0; i < count; ++i) {
     Since each;
     each.reading = read_reading(from, tracker);
-    for (double* number :
-         {&each.values.at, &each.values.measured, &each.values.expected, &each.values.spread})
+    for (double* number : {&each.values.at, &each.values.measured, &each.values.expected,
+                           &each.values.spread, &each.values.added})
       *number = from.number();
     each.predicted = from.flag();
     since_.push_back(std::move(each));

@@ -23,6 +23,10 @@ struct WatchedUnit {
   const std::string& name;
   TrackedUnit& unit;
   double restored = 0;  ///< as in `TrackedUnit::set_restored`
+  /// Of this reading, SI: what is added to the measured level, as repairs took it back (below 0 where the
+  /// level falls), and what is subtracted, as the sensor shows too much. Reasons quote levels that are
+  /// measured: without `added`.
+  double added = 0, offset = 0;
 };
 
 /// Watches whether a unit still follows its forecasts, and describes what has changed. Like the
@@ -80,6 +84,7 @@ class ChangeWatch {
   bool beyond_ = false;
 
   double last_value_ = std::numeric_limits<double>::quiet_NaN();
+  double last_added_ = 0, last_offset_ = 0;                    // of it, as in WatchedUnit
   double coarsest_ = std::numeric_limits<double>::infinity();  // step of the readings, at most
   double repeats_ = 1;       // evidence of the present run of equal readings
   std::uint64_t equal_ = 0;  // the last readings with one value

@@ -54,12 +54,12 @@ void FactorTest::begin(Other& other, std::size_t factor, const Tracker& tracker,
 }
 
 void FactorTest::add(const Tracker& tracker, const WatchedColumns& columns, const std::string& name,
-                     const TrackedUnit& unit, const Reading& reading) {
+                     const TrackedUnit& unit, const Reading& reading, double added) {
   if (ended_ || !columns.measured) return;
   const std::size_t column = *columns.measured;
   const double value = reading.numbers[column];
   if (std::isnan(value)) return;
-  ended_ = ++seen_ > most_seen;
+  ended_ = ++seen_ > most_seen || added != 0;
   Reading watched = alone(tracker, columns, reading);
   const std::unique_ptr<TrackedUnit> fresh = tracker.begin(name);
   watched.numbers[column] = 0;

@@ -25,9 +25,10 @@ namespace wearwell::prognosis {
 /// reading of a new unit (p-value of 0.1). One that makes a reading a hundredth as probable is out.
 class FactorTest {
  public:
-  /// The next reading in its order; `unit` has not taken it yet.
+  /// The next reading in its order; `unit` has not taken it yet. `added` as in WatchedUnit: with the
+  /// first repair the test ends.
   void add(const Tracker& tracker, const WatchedColumns& columns, const std::string& name,
-           const TrackedUnit& unit, const Reading& reading);
+           const TrackedUnit& unit, const Reading& reading, double added);
 
   bool is_found() const { return !reason_.empty(); }
   const std::string& reason() const { return reason_; }

@@ -22,11 +22,11 @@ bool is_compared(std::uint64_t n) {
 
 // "after multiplication by 1000 it fits: ...", or what else it may be.
 std::string explanation(const TrackedUnit& fresh, const Reading& reading, std::size_t column,
-                        const std::string& noun) {
+                        double added, const std::string& noun) {
   double best = fits, found = 0;
   for (const double factor : unit_factors()) {
     Reading other = reading;
-    other.numbers[column] *= factor;
+    other.numbers[column] = factor * (other.numbers[column] - added) + added;
     const double p = two_sided(fresh.predictive(other));
     if (p > best) best = p, found = factor;
   }
@@ -44,7 +44,7 @@ std::string explanation(const TrackedUnit& fresh, const Reading& reading, std::s
 }  // namespace
 
 void PopulationTest::add(const Tracker& tracker, const WatchedColumns& columns,
-                         const std::string& unit, const Reading& reading) {
+                         const std::string& unit, const Reading& reading, double added) {
   if (!columns.measured || std::isnan(reading.numbers[*columns.measured])) return;
   if (!is_compared(++readings_)) return;
   ++comparisons_;
@@ -60,15 +60,16 @@ void PopulationTest::add(const Tracker& tracker, const WatchedColumns& columns,
   ReadingSince values{reading.numbers[columns.axis], value, 0, 0};
   const bool known =
       predict(*fresh, watched, columns, scale_of_reading(tracker, columns, value), values);
-  reason_ = fmt::format("{} of {} at {} is outside what such a {} can have there{}; {}",
-                        measured.name, reading_text(value, measured.unit),
-                        reading_text(values.at, tracker.axis().unit), tracker.noun(),
-                        known ? fmt::format(", about {} {}",
-                                            shown_number(from_si(measured.unit, values.expected), 3,
-                                                         Script::terminal),
-                                            measured.unit.text)
-                              : "",
-                        explanation(*fresh, watched, *columns.measured, tracker.noun()));
+  reason_ =
+      fmt::format("{} of {} at {} is outside what such a {} can have there{}; {}", measured.name,
+                  reading_text(value - added, measured.unit),
+                  reading_text(values.at, tracker.axis().unit), tracker.noun(),
+                  known ? fmt::format(", about {} {}",
+                                      shown_number(from_si(measured.unit, values.expected - added),
+                                                   3, Script::terminal),
+                                      measured.unit.text)
+                        : "",
+                  explanation(*fresh, watched, *columns.measured, added, tracker.noun()));
 }
 
 void PopulationTest::save(ByteWriter& to) const {

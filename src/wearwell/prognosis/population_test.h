@@ -17,9 +17,9 @@ namespace wearwell::prognosis {
 /// probability of at most 1e-4, as these sum to 1e-4 (Bonferroni).
 class PopulationTest {
  public:
-  /// The next reading that counts, in its order.
+  /// The next reading that counts, in its order; `added` as in WatchedUnit.
   void add(const Tracker& tracker, const WatchedColumns& columns, const std::string& unit,
-           const Reading& reading);
+           const Reading& reading, double added);
 
   /// Whether the last comparison was significant.
   bool is_outside() const { return !reason_.empty(); }
