@@ -282,8 +282,8 @@ def test_classical_estimates_beside_the_posterior():
         assert found[name]["value"] == pytest.approx(value, rel=1e-5)
         assert found[name]["normal"]["lower"] < value < found[name]["normal"]["upper"]
     assert "classical" not in made(ww.life, pumps, "hours", event="failed").toml
-    events = {"unit": ["A", "A", "A"], "age": [100, 250, 400], "event": ["failure", "failure", "end"]}
-    assert tomllib.loads(made(ww.repairable, events, "age", unit="unit", event="event", classical=True).toml)["predict"]["classical"] is True
+    events = {"unit": ["A", "A", "A"], "age [h]": [100, 250, 400], "event": ["failure", "failure", "end"]}
+    assert tomllib.loads(made(ww.repairable, events, "age [h]", unit="unit", event="event", classical=True).toml)["predict"]["classical"] is True
     assert "classical is 'yes'; it is True or False" in refusal(ww.life, pumps, "hours", event="failed", classical="yes")
     assert "classical" in refusal(ww.life, pumps, "hours", event="failed", unit="supplier", classical=True)
 

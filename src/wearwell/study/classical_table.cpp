@@ -79,7 +79,8 @@ std::string confidence_text(const ClassicalLevel& level) {
                          : "one-sided bounds with " + percent + " confidence each";
 }
 
-// Exact bounds stand first and words last, because a screen may be narrower than the table.
+// Exact bounds stand first and words last, because a screen may be narrower than the table. The text
+// around it says what is exact.
 present::Table estimate_table(std::span<const ClassicalEstimate> estimates,
                               const ClassicalLevel& level) {
   present::Table table{"maximum-likelihood-estimates",
@@ -92,7 +93,6 @@ present::Table estimate_table(std::span<const ClassicalEstimate> estimates,
   if (exact) add_columns({"Exact, lower", "Exact, upper"});
   add_columns({"Standard error", "Normal, lower", "Normal, upper", "Likelihood ratio, lower",
                "Likelihood ratio, upper", "Posterior, lower", "Posterior, upper", "Normal scale"});
-  if (exact) add_columns({"Exact by"});
   const auto end = [](const ProfileEnd& each) -> Cell {
     return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
   };
@@ -103,7 +103,6 @@ present::Table estimate_table(std::span<const ClassicalEstimate> estimates,
     row.insert(row.end(),
                {each.standard_error, each.lower, each.upper, end(each.ratio_lower),
                 end(each.ratio_upper), each.posterior_lower, each.posterior_upper, each.scale});
-    if (exact) row.push_back(each.exact ? Cell(each.exact->method) : Cell());
     table.rows.push_back(std::move(row));
   }
   return table;
