@@ -274,6 +274,20 @@ def test_level_takes_the_place_of_the_default_confidence():
     assert "level" in refusal(ww.life, hours, "hours", confidence=0.99, predict={"level": 0.95})
 
 
+def test_classical_estimates_beside_the_posterior():
+    fit = fitted("life", "pumps", "hours", event="failed", by="supplier", classical=True)
+    found = {each["name"]: each for each in fit.results["classical"]["maximum_likelihood"]["parameters"]}
+    expected = pd.read_csv(os.path.join(here, "peers.csv")).query("task == 'groups'").set_index("parameter")["value"]
+    for name, value in expected.items():
+        assert found[name]["value"] == pytest.approx(value, rel=1e-5)
+        assert found[name]["normal"]["lower"] < value < found[name]["normal"]["upper"]
+    assert "classical" not in made(ww.life, pumps, "hours", event="failed").toml
+    events = {"unit": ["A", "A", "A"], "age [h]": [100, 250, 400], "event": ["failure", "failure", "end"]}
+    assert tomllib.loads(made(ww.repairable, events, "age [h]", unit="unit", event="event", classical=True).toml)["predict"]["classical"] is True
+    assert "classical is 'yes'; it is True or False" in refusal(ww.life, pumps, "hours", event="failed", classical="yes")
+    assert "classical" in refusal(ww.life, pumps, "hours", event="failed", unit="supplier", classical=True)
+
+
 def test_presets_are_their_study_files():
     joint = made(ww.joint, table_of("joint/joint_wear.csv"), "volume_mm3", "cycles", work_per_cycle="5.966 N m", limit="100 mm^3",
                  units={"volume_mm3": "mm^3"})

@@ -6,7 +6,7 @@ from . import _toml
 from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
 from ._fit_options import fits
-from ._preset_study import level_of_bounds
+from ._preset_study import classical_key, level_of_bounds
 from ._proposed import Priors, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
 from ._study import Study
 
@@ -122,8 +122,8 @@ def _shape(shape, by, unit, mode):
 
 @fits
 def life(data, life, *, event=None, entry=None, count=None, family="weibull", by=None, unit=None, mode=None, shape=None, stress=None,
-         given=None, units=None, priors=None, b=(1, 10, 50), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None,
-         chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
+         given=None, units=None, priors=None, b=(1, 10, 50), confidence=0.9, classical=False, predict=None, unused=None, title=None, seed=None,
+         method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit a distribution of life to a table: censored, truncated, by group, under stress.
 
     Parameters
@@ -177,6 +177,9 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Percentages of B-lives.
     confidence : float
         Probability with which their lower bounds are exceeded.
+    classical : bool
+        Whether ``fit.results["classical"]`` has the estimates of frequentist software beside the posterior: maximum likelihood
+        of the data alone with normal (Fisher) and likelihood-ratio bounds, median rank regression, Kaplan-Meier or Turnbull.
     predict : dict, optional
         Further keys of ``[predict]`` of a formula study, such as ``{"survival_to": "1000 h"}``.
     unused : str or sequence of str, optional
@@ -265,7 +268,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
     columns.warn_of_idle(unused, counts=count is None, units=unit is None, instead="by" if by else "mode" if mode is not None else "")
     asked = {**({"given": conditions} if (conditions := _conditions(columns, by, stress, given)) else {}),
-             "b_lives": list(b) if hasattr(b, "__iter__") else [b], **level_of_bounds(confidence, predict), **(predict or {})}
+             "b_lives": list(b) if hasattr(b, "__iter__") else [b], **level_of_bounds(confidence, predict),
+             **classical_key(classical), **(predict or {})}
     place = scale if stress else formula
     parts = [_toml.table("", {"title": title or f"Life: {life if isinstance(life, str) else ' to '.join(life)}", "model": "formula"}),
              _toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}), _toml.table("data.columns", rows)]
@@ -281,5 +285,5 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     table, only = columns.table(unused)
     study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
         "data.columns.status": "event", "data.columns.mode": "mode", "failure_modes": "mode", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
-        "predict.given": "given"})
+        "predict.given": "given", "predict.classical": "classical"})
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

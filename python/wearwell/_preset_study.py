@@ -85,3 +85,10 @@ def percentages(b):
 def level_of_bounds(confidence, predict):
     """The key of ``confidence``; none where ``predict`` has ``level``, another name of it, and ``confidence`` is the default."""
     return {} if confidence == 0.9 and "level" in (predict or {}) else {"credible_level": confidence}
+
+
+def classical_key(classical):
+    """The key of ``classical`` under [predict]; none where it is False."""
+    if not isinstance(classical, bool):
+        raise InputError(f"classical is {classical!r}; it is True or False")
+    return {"classical": True} if classical else {}

@@ -4,14 +4,14 @@ from . import _toml
 from ._columns import repairs_of
 from ._errors import InputError
 from ._fit_options import fits
-from ._preset_study import Preset, quantities
+from ._preset_study import Preset, classical_key, quantities
 
 _processes = ("power_law", "renewal", "phases")
 
 
 @fits
 def repairable(data, age, *, unit, event, start=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
-               at=None, ahead=None, units=None, priors=None, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
+               at=None, ahead=None, units=None, priors=None, classical=False, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
                warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the failures of units that are repaired: minimal repair (Crow-AMSAA), renewal, or phases of a growth test.
 
@@ -49,6 +49,9 @@ def repairable(data, age, *, unit, event, start=None, process="power_law", end=N
         Priors by parameter. By default ``beta`` is lognormal with median 1 and log_sd 0.7, ``M_T`` lognormal with median 1 and
         log_sd 3; ``eta`` (renewal) and ``MTBF_1``, ... (phases) are lognormal with log_sd 3 and a median from the size of the
         ages.
+    classical : bool
+        Whether ``fit.results["classical"]`` has maximum likelihood estimates with Fisher, likelihood-ratio and exact bounds
+        (chi-square, Crow) beside the posterior.
     predict : dict, optional
         Further keys of ``[predict]`` of a repairable study.
     unused : str or sequence of str, optional
@@ -82,6 +85,6 @@ def repairable(data, age, *, unit, event, start=None, process="power_law", end=N
             study.conditions[key] = value if isinstance(value, list) else _toml.quantity(value, key)
     study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "predict.age": "at", "predict.next": "ahead",
                             "conditions.phase_ends": "phase_ends", "conditions.reference_age": "reference_age"})
-    asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **(predict or {})}
+    asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **classical_key(classical), **(predict or {})}
     made = study.study(title or f"Failures along {age}", {}, priors, asked, unused)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

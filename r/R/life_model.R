@@ -28,10 +28,10 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
 }
 
 ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
-                            unit = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+                            unit = NULL, given = NULL, classical = FALSE, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "weights", "given", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "weights", "given", "classical", "predict", "title",
                                           "unused", "fit"))
   if (!is_path(family) || !family %in% names(life_families)) {
     stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
@@ -62,7 +62,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   text <- study_text(
     title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study, constants = effects$constants,
     likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
-    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9))))
+    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9),
+                                   if (one_truth(classical, "classical")) list(classical = TRUE))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(family, parameters, lives, study, effects, effect, by)
   known$modes <- !is.null(modes)

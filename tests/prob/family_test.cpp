@@ -108,6 +108,31 @@ TEST(Family, ReciprocalsStayInTheFamily) {
   EXPECT_DOUBLE_EQ(center(y.family, y.family_parameters.data()), 3 * (1 + 0.5 * 0.7 * 0.7));
 }
 
+// The quantile of p has the probability p below it, also far in the tails.
+TEST(Family, QuantilesInvertTheDistribution) {
+  std::vector<Member> members = {{"exponentiated-weibull", {1.5, 2.2, 0.4}}};
+  for (const double shape : {0.08, 0.7, 3.0, 40.0, 1e4}) {
+    members.push_back({"gamma", {shape, 2}});
+    members.push_back({"inverse-gaussian", {1.5, shape}});
+  }
+  for (const double lambda : {-6.0, -1.4, -0.3, -0.04, -1e-9, 0.0, 1e-5, 0.05, 0.31, 0.9, 2.5, 7.0})
+    for (const double sigma : {0.02, 0.6, 2.0})
+      members.push_back({"generalized-gamma", {1.5, sigma, lambda}});
+  for (const Member& each : members) {
+    const double* s = each.family_parameters.data();
+    for (const double p : {1e-9, 1e-4, 0.01, 0.1, 0.4999, 0.5, 0.8, 0.99, 1 - 1e-6}) {
+      const double y = quantile(each.family, p, s);
+      if (!(y > 1e-250 && y < 1e250)) continue;
+      const bool below = p < 0.5;
+      const double tail = each.term(below ? Censoring::left : Censoring::right, y),
+                   wanted = below ? std::log(p) : std::log1p(-p);
+      // The tail changes by this much with y, which is good to 1e-12.
+      const double slope = std::exp(each.term(Censoring::none, y) + std::log(y) - tail);
+      EXPECT_NEAR(tail, wanted, 4e-12 * (1 + slope)) << s[0] << " " << s[1] << " " << p;
+    }
+  }
+}
+
 // The last of so many Weibull lives; the first keeps the shape.
 TEST(Family, ExponentiatedWeibullIsTheLastOfSeveral) {
   expect_same({"exponentiated-weibull", {1.5, 2.2, 1}}, {"weibull", {1.5, 2.2}});

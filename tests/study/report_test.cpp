@@ -80,9 +80,9 @@ TEST(Report, SaysTheVerdictFirst) {
         "26\u202f000\u00a0cycles (90\u00a0%), one in ten before 19\u202f000\u00a0cycles.",
         "Inspect again within 6\u202f000\u00a0cycles: 1\u00a0% risk of "
         "reaching the limit before.",
-        "At 20\u202f585\u00a0cycles the worn volume is 95.0\u00a0mm³; 90.0 to 100\u00a0mm³ "
+        "At 20\u202f585\u00a0cycles the worn volume is 95.0\u00a0mm³ (mean); 90.0 to 100\u00a0mm³ "
         "(90\u00a0%).",
-        "The wear coefficient k is 7.60\u00a0×\u00a010⁻⁴\u00a0mm³/(N\u00a0m); 7.10 to "
+        "The wear coefficient k is 7.60\u00a0×\u00a010⁻⁴\u00a0mm³/(N\u00a0m) (mean); 7.10 to "
         "8.10\u00a0×\u00a010⁻⁴\u00a0mm³/(N\u00a0m) (90\u00a0%)."}) {
     const std::size_t at = page.find("<p class=\"verdict\">" + std::string(each) + "</p>");
     ASSERT_NE(at, std::string::npos) << each;

@@ -274,12 +274,13 @@ TEST(TerminalSummary, OfASkewedParameterTheMedian) {
                         "5.39\u00a0×\u00a010^7 to 1.04\u00a0×\u00a010^12\u00a0h (90\u00a0%)"));
   scale.exact = lognormal(2.0, 0.5);
   EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 2.00\u00a0h (median)"));
-  // Within 10 % either will do, and the mean has no word.
+  // Within 10 % either will do: the mean.
   scale.exact = lognormal(2.0, 0.3);
-  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 2.09\u00a0h; 1.22 to 3.28"));
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 2.09\u00a0h (mean); 1.22 to 3.28"));
   // About zero 10 % of the median is nothing; the width of the interval counts.
   scale.exact = ExactSummary{0.01, 1, -1.6449, 0.005, 1.6449};
-  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("eta is 0.0100\u00a0h; -1.64 to 1.64"));
+  EXPECT_THAT(terminal_summary(result, {}),
+              HasSubstr("eta is 0.0100\u00a0h (mean); -1.64 to 1.64"));
 }
 
 // Of a logarithm the number itself.

@@ -273,3 +273,14 @@ test_that("lives from where hardly any survive are refused, and not infinite in 
   expect_true(all(is.na(answered$q50[grepl("remaining", answered$name)])))
   expect_true(all(is.finite(ww_life(fit, survived = 3000)$q50)))
 })
+
+test_that("classical estimates stand beside the posterior", {
+  fit <- quick(Surv(hours, event) ~ 1, data = pumps, classical = TRUE)
+  found <- fit$summary$classical$maximum_likelihood$parameters
+  values <- vapply(found, `[[`, 0, "value")
+  names(values) <- vapply(found, `[[`, "", "name")
+  to <- ifelse(pumps$event == 1, pumps$hours, Inf)
+  expect_equal(unname(values[c("characteristic", "slope")]), maximum(pumps$hours, to), tolerance = 1e-4)
+  expect_false(grepl("classical", study_of(Surv(hours, event) ~ 1, data = pumps)$text, fixed = TRUE))
+  expect_error(study_of(Surv(hours, event) ~ 1, data = pumps, classical = "yes"), "it is TRUE or FALSE")
+})

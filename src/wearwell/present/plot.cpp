@@ -108,6 +108,7 @@ Json named_ticks(const Axis& axis) {
   return {{"values", values},
           {"tickCount", values.size() + 1},
           {"labelExpr", label},
+          {"labelFlush", false},  // a name stands at its tick, also at the ends
           {"labelOverlap", "greedy"}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <type_traits>
 
 #include "wearwell/math/boost_policy.h"
 #include "wearwell/math/dual.h"
@@ -12,7 +13,9 @@ namespace wearwell {
 /// log Gamma(x), x > 0, for a formula's scalar.
 template <class T>
 T log_gamma(const T& x) {
-  return chained(x, boost::math::lgamma(scalar(x), Quiet()), digamma<Quiet>(scalar(x)));
+  const double value = boost::math::lgamma(scalar(x), Quiet());
+  if constexpr (std::is_same_v<T, double>) return value;
+  return chained(x, value, digamma<Quiet>(scalar(x)));
 }
 
 namespace detail {

@@ -20,17 +20,32 @@ R curvature(const R& u) {
   return sum;
 }
 
-// The remainder of Stirling's formula for log Gamma(1/w), w > 0; 0 at w = 0.
+// The remainder of Stirling's formula for log Gamma(1/w), w > 0, with its derivative; 0 at w = 0.
+// The last one is kept: all rows of a likelihood have the same w.
+inline ValueAndSlope stirling_rest_and_slope(double w) {
+  if (!(w > 0.1)) {
+    constexpr double c[] = {1. / 12, -1. / 360, 1. / 1260, -1. / 1680, 1. / 1188, -691. / 360360};
+    ValueAndSlope rest;
+    for (int k = 5; k >= 0; --k) {
+      rest.value = c[k] + w * w * rest.value;
+      rest.slope = (2 * k + 1) * c[k] + w * w * rest.slope;
+    }
+    return {w * rest.value, rest.slope};
+  }
+  thread_local double last = 0;
+  thread_local ValueAndSlope rest;
+  if (w != last) {
+    const double a = 1 / w;
+    rest = {boost::math::lgamma(a, Quiet()) - (a - 0.5) * std::log(a) + a - half_log_two_pi,
+            -a * a * (digamma<Quiet>(a) - std::log(a) + 0.5 * w)};
+    last = w;
+  }
+  return rest;
+}
 template <class R>
 R stirling_rest(const R& w) {
-  if (scalar(w) > 0.1) {
-    const R a = 1.0 / w;
-    return log_gamma(a) - (a - 0.5) * log(a) + a - half_log_two_pi;
-  }
-  const R w2 = w * w;
-  return w * (1. / 12 -
-              w2 * (1. / 360 -
-                    w2 * (1. / 1260 - w2 * (1. / 1680 - w2 * (1. / 1188 - w2 * (691. / 360360))))));
+  const ValueAndSlope rest = stirling_rest_and_slope(scalar(w));
+  return chained(w, rest.value, rest.slope);
 }
 
 // Temme's expansion of the incomplete gamma functions for large a = 1/w at eta (DLMF 8.12.7 to
@@ -89,7 +104,7 @@ struct GeneralizedGamma : OnPositive {
     return At<Result<Y, T>>(log(y), s).log_tail(false);
   }
   static double quantile(double p, const double* s) {
-    return positive_quantile<GeneralizedGamma>(p, s, s[0]);
+    return positive_quantile<GeneralizedGamma>(p, s, near_quantile(p, s));
   }
   static double mean(const double* s) {
     const double sigma = s[1], lambda = s[2];
@@ -105,6 +120,22 @@ struct GeneralizedGamma : OnPositive {
   }
 
  private:
+  // By Wilson and Hilferty's (1931) cube root, or by the first term of the series.
+  static double near_quantile(double p, const double* s) {
+    const double lambda = s[2], z = wearwell::quantile(StandardDistribution::normal, p);
+    double omega = z;
+    if (std::abs(lambda) > 1e-100) {
+      const double kappa = 1 / (lambda * lambda), cube_root = 1 + lambda * (z / 3 - lambda / 9);
+      const double log_p = lambda > 0 ? std::log(p) : std::log1p(-p);
+      omega = (cube_root > 0.3
+                   ? 3 * std::log1p(cube_root - 1)
+                   : (log_p + boost::math::lgamma(kappa + 1, Quiet())) / kappa - std::log(kappa)) /
+              lambda;
+    }
+    const double y = s[0] * std::exp(s[1] * omega);
+    return y > 1e-300 && y < 1e300 ? y : s[0];
+  }
+
   template <class R>
   struct At {
     R lambda, omega, u, half_square;  // half_square = kappa (e^u - 1 - u)

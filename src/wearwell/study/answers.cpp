@@ -141,7 +141,7 @@ class Clauses {
   void prediction(const PosteriorSummary& result) {
     const PredictionSummary& p = result.predictions.back();
     all.push_back(
-        fmt::format("at {}{}{} the {}{} is {}; {}", given_text(p.at, script_), hard_space,
+        fmt::format("at {}{}{} the {}{} is {} (mean); {}", given_text(p.at, script_), hard_space,
                     p.at_word(), result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
                     number(p.best().mean, p.unit), interval(p.best().ci05, p.best().ci95, p.unit)));
   }
@@ -157,8 +157,8 @@ class Clauses {
       return;
     }
     const ParameterValue shown = headline_value(k);
-    all.push_back(fmt::format("the {} {} is {}{}; {}", first.meaning, first.name,
-                              number(shown.value, first.unit), shown.is_median ? " (median)" : "",
+    all.push_back(fmt::format("the {} {} is {} ({}); {}", first.meaning, first.name,
+                              number(shown.value, first.unit), shown.is_median ? "median" : "mean",
                               interval(k.q05, k.q95, first.unit)));
   }
 
@@ -252,7 +252,8 @@ std::string item_text(const std::string& of, bool is_kind) {
   const auto begins = [&](const char* word) { return of.starts_with(word); };
   if (begins("new ")) return "a " + of;
   if (begins("median ")) return "the " + of;
-  if (begins("my ") || begins("our ") || begins("the ")) return of;
+  if (begins("my ") || begins("our ") || begins("the ") || begins("one ") || begins("unit "))
+    return of;
   const bool has_label = of.find(' ') != of.npos && (!is_kind || begins("type "));
   return has_label ? of : "the " + of;
 }

@@ -79,38 +79,31 @@ std::string confidence_text(const ClassicalLevel& level) {
                          : "one-sided bounds with " + percent + " confidence each";
 }
 
+// Exact bounds stand first and words last, because a screen may be narrower than the table. The text
+// around it says what is exact.
 present::Table estimate_table(std::span<const ClassicalEstimate> estimates,
                               const ClassicalLevel& level) {
   present::Table table{"maximum-likelihood-estimates",
                        "Maximum likelihood, " + confidence_text(level),
-                       {{"Quantity"},
-                        {"Unit"},
-                        {"Estimate"},
-                        {"Standard error"},
-                        {"Normal scale"},
-                        {"Normal, lower"},
-                        {"Normal, upper"},
-                        {"Likelihood ratio, lower"},
-                        {"Likelihood ratio, upper"},
-                        {"Posterior, lower"},
-                        {"Posterior, upper"}}};
+                       {{"Quantity"}, {"Unit"}, {"Estimate"}}};
   const bool exact = any_exact(estimates);
-  if (exact)
-    for (const char* name : {"Exact, lower", "Exact, upper", "Exact by"})
-      table.columns.push_back({name});
+  const auto add_columns = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) table.columns.push_back({name});
+  };
+  if (exact) add_columns({"Exact, lower", "Exact, upper"});
+  add_columns({"Standard error", "Normal, lower", "Normal, upper", "Likelihood ratio, lower",
+               "Likelihood ratio, upper", "Posterior, lower", "Posterior, upper", "Normal scale"});
   const auto end = [](const ProfileEnd& each) -> Cell {
     return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
   };
   for (const ClassicalEstimate& each : estimates) {
-    table.rows.push_back({each.name, each.unit, each.value, each.standard_error, each.scale,
-                          each.lower, each.upper, end(each.ratio_lower), end(each.ratio_upper),
-                          each.posterior_lower, each.posterior_upper});
-    if (!exact) continue;
-    std::vector<Cell>& row = table.rows.back();
-    if (each.exact)
-      row.insert(row.end(), {each.exact->lower, each.exact->upper, each.exact->method});
-    else
-      row.insert(row.end(), 3, Cell());
+    std::vector<Cell> row = {each.name, each.unit, each.value};
+    if (exact && each.exact) row.insert(row.end(), {each.exact->lower, each.exact->upper});
+    if (exact && !each.exact) row.insert(row.end(), 2, Cell());
+    row.insert(row.end(),
+               {each.standard_error, each.lower, each.upper, end(each.ratio_lower),
+                end(each.ratio_upper), each.posterior_lower, each.posterior_upper, each.scale});
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

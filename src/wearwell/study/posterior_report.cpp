@@ -121,7 +121,8 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
     tiles.push_back(
         {fmt::format("{} at {} {}", html::capital(result.quantity), given(p.at), p.at_word()),
          number(p.best().mean, 3), unit(p.unit),
-         fmt::format("one measurement: {}", interval(p.best().pi05, p.best().pi95, p.unit, 3))});
+         fmt::format("mean; one measurement: {}",
+                     interval(p.best().pi05, p.best().pi95, p.unit, 3))});
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
     const ParameterSummary& p = result.parameters[i];
@@ -134,9 +135,9 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
       continue;
     }
     const ParameterValue value = headline_value(each);
-    tiles.push_back(
-        {titled(p), number(value.value, 3), unit(p.unit),
-         (value.is_median ? "median; " : "") + range(each.q05, each.q95, 3) + " (90\u00a0%)"});
+    tiles.push_back({titled(p), number(value.value, 3), unit(p.unit),
+                     (value.is_median ? "median; " : "mean; ") + range(each.q05, each.q95, 3) +
+                         " (90\u00a0%)"});
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);

@@ -58,6 +58,11 @@ void add_next_failure(const Asked& asked, PosteriorStudy& study, QuantityRequest
        }});
 }
 
+// A single unit has its name, a unit like several others has none.
+std::string of_unit(const RecurrenceData& data) {
+  return data.units.size() == 1 ? "unit " + data.units[0].name : "one unit";
+}
+
 // predict.level, sides and classical. The bounds of lives have a level of 50 % or less; intervals do not.
 void read_levels(const TomlReader& predict, Asked& asked) {
   if (predict.has("b_lives"))
@@ -102,23 +107,23 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   if (predict) read_levels(*predict, asked);
   const RecurrenceData& data = asked.data;
   const Process& process = asked.process;
-  ForecastRow all{data.units.size() == 1 ? "unit " + data.units[0].name
-                                         : fmt::format("all {} units", data.units.size()),
+  const std::string unit = of_unit(data);
+  ForecastRow all{data.units.size() == 1 ? unit : fmt::format("all {} units", data.units.size()),
                   "from the end of observation on",
                   {}};
-  for (const UnitHistory& unit : data.units) all.units.push_back(state_at_end(unit));
+  for (const UnitHistory& each : data.units) all.units.push_back(state_at_end(each));
   asked.rows.push_back(all);
   if (process.minimal_repair()) {
     asked.ages = read_ages(predict, asked, study);
     for (const double age : asked.ages) {
-      QuantityRequest mtbf = quantity("mean time between failures", "one unit",
+      QuantityRequest mtbf = quantity("mean time between failures", unit,
                                       "at age " + age_text(data, age), data.unit);
       mtbf.headline = true;
       add_quantity(asked, study, mtbf,
                    [process, age](const double* x) { return 1 / process.intensity(x, age); });
       add_next_failure(asked, study, mtbf, {age, age});
       if (data.units.size() > 1 || age != data.units[0].end)
-        asked.rows.push_back({"one unit", "from age " + age_text(data, age) + " on", {{age, age}}});
+        asked.rows.push_back({unit, "from age " + age_text(data, age) + " on", {{age, age}}});
     }
     if (process.kind == ProcessKind::power_law)
       add_quantity(
@@ -127,13 +132,13 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
           [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); });
   } else {
     static_cast<void>(read_ages(predict, asked, study));
-    QuantityRequest mtbf = quantity("mean time between failures", "one unit", "", data.unit);
+    QuantityRequest mtbf = quantity("mean time between failures", unit, "", data.unit);
     mtbf.headline = true;
     add_quantity(asked, study, mtbf,
                  [](const double* x) { return x[1] * std::tgamma(1 + 1 / x[0]); });
     mtbf.at = "after a repair";
     add_next_failure(asked, study, mtbf, {data.longest(), 0});
-    asked.rows.push_back({"one unit", "from a repair on", {{0, 0}}});
+    asked.rows.push_back({unit, "from a repair on", {{0, 0}}});
   }
   if (!predict) return;
   asked.ahead = predict->quantities("next", data.si);
