@@ -251,7 +251,7 @@ def test_paths_of_units_need_their_column():
     assert "units={'wear': 'um'}" in refusal(ww.degradation, wear, "wear", "km", unit="machine", limit="100 um")
     assert "limit = { path = 100.0 }" in made(ww.degradation, wear, "wear", "km", unit="machine", limit=100).toml
     power = made(ww.degradation, wear, "wear", "km", unit="machine", path="power", units={"km": "km", "wear": "um"}).toml
-    assert 'path = "rate * (km/1 [km])^power"' in power
+    assert 'path = "rate * 50 [km] * (km/(50 [km]))^power"' in power
     falls = made(ww.degradation, wear.assign(wear=500 - wear["wear"]), "wear", "km", unit="machine", limit=400).toml
     assert 'path = "start - rate * km"' in falls
     process = made(ww.degradation, wear, "wear", "km", unit="machine", family="gamma-process", limit=100).toml
