@@ -77,9 +77,9 @@ SEXP size_of_lives(SEXP table, const std::string& lines, const std::vector<std::
 SEXP line_of(SEXP table, const std::string& axis, const std::string& measured,
              const std::string& unit) {
   const Table& readings = held<Table>(table);
-  const formula_model::StraightLine line = formula_model::straight_line(
-      readings, readings.column(axis), readings.column(measured),
-      unit.empty() ? nullptr : &readings.column(unit));
+  const formula_model::StraightLine line =
+      formula_model::straight_line(readings, readings.column(axis), readings.column(measured),
+                                   unit.empty() ? nullptr : &readings.column(unit));
   return named_list({{"at_zero", Rcpp::Shield<SEXP>(Rf_ScalarLogical(line.begins_at_zero))},
                      {"falls", Rcpp::Shield<SEXP>(Rf_ScalarLogical(line.falls))},
                      {"rate", Rcpp::Shield<SEXP>(Rf_ScalarReal(line.rate))}});

@@ -279,3 +279,13 @@ test_that("lives from where hardly any survive are refused, and not infinite in 
   expect_true(all(is.na(answered$q50[grepl("remaining", answered$name)])))
   expect_true(all(is.finite(ww_life(fit, survived = 3000)$q50)))
 })
+
+test_that("a life under a stress is that of ww.life in Python", {
+  # Numbers of the second example of help(wearwell.life), printed to more digits.
+  ovens <- data.frame(T = rep(c(150, 175, 200), each = 4), hours = c(3200, 4100, 5000, 5000, 1100, 1500, 1900, 2600, 410, 560, 700, 880),
+                      status = c("failed", "failed", "censored", "censored", rep("failed", 8)))
+  fit <- quiet(ww_life(Surv(hours, status) ~ 1, ovens, family = "exponential", stress = c(T = "arrhenius"), given = list(T = 100),
+                       units = c(T = "degC", hours = "h"), method = "exact", draws = 50, report = FALSE, seed = 1))
+  expect_equal(fit$parameters[c("life_ref", "energy"), "mean"], c(811.9283731662, 0.7900556943), tolerance = 1e-8)
+  expect_equal(fit$parameters["life_ref", "q05"], 391.8880139712, tolerance = 1e-8)
+})
