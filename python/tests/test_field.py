@@ -146,3 +146,17 @@ def test_what_cannot_be_compared_is_refused_in_arguments(two_makes, valve_seats)
         new.against(old, confidence=1.5)
     with pytest.raises(ww.InputError, match="at"):
         new.against(old, at="nothing")
+
+
+def test_counts_are_failures_of_one_age(valve_seats):
+    frame = table_of("repairable/valve_seats.csv")
+    keys = list(frame.columns)
+    counted = frame.groupby(keys, sort=False).size().rename("n").reset_index()
+    assert counted["n"].max() == 2  # two failures at one age
+    found = repairs(counted, count="n", rounding="1 day", at="600 day", ahead="100 day")
+    assert found.results["repairable"]["failures"] == valve_seats.results["repairable"]["failures"]
+    for name, own in valve_seats.results["parameters"].items():
+        assert found.results["parameters"][name]["q50"] == pytest.approx(own["q50"], rel=1e-9)
+    with pytest.warns(ww.CheckWarning, match="column 'n' looks like a number of equal rows and is not used: write count=\"n\""):
+        repairs(counted, rounding="1 day")
+    assert "column 'n': 1.5 ends of observation of one unit" in refusal(ww.repairable, counted.assign(n=1.5), "age", unit="engine", event="event", count="n", units={"age": "day"})

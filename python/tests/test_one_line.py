@@ -242,6 +242,22 @@ def test_numbers_among_objects_are_numbers():
     assert "beyond 2^53" in refusal(ww.life, {"x": pd.Series([1, 2**60], dtype=object)}, "x")
 
 
+def test_infinite_ends_of_intervals_are_open():
+    looks = pd.DataFrame({"ok": [100.0, 200, 300, 0], "failed": [200.0, 300, np.nan, 100]})
+    infinite = looks.assign(failed=looks["failed"].fillna(np.inf), ok=looks["ok"].replace(0, -np.inf))
+    missing = looks.assign(ok=looks["ok"].replace(0, np.nan))
+    for data in (infinite, {name: infinite[name].to_numpy() for name in infinite}):
+        found, own = made(ww.life, data, ("ok", "failed")), made(ww.life, missing, ("ok", "failed"))
+        assert found.toml == own.toml and found.description() == own.description()
+    assert np.isinf(infinite["failed"][2])  # the caller's frame is left alone
+    assert "column 'ok': an open end is NaN, not -inf" in refusal(ww.life, infinite.to_records(index=False), ("ok", "failed"))
+
+
+def test_a_column_of_texts_is_no_life():
+    message = refusal(ww.life, {"hours": ["123,4", "99,5"]}, "hours")
+    assert message == "life: column 'hours' holds no numbers, but texts such as '123,4'"
+
+
 # ---- The other functions.
 
 def test_paths_of_units_need_their_column():
@@ -251,7 +267,7 @@ def test_paths_of_units_need_their_column():
     assert "units={'wear': 'um'}" in refusal(ww.degradation, wear, "wear", "km", unit="machine", limit="100 um")
     assert "limit = { path = 100.0 }" in made(ww.degradation, wear, "wear", "km", unit="machine", limit=100).toml
     power = made(ww.degradation, wear, "wear", "km", unit="machine", path="power", units={"km": "km", "wear": "um"}).toml
-    assert 'path = "rate * (km/1 [km])^power"' in power
+    assert 'path = "rate * 50 [km] * (km/(50 [km]))^power"' in power
     falls = made(ww.degradation, wear.assign(wear=500 - wear["wear"]), "wear", "km", unit="machine", limit=400).toml
     assert 'path = "start - rate * km"' in falls
     process = made(ww.degradation, wear, "wear", "km", unit="machine", family="gamma-process", limit=100).toml

@@ -463,6 +463,7 @@ def repairable(
     unit: str,
     event: str | Mapping[str, Any],
     start: str | None = ...,
+    count: str | None = ...,
     process: Literal["power_law", "renewal", "phases"] = ...,
     end: Literal["row", "last failure"] | None = ...,
     rounding: _Quantity | None = ...,

@@ -94,6 +94,24 @@ class Columns:
         values = numpy.asarray(self._read().numbers(heading))
         return values[numpy.isfinite(values)]
 
+    def open_ends(self, lower, upper):
+        """Infinite ends of intervals in memory are missing ones from now on: both are open."""
+        import numpy
+
+        if self._whole is not None:
+            return
+        for heading, end in ((lower, -numpy.inf), (upper, numpy.inf)):
+            values = values_of(self.data, [heading]).get(heading, [])
+            if isinstance(values, list) or not (infinite := values == end).any():
+                continue
+            closed = numpy.where(infinite, numpy.nan, values)
+            if hasattr(self.data, "assign"):
+                self.data = self.data.assign(**{heading: closed})
+            elif isinstance(self.data, dict):
+                self.data = {**self.data, heading: closed}
+            else:
+                raise InputError(f"data, row {int(infinite.argmax()) + 1}, column '{heading}': an open end is NaN, not {end}")
+
     def life_size(self, rows, modes, least, stresses):
         """(median, log_sd, why) of the default prior of a life; ``rows`` is [data.columns], ``least`` the least median."""
         said = {key: rows[key] for key in ("life", "lower", "upper", "status", "count", "entry", "mode") if key in rows}

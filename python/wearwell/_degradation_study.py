@@ -53,7 +53,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     limit : str, float or pint quantity, optional
         Failure threshold of ``y``; a plain number is in its unit. Without it no life is predicted.
     path : {"line", "power"}
-        Shape of a path: rate*x, or rate*(x/1)^power, with x in the unit of its column.
+        Shape of a path: rate*x, or rate*L*(x/L)^power, where L is the largest x, rounded up: ``rate`` is the mean rate up to L.
     family : {"normal", "wiener-process", "gamma-process", "inverse-gaussian-process"}
         Readings that scatter about the path (default), or a process of random increments, whose variance over the mean of a
         step is ``step_ratio``. Gamma and inverse Gaussian processes only rise.
@@ -65,8 +65,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     priors : dict of str to dict, or "flat", optional
         Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
         posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak, sizes rounded up to 1, 2 or 5 times a power of ten.
-        ``rate``: lognormal, log_sd 2, median the rate of straight lines through the data (of a power: the largest reading
-        over the largest x to the power of 1). ``power``: lognormal, median 1, log_sd 0.5. ``start``: normal, mean half of the
+        ``rate``: lognormal, log_sd 2, median the rate of straight lines through the data. ``power``: lognormal, median 1, log_sd 0.5. ``start``: normal, mean half of the
         largest reading, sd all of it. ``sigma``: half-normal, scale the largest reading; ``step_ratio``: the same.
         ``rate_scatter`` of ln rate between units: half-normal, scale 1.
     b : float or sequence of float
@@ -120,12 +119,14 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     known = Priors(priors)
     sign = "-" if falls else ""
     name = columns.name(x)
+    known.add("rate", lognormal(rounded_up(rate), unit_of_ratio(of, along), 2), f"{factor_27} of the rate of straight lines, rounded up")
     if path == "power":
-        known.add("rate", lognormal(rounded_up(max(abs(values)) / last or 1), of, 2), f"{factor_27} of the largest reading over the largest x")
+        if places.min() < 0:
+            raise InputError(f"path='power' needs an axis from 0 on, and {x} is {places.min():g}")
+        at = f"{rounded_up(last):.15g}" + (f" [{along}]" if along not in ("", "1") else "")
         known.add("power", lognormal(1.0, "", 0.5), "below 1 it slows down, above it speeds up")
-        grows = f"rate * ({name}/1 [{along}])^power" if along not in ("", "1") else f"rate * {name}^power"
+        grows = f"rate * {at} * ({name}/({at}))^power"
     else:
-        known.add("rate", lognormal(rounded_up(rate), unit_of_ratio(of, along), 2), f"{factor_27} of the rate of straight lines, rounded up")
         grows = f"rate * {name}"
     formula = f"{sign}{grows}" if at_zero else f"start {sign or '+'} {grows}"
     if not at_zero:

@@ -98,6 +98,7 @@ def _lives(columns, life):
     if not isinstance(life, (tuple, list)) or len(life) != 2:
         raise InputError(f"life is {life!r}; it is the heading of a column, or the two of an interval: ('last_ok', 'first_failed')")
     lower, upper = (columns.take(each, "life") for each in life)
+    columns.open_ends(lower, upper)
     units = columns.unit(lower), columns.unit(upper)
     if units[0] != units[1]:
         raise InputError(f"life: column '{lower}' is in {units[0] or 'plain numbers'} and '{upper}' in {units[1] or 'plain numbers'}; "
@@ -131,8 +132,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     data : table
         A row for each item, or for ``count`` equal ones: whatever ``wearwell.table`` takes.
     life : str or (str, str)
-        Column of the life, failed or not; or the two columns of an interval in which it ended (an empty upper end: it still
-        runs, an empty lower end: it failed before the upper end).
+        Column of the life, failed or not; or the two columns of an interval in which it ended (an empty or infinite upper end:
+        it still runs, an empty lower end: it failed before the upper end).
     event : str or dict, optional
         Column that says how each life ended: True or 1 where it failed, False or 0 where it still ran; or words, such as
         "failed", "censored", "suspended", "runout", "left", "interval". A dict says what codes and words mean:
@@ -227,6 +228,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     names = {"life", "life_ref", "energy", "mode", scale, f"{base}_scatter", *(each[0] for each in shapes)}
     columns = Columns(data, units, names - {"life"})
     rows, measured, values, of = _lives(columns, life)
+    if not len(values) and isinstance(life, str) and (cells := [each for each in columns.words(columns.heading(life, "life")) if each]):
+        raise InputError(f"life: column {life!r} holds no numbers, but texts such as {cells[0]!r}")
     if not len(values) or values[-1] <= 0:
         raise InputError(f"life: {life!r} has no value above 0")
     if event is not None:
@@ -254,6 +257,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     index = f"[{columns.name(by)}]" if by else "[mode]" if mode is not None else ""
     formula, constants = base + index, {}
     for heading, model in stress.items():
+        model = "inverse power" if model == "inverse-power" else model
         if model not in _stresses:
             raise InputError(f"stress: {heading} is {model!r}; it is {', '.join(_stresses)}")
         rows[columns.name(heading)] = columns.entry(heading)
@@ -283,7 +287,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     parts += [_toml.table(f"likelihood.{measured}", {"family": family, **{slot: text.replace("{}", place) for slot, text in slots.items()}}),
               _toml.table("prior", known.laws, known.comments), _toml.table("predict", asked)]
     table, only = columns.table(unused)
-    study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
+    study = Study._made("\n".join(parts), {"data": (table, columns.data, only)}, {
         "data.columns.status": "event", "data.columns.mode": "mode", "failure_modes": "mode", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
         "predict.given": "given", "predict.classical": "classical"})
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -10,7 +10,7 @@ _processes = ("power_law", "renewal", "phases")
 
 
 @fits
-def repairable(data, age, *, unit, event, start=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
+def repairable(data, age, *, unit, event, start=None, count=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
                at=None, ahead=None, units=None, priors=None, classical=False, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
                warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the failures of units that are repaired: minimal repair (Crow-AMSAA), renewal, or phases of a growth test.
@@ -28,6 +28,9 @@ def repairable(data, age, *, unit, event, start=None, process="power_law", end=N
         A dict says what codes and words mean: ``{"column": "event", "failure": "repaired", "end": "today"}``.
     start : str, optional
         Column of the age at which observation of the unit began; by default 0.
+    count : str, optional
+        Column of the number of failures of the unit at that age; larger numbers than 1 need ``rounding``. In the row of an end
+        it is 1, 0 or missing.
     process : {"power_law", "renewal", "phases"}
         ``power_law``: minimal repair, a unit is as bad as old. ``renewal``: as good as new. ``phases``: a growth test whose
         intensity changes between phases.
@@ -76,6 +79,7 @@ def repairable(data, age, *, unit, event, start=None, process="power_law", end=N
     study.column("age", "age", age)
     study.rows["event"] = repairs_of(study.columns, event)
     study.column("start", "start", start)
+    study.column("count", "count", count)
     study.choices["process"] = process
     for key, value in (("end", end), ("rounding", rounding)):
         if value is not None:
@@ -86,5 +90,5 @@ def repairable(data, age, *, unit, event, start=None, process="power_law", end=N
     study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "predict.age": "at", "predict.next": "ahead",
                             "conditions.phase_ends": "phase_ends", "conditions.reference_age": "reference_age"})
     asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **classical_key(classical), **(predict or {})}
-    made = study.study(title or f"Failures along {age}", {}, priors, asked, unused)
+    made = study.study(title or f"Failures along {age}", {}, priors, asked, unused, may_have_counts=True)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -69,14 +69,14 @@ whose_of <- function(newdata, label) {
   ifelse(names %in% "", NA, names)
 }
 
-require_values <- function(newdata, columns) {
+require_values <- function(newdata, columns, what = "newdata") {
   for (name in columns) {
     column <- newdata[[name]]
-    column_values(column, paste0("newdata, column '", name, "'"))
+    column_values(column, paste0(what, ", column '", name, "'"))
     row <- which(is.na(column))
-    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': a value is missing")
+    if (length(row)) stop_input(what, ", row ", row[1], ", column '", name, "': a value is missing")
     row <- if (is.numeric(column)) which(is.infinite(column))
-    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': ", column[row[1]], " is not a finite number")
+    if (length(row)) stop_input(what, ", row ", row[1], ", column '", name, "': ", column[row[1]], " is not a finite number")
   }
 }
 
@@ -106,6 +106,7 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   require_columns(newdata, "newdata")
   newdata <- as.data.frame(newdata, check.names = FALSE, optional = TRUE)
   if (nrow(newdata) == 0) stop_input("newdata has no rows")
+  if (is.null(along) && is_of_lives(study) && is.null(axis_of(study, units, NULL))) return(predicted_lives(object, study, newdata, level, kind))
   unknown <- setdiff(names(newdata), names(units))
   if (length(unknown)) stop_input("newdata: the study has no column '", unknown[1], "' (columns: ", words(conditions), ")")
   label <- names(study$random_effects)[1]

@@ -38,17 +38,21 @@ ww_degradation.data.frame <- function(x, y, along, unit = NULL, ...) {
   with_call(ww_degradation.formula(formula, data = x, unit = unit, ...), call)
 }
 
-ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "normal", path = "line", start = FALSE, unit = NULL, priors = NULL,
-                                   units = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "normal", path = "line", starts_at_zero = NULL, start = FALSE,
+                                   unit = NULL, priors = NULL, units = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_degradation)
-  require_options("ww_degradation", ..., own = c("data", "limit", "family", "path", "start", "unit", "priors", "units", "given", "predict", "title",
+  require_options("ww_degradation", ..., own = c("data", "limit", "family", "path", "starts_at_zero", "start", "unit", "priors", "units", "given", "predict", "title",
                                                  "unused", "fit"))
   if (!is_path(family) || !family %in% degradation_families) stop_input("family is ", shown_value(family), "; it is one of ", words(degradation_families))
   if (!is_path(path) || !path %in% degradation_paths) stop_input("path is ", shown_value(path), "; it is one of ", words(degradation_paths))
   process <- endsWith(family, "process")
   start <- one_truth(start, "start")
-  if (start && (process || family == "lognormal")) stop_input("start = TRUE needs family = \"normal\": paths of the family ", family, " begin at 0")
+  if (!is.null(starts_at_zero)) one_truth(starts_at_zero, "starts_at_zero")
+  if (start && isTRUE(starts_at_zero)) stop_input("start = TRUE says that each unit begins at a value of its own; leave starts_at_zero = TRUE out")
+  if ((start || identical(starts_at_zero, FALSE)) && (process || family == "lognormal")) {
+    stop_input(if (start) "start = TRUE" else "starts_at_zero = FALSE", " needs family = \"normal\": paths of the family ", family, " begin at 0")
+  }
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
   sides <- degradation_sides(x, unit)
@@ -74,10 +78,12 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   }
   look_at_unused(columns, c(all.vars(x), sides$unit), TRUE, unused, "",
                  units = if (is.null(sides$unit)) "| %s in the formula, or unit = \"%s\" of a frame")
-  middle <- path_of_degradation(path, start, s, axis$unit, along, effects)
   require_finite(readings, measured$heading)
   require_finite(along, axis$heading)
-  proposed <- degradation_priors(readings, along, measured$unit, axis$unit, path, start, family, !is.null(label), effects)
+  line <- line_of_readings(study, s, y, label, family, if (start) FALSE else starts_at_zero)
+  middle <- path_of_degradation(path, line, s, axis$unit, along, effects)
+  start <- start && !is.null(label)
+  proposed <- degradation_priors(readings, measured$unit, axis$unit, path, line, start, family, !is.null(label), effects)
   likelihood <- switch(family,
     normal = list(family = family, mean = middle, sd = "sigma"),
     lognormal = list(family = family, median = middle, log_sd = "sigma"),
@@ -99,7 +105,10 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   notes <- c(reference_notes(effects$conditions, "rate", NULL, NULL),
              if (is.null(limit)) "no limit is given: wear is fitted, and no life is predicted; limit = \"100 um\" gives lives",
              if (process && !is.null(label)) paste0("one rate for all: the increments of each ", sides$unit, " are random, its rate is not"))
-  known <- list(path = path, family = family, start = start, differs = length(entries) > 0, along = along, power_of = power_unit(along),
+  if (!line$at_zero && is.null(starts_at_zero) && !start) {
+    notes <- c(notes, "paths begin at start, since a line through the readings does not begin at 0: starts_at_zero = TRUE or FALSE decides")
+  }
+  known <- list(path = path, family = family, start = !line$at_zero, start_differs = start, falls = line$falls, differs = length(entries) > 0, along = along, power_of = power_unit(along),
                 item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
                 effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
                 units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "step_ratio", if (family == "normal") "sigma")], unit_of_prior))
@@ -115,7 +124,23 @@ unit_of_prior <- function(prior) {
   if (is.character(size)) sub("^[^ ]+ ", "", size) else ""
 }
 
-path_of_degradation <- function(path, start, axis, unit, along, effects) {
+# The straight line that `wearwell new` proposes priors with: whether paths begin at 0 and fall, and their rate.
+line_of_readings <- function(study, axis, measured, label, family, at_zero) {
+  table <- table_of(lapply(study[c(axis, measured, label)], `[[`, "values"))
+  line <- core(C_straight_line, table, axis, measured, if (is.null(label)) "" else label)
+  begins <- line$at_zero
+  line$at_zero <- if (is.null(at_zero)) begins || family == "lognormal" else at_zero
+  if (endsWith(family, "process") && is.null(at_zero) && !begins) {
+    stop_input("family \"", family, "\": the path of a process begins at 0, and a line through the readings of ", measured, " does not: give the growth ",
+               "since the first reading, or starts_at_zero = TRUE")
+  }
+  if (line$falls && family %in% c("lognormal", "gamma-process", "inverse-gaussian-process")) {
+    stop_input("family \"", family, "\": its paths only rise, and ", measured, " falls; give the loss since the first reading")
+  }
+  line
+}
+
+path_of_degradation <- function(path, line, axis, unit, along, effects) {
   rate <- if (length(effects$terms)) paste0("rate * exp(", paste(effects$terms, collapse = " + "), ")") else "rate"
   if (path == "power") {
     if (any(along < 0)) stop_input("path = \"power\" needs an axis from 0 on, and data, row ", which(along < 0)[1], " is at ", along[along < 0][1])
@@ -124,7 +149,7 @@ path_of_degradation <- function(path, start, axis, unit, along, effects) {
   } else {
     grown <- paste0(rate, " * ", axis)
   }
-  if (start) paste0("start + ", grown) else grown
+  if (line$at_zero) paste0(if (line$falls) "-", grown) else paste0("start ", if (line$falls) "-" else "+", " ", grown)
 }
 
 require_finite <- function(values, heading) {
@@ -135,23 +160,19 @@ require_finite <- function(values, heading) {
 }
 
 # As `wearwell new` proposes them: from the size of the data.
-degradation_priors <- function(y, x, y_unit, x_unit, path, start, family, differs, effects) {
-  slope <- if (start) stats::cov(x, y) / stats::var(x) else sum(x * y) / sum(x * x)
-  if (!isTRUE(slope > 0)) {
-    stop_input("the readings do not rise along the axis (slope ", signif(slope, 3), "): give the loss, like initial - reading, so that wear grows")
-  }
+degradation_priors <- function(y, y_unit, x_unit, path, line, own_starts, family, differs, effects) {
   size <- rounded_up(max(abs(y)))
   unit <- if (y_unit == "" && x_unit == "") "" else if (x_unit == "") y_unit else paste0(if (y_unit == "") "1" else y_unit, "/(", x_unit, ")")
   if (grepl("^[A-Za-z%]+$", x_unit)) unit <- sub("\\((.*)\\)$", "\\1", unit)
-  all <- list(rate = ww_lognormal(quantity_text(rounded_up(slope), unit), log_sd = 2))
+  all <- list(rate = ww_lognormal(quantity_text(rounded_up(line$rate), unit), log_sd = 2))
   if (path == "power") all$power <- ww_lognormal(1, log_sd = 0.5)
-  if (start) {
-    all$start <- ww_normal(quantity_text(0, y_unit), quantity_text(size, y_unit))
-    if (differs) all$start_scatter <- ww_half_normal(quantity_text(size, y_unit))
+  if (!line$at_zero) {
+    all$start <- ww_normal(quantity_text(size / 2, y_unit), quantity_text(size, y_unit))
+    if (own_starts) all$start_scatter <- ww_half_normal(quantity_text(size, y_unit))
   }
   if (family == "normal") all$sigma <- ww_half_normal(quantity_text(size, y_unit))
   if (family == "lognormal") all$sigma <- ww_half_normal(1)
-  if (endsWith(family, "process")) all$step_ratio <- ww_lognormal(quantity_text(rounded_up(max(abs(y)) / 100), y_unit), log_sd = 2)
+  if (endsWith(family, "process")) all$step_ratio <- ww_half_normal(quantity_text(size, y_unit))
   if (differs && !endsWith(family, "process")) all$rate_scatter <- ww_half_normal(1)
   c(all, effects$priors)
 }

@@ -1,6 +1,6 @@
 # Data from the field in one line: units that are repaired, and warranty returns. And lives of two fits against each other.
 
-ww_repairable <- function(data, age, unit, event, start = NULL, process = c("power_law", "renewal", "phases"), end = NULL, rounding = NULL,
+ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, process = c("power_law", "renewal", "phases"), end = NULL, rounding = NULL,
                           phase_ends = NULL, reference_age = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
                           title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_repairable")
@@ -9,7 +9,7 @@ ww_repairable <- function(data, age, unit, event, start = NULL, process = c("pow
   kinds <- eval(formals(ww_repairable)$process)
   if (!is_path(process) || !process %in% kinds) stop_input("process is ", shown_value(process), "; it is one of ", words(kinds))
   columns <- frame_columns(data, units)
-  study <- preset_study(columns, list(unit = unit, age = age, start = start))
+  study <- preset_study(columns, list(unit = unit, age = age, start = start, count = count))
   if (!is.character(study$unit$values)) study$unit$values <- number_text(study$unit$values)
   event <- if (is.list(event)) event else list(column = event)
   unknown <- setdiff(c(names(event), if (is.null(names(event))) ""), c("column", "failure", "end"))
@@ -17,7 +17,7 @@ ww_repairable <- function(data, age, unit, event, start = NULL, process = c("pow
     stop_input("event is ", shown_value(event), "; it is the name of a column, or like list(column = \"event\", failure = \"repaired\")")
   }
   study$event <- event_column(event, columns)
-  look_at_unused(columns, c(age, unit, event$column, start), TRUE, unused, "")
+  look_at_unused(columns, c(age, unit, event$column, start, count), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
   text <- c(toml_table("", list(title = if (is.null(title)) paste("Failures along", age) else one_text(title, "title"), model = "repairable",
                                 process = process)),
             toml_table("data", c(list(file = "data"), given_arguments(end = if (!is.null(end)) one_text(end, "end"),

@@ -20,47 +20,30 @@ life_families <- list(
                              shapes = list(sigma = of_spread(), lambda = list(distribution = "normal", mean = 0, sd = 1.5))))
 
 # Earlier names of parameters.
-called_before <- list(eta = "characteristic", shape = c("slope", "alpha"), median = "median_life", mean = "mean_life", exponent = "power",
+called_before <- list(eta = c("characteristic", "life_ref"), characteristic = "life_ref", median_life = "life_ref", mean_life = "life_ref", shape = c("slope", "alpha"), median = c("median_life", "life_ref"), mean = c("mean_life", "life_ref"), exponent = "power",
                       scale = "step_ratio")
 
-parameters_of_family <- function(family) c(life_families[[family]]$location, names(life_families[[family]]$shapes))
-
-# Weak priors from the size of the data: `size`, of the location, and how wide it is.
-life_priors <- function(family, size, unit, log_sd = 2) {
-  own <- life_families[[family]]
-  c(stats::setNames(list(ww_lognormal(quantity_text(rounded_up(size), unit), log_sd = log_sd)), own$location), own$shapes)
+# Under stresses the location is that at the harshest.
+parameters_of_family <- function(family, stress = NULL) {
+  c(if (length(stress)) "life_ref" else life_families[[family]]$location, names(life_families[[family]]$shapes))
 }
 
-# Where that prior is centred and how wide it is, as life_size.h of the library has it: the characteristic life by the time on test and the
-# number of failures alone, with a slope of 1.5; at least the largest life, and wider the further it lies beyond.
-life_size <- function(study, runouts = NULL) {
-  of <- function(name, otherwise) if (is.null(study[[name]])) otherwise else study[[name]]$values
-  words <- of("status", NULL)
-  mode <- if (is.null(words)) of("mode", NULL)
-  runs <- function(word) {
-    word <- iconv(as.character(word), "UTF-8", "UTF-8", sub = "?")  # what is not UTF-8 is refused where it is read
-    is.na(word) | !nzchar(word) | word %in% runouts | tolower(word) %in% c("runout", "right", "censored", "suspended")
-  }
-  if (is.null(study$life)) {
-    upper <- of("upper", NA_real_)
-    open <- is.na(upper)
-    lower <- of("lower", rep(0, length(upper)))
-    seen <- ifelse(open, lower, (ifelse(is.na(lower), 0, lower) + upper) / 2)
-  } else {
-    seen <- of("life", NULL)
-    open <- rep(FALSE, length(seen))
-  }
-  open <- open | if (!is.null(words)) runs(words) else if (!is.null(mode)) runs(mode) else FALSE
-  count <- rep_len(of("count", 1), length(seen))
-  entry <- rep_len(of("entry", 0), length(seen))
-  largest <- max(unlist(lapply(study[intersect(names(study), c("life", "lower", "upper"))], `[[`, "values")), na.rm = TRUE)
-  modes <- of("mode", NULL)
-  each <- max(1, length(unique(modes[!runs(modes)])))
-  failed <- max(1, sum(count[!open], na.rm = TRUE) / each)
-  estimate <- (sum(count * pmax(0, seen^1.5 - entry^1.5), na.rm = TRUE) / failed)^(1 / 1.5)
-  beyond <- max(0, log(estimate / max(seen, na.rm = TRUE)))
-  if (!is.finite(beyond)) return(list(median = largest, log_sd = 2))
-  list(median = if (beyond > 0) max(largest, estimate) else largest, log_sd = floor(4 * sqrt(1 + beyond^2) + 0.5) / 2)
+# Weak priors from the size of the data: `size`, of the location, and how wide it is.
+life_priors <- function(family, size, unit, log_sd = 2, location = life_families[[family]]$location) {
+  c(stats::setNames(list(ww_lognormal(quantity_text(rounded_up(size), unit), log_sd = log_sd)), location), life_families[[family]]$shapes)
+}
+
+# Where that prior is centred and how wide it is, as the library proposes it (study/life_size.h): at least the largest life, or with stresses, whose
+# scale is that of the harshest, the middle one.
+life_size <- function(study, modes = NULL, stresses = character()) {
+  lives <- study[intersect(names(study), c("life", "lower", "upper"))]
+  each <- sort(unlist(lapply(lives, function(column) column$values[is.finite(column$values)]), use.names = FALSE))
+  least <- if (!length(each)) 1 else if (length(stresses)) each[length(each) %/% 2 + 1] else each[length(each)]
+  of <- function(name) if (study[[name]]$unit == "") name else list(column = name, unit = study[[name]]$unit)
+  said <- lapply(stats::setNames(nm = intersect(c("life", "lower", "upper", "status", "count", "entry"), names(study))), of)
+  if (!is.null(modes)) said$mode <- modes$name
+  table <- table_of(lapply(study[unique(c(names(said)[names(said) != "mode"], modes$name, stresses))], `[[`, "values"))
+  core(C_life_size, table, toml_table("", said), as.character(modes$table$runout), least, stresses)
 }
 
 # [likelihood] of a family: `middle` is an expression of its location, `index` "[group]" if shapes differ.

@@ -27,11 +27,11 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
   with_call(fit, call)
 }
 
-ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, weights = NULL,
+ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, count = NULL, weights = NULL,
                             unit = NULL, given = NULL, classical = FALSE, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "weights", "given", "classical", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "classical", "predict", "title",
                                           "unused", "fit"))
   if (!is_path(family) || !family %in% names(life_families)) {
     stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
@@ -41,9 +41,14 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
   if (!length(columns) || length(columns[[1]]$values) == 0) stop_input("data has no rows")
-  parameters <- parameters_of_family(family)
+  stress <- stress_laws(stress)
+  parameters <- parameters_of_family(family, stress)
   location <- parameters[1]
-  reader <- list(x = x, location = location, by = by, mode = mode, stress = stress_laws(stress), units = units, weights = weights, unused = unused)
+  if (!is.null(count)) {
+    if (!is.null(weights)) stop_input("count and weights are one: leave weights out")
+    weights <- count
+  }
+  reader <- list(x = x, location = location, by = by, mode = mode, stress = stress, units = units, weights = weights, unused = unused)
   read <- read_lives(reader, columns)
   study <- read$columns
   lives <- read$lives
@@ -55,8 +60,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
   likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes)) index else "")
-  size <- life_size(c(study, if (!is.null(modes)) list(mode = study[[modes$name]])), modes$table$runout)
-  proposed <- life_priors(family, size$median, lives$unit, size$log_sd)
+  size <- life_size(study, modes, stress_columns(effects, stress))
+  proposed <- life_priors(family, size$median, lives$unit, size$log_sd, location)
   proposed <- c(proposed, effects$priors, effect$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(
@@ -99,7 +104,7 @@ read_lives <- function(reader, columns, fitted = FALSE) {
   used <- c(lives$used, names(effects$conditions), by$source, modes$source, unlist(lapply(random, `[[`, "label")), reader$weights)
   instead <- if (!is.null(by)) " in place of by" else if (!is.null(modes)) " in place of mode"
   look_at_unused(columns, used, lives$known, reader$unused, paste0("Surv(", lives$name, ", ", "EVENT)"),
-                 counts = if (is.null(reader$weights)) "weights = \"%s\"",
+                 counts = if (is.null(reader$weights)) "count = \"%s\"",
                  units = if (!length(random)) paste0("+ (1 | %s) in the formula, or unit = \"%s\" of a frame", instead))
   list(columns = c(study, effect$columns), lives = lives, effects = effects, random = effect, by = by, modes = modes, used = unique(used))
 }
@@ -171,8 +176,8 @@ life_columns <- function(lives, weights, columns) {
     }
   }
   if (!is.null(weights)) {
-    each <- find_column(columns, one_text(weights, "weights"), "weights")
-    study$count <- study_column(numbers_for(each, "weights"), "")
+    each <- find_column(columns, one_text(weights, "count"), "count")
+    study$count <- study_column(numbers_for(each, "count"), "")
   }
   study
 }
@@ -188,7 +193,7 @@ lives_given <- function(given, conditions, by) {
   all <- list()
   for (condition in c(unname(conditions), if (!is.null(by)) list(utils::modifyList(by, list(label = TRUE, reference = by$levels[1]))))) {
     value <- given[[condition$source]]
-    if (is.null(value)) value <- condition$reference
+    if (is.null(value)) value <- if (is.null(condition$mildest)) condition$reference else condition$mildest
     if (condition$label && !as.character(value) %in% condition$levels) {
       stop_input("given: ", condition$source, " has no level '", value, "' (levels: ", words(condition$levels), ")")
     }
@@ -199,11 +204,17 @@ lives_given <- function(given, conditions, by) {
 
 reference_notes <- function(conditions, location, parameters, by) {
   if (!length(conditions)) return(if (!is.null(by)) paste0(location, " of each ", by$source, "; lives of ", by$levels[1]))
-  at <- vapply(conditions, function(each) {
-    paste(each$source, "=", if (each$label) each$reference else trimws(paste(number_text(each$reference), each$unit)))
-  }, "")
-  paste0(location, " and the lives are those at ", words(at), " (given = list(...) states other conditions of the lives)")
+  places <- function(key) words(vapply(conditions, function(each) {
+    value <- if (is.null(each[[key]])) each$reference else each[[key]]
+    paste(each$source, "=", if (each$label) value else trimws(paste(number_text(value), each$unit)))
+  }, ""))
+  given <- " (given = list(...) states other conditions of the lives)"
+  if (places("reference") == places("mildest")) return(paste0(location, " and the lives are those at ", places("reference"), given))
+  paste0(location, " is that at ", places("reference"), ", the lives are those at ", places("mildest"), given)
 }
+
+# The study's columns of stresses.
+stress_columns <- function(effects, stress) vapply(names(stress), function(name) effects$conditions[[name]]$name, "", USE.NAMES = FALSE)
 
 # ---- What all one-line models share.
 

@@ -18,11 +18,11 @@ require_levels <- function(b, confidence) {
 # Families of lives that may lie below 0.
 of_both_signs <- c("normal", "student-t", "smallest-extreme-value", "largest-extreme-value")
 
-require_lives <- function(study, survived) {
+require_lives <- function(study, survived, what = "survived") {
   slots <- study$likelihood[[1]]
   if (isTRUE(slots$family %in% of_both_signs) || !is.null(slots$threshold)) return()
   number <- if (is.character(survived)) suppressWarnings(as.double(sub("^\\s*([^ ]+).*$", "\\1", survived))) else as.double(survived)
-  if (isTRUE(number < 0)) stop_input("survived is ", shown_value(survived), "; lives of this study are 0 or more")
+  if (isTRUE(number < 0)) stop_input(what, " is ", shown_value(survived), "; lives of this study are 0 or more")
 }
 
 # The keys of [predict] for a study of a formula.

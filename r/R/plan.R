@@ -54,7 +54,7 @@ answer_of <- function(kind, file, arguments, run = NULL, other = NULL, study = N
 }
 
 plan_of <- function(kind, arguments, ...) {
-  found <- answer_of(kind, if (kind == "decide") "decisions" else "plan", arguments, ...)
+  found <- answer_of(kind, switch(kind, decide = "decisions", life = "life", "plan"), arguments, ...)
   if (!found$trusted) warn("the fit that this plan rests on is not trusted: see its checks")
   structure(class = c("ww_plan", "ww_answer"), found)
 }
@@ -87,6 +87,12 @@ ww_plan_inspect <- function(lives, risk = NULL, total_risk = NULL, warning = NUL
                     inspection_cost = inspection_cost, failure_cost = failure_cost, replacement_cost = replacement_cost,
                     downtime_cost = downtime_cost, visit_cost = visit_cost, given = given)
   plan_of_lives("inspect", arguments, lives, in_service, threads, progress)
+}
+
+# The life of a new unit, or the remaining useful life of one of the data.
+ww_unit_life <- function(fit, unit = NULL, survived = NULL, horizon = NULL, risk = NULL, level = NULL, sides = NULL) {
+  about <- fit_or_folder(fit)
+  plan_of("life", list(unit = unit, survived = survived, horizon = horizon, risk = risk, level = level, sides = sides), run = about$run, path = about$path)
 }
 
 ww_decide <- function(lives, failure_cost, replacement_cost, at = NULL, in_service = NULL, inspection_cost = NULL, downtime_cost = NULL,

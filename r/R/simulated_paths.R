@@ -8,8 +8,8 @@ new_readings_at <- function(draw, known) {
   for (each in known$effects) log_rate <- log_rate + draw[[each$parameter]] * each$value
   if (known$differs) log_rate <- log_rate + of_unit("rate_scatter")
   grown <- if (known$path == "power") known$power_of * (known$along / known$power_of)^draw[["power"]] else known$along
-  mean <- exp(log_rate) * grown
-  if (known$start) mean <- mean + draw[["start"]] + if (known$differs) of_unit("start_scatter") else 0
+  mean <- (if (known$falls) -1 else 1) * exp(log_rate) * grown
+  if (known$start) mean <- mean + draw[["start"]] + if (known$start_differs) of_unit("start_scatter") else 0
   switch(known$family,
     normal = mean + draw[["sigma"]] * stats::rnorm(known$rows),
     lognormal = mean * exp(draw[["sigma"]] * stats::rnorm(known$rows)),

@@ -199,6 +199,9 @@ ww_study <- function(formula, data, units = NULL, priors, unit = NULL, random_ef
 }
 
 ww_study_toml <- function(text, data = NULL, units = NULL, folder = "", name = "study") {
+  if (!is.character(text)) {
+    stop_input("text is ", kind_of(text), "; it is a study as text", if (inherits(text, c("ww_fit", "ww_study"))) ", which fit$toml and study$text have")
+  }
   text <- paste(text, collapse = "\n")
   if (!is.null(data) && (!is.list(data) || is.null(names(data)) || is.data.frame(data))) {
     stop_input("data is a list of tables by the names that the study gives them, like list(\"wear.csv\" = df)")

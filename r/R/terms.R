@@ -84,7 +84,7 @@ condition_of <- function(name, columns, taken, what, fitted = FALSE) {
   found
 }
 
-reference_name <- function(condition) paste0(condition$name, "_reference")
+reference_name <- function(condition) paste0(condition$name, "_ref")
 
 # Pieces of a condition: parameter -> expression that it multiplies in the logarithm, and the scale of that.
 pieces_of <- function(condition) {
@@ -123,7 +123,7 @@ effect_prior <- function(piece) {
   ww_normal(quantity_text(0, inverse_unit(piece$unit)), quantity_text(signif(3 / piece$size, 2), inverse_unit(piece$unit)))
 }
 
-known_stresses <- c("arrhenius", "eyring", "inverse-power", "exponential")
+known_stresses <- c("arrhenius", "eyring", "inverse power", "exponential")
 
 # The effects of a formula's terms, with the stress laws that take the place of some.
 effects_of <- function(fixed, columns, stress, what, fitted = FALSE) {
@@ -135,6 +135,10 @@ effects_of <- function(fixed, columns, stress, what, fitted = FALSE) {
   labels <- attr(terms, "term.labels")
   variables <- unique(c(unlist(lapply(as.list(attr(terms, "variables"))[-1], function(variable) {
     if (!is.symbol(variable)) {
+      if (is.call(variable) && length(variable) == 2 && as.character(variable[[1]])[1] %in% c(known_stresses, "inverse_power")) {
+        stop_input(what, ": ", shown_value(variable), " is no column; the law of a stress is stress = c(", all.vars(variable)[1], " = \"",
+                   sub("_", " ", as.character(variable[[1]])), "\")")
+      }
       stop_input(what, ": ", shown_value(variable), " is no column; make one of it first, like data$x <- ", shown_value(variable))
     }
     as.character(variable)
@@ -142,6 +146,12 @@ effects_of <- function(fixed, columns, stress, what, fitted = FALSE) {
   conditions <- list()
   for (name in variables) {
     conditions[[name]] <- condition_of(name, columns, vapply(conditions, `[[`, "", "name"), what, fitted)
+  }
+  # Of a stress the reference is the harshest tested, and lives are predicted at the mildest.
+  for (name in names(stress)) {
+    if (conditions[[name]]$label) next
+    conditions[[name]]$reference <- max(conditions[[name]]$values)
+    conditions[[name]]$mildest <- min(conditions[[name]]$values)
   }
   effects <- list(terms = character(), priors = list(), constants = list(), conditions = conditions, pieces = list(),
                   values = list(), fixed = list())
@@ -190,7 +200,7 @@ with_stress <- function(effects, condition, law) {
     at <- kelvin_of(condition$reference, condition$unit)
     effects$values[[parameter]] <- (1 / kelvin - 1 / at) / 8.617333262e-5
     if (law == "eyring") effects$fixed <- c(effects$fixed, list(log(at / kelvin)))
-  } else if (law == "inverse-power") {
+  } else if (law == "inverse power") {
     if (any(condition$values <= 0)) {
       stop_input("stress: the inverse power law needs values above 0, and ", place_of_row(condition, which(condition$values <= 0)[1]), " is ", condition$values[condition$values <= 0][1])
     }
@@ -212,7 +222,9 @@ with_stress <- function(effects, condition, law) {
 stress_laws <- function(stress) {
   if (is.null(stress)) return(list())
   if (is.null(names(stress)) || any(names(stress) == "")) stop_input("stress has no names; it is like c(temperature = \"arrhenius\")")
+  stress <- as.list(stress)
   for (name in names(stress)) {
+    if (identical(stress[[name]], "inverse-power")) stress[[name]] <- "inverse power"
     if (!isTRUE(stress[[name]] %in% known_stresses)) {
       stop_input("stress: ", name, " is ", shown_value(stress[[name]]), "; it is one of ", words(known_stresses))
     }

@@ -4,6 +4,8 @@
 #include "core.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/memory_table.h"
+#include "wearwell/models/formula_model/straight_line.h"
+#include "wearwell/study/life_size.h"
 
 namespace wearwell::r {
 namespace {
@@ -59,12 +61,38 @@ SEXP headings(SEXP table) {
   return texts_of(names);
 }
 
+// Median and log_sd of the default prior of a life, and the words for both. `lines`: of [data.columns].
+SEXP size_of_lives(SEXP table, const std::string& lines, const std::vector<std::string>& runouts,
+                   double least, const std::vector<std::string>& stresses) {
+  const Table& lives = held<Table>(table);
+  LifeHeadings headings = life_headings(lines, lives);
+  headings.runouts = runouts;
+  const LifeSize size = life_size_under(lives, headings, least, stresses);
+  return named_list({{"median", Rcpp::Shield<SEXP>(Rf_ScalarReal(size.median))},
+                     {"log_sd", Rcpp::Shield<SEXP>(Rf_ScalarReal(size.log_sd))},
+                     {"why", Rcpp::Shield<SEXP>(text_of(words_of(size)))}});
+}
+
+// What `wearwell new --from` proposes a prior of a path with; `unit` is "" for one unit.
+SEXP line_of(SEXP table, const std::string& axis, const std::string& measured,
+             const std::string& unit) {
+  const Table& readings = held<Table>(table);
+  const formula_model::StraightLine line =
+      formula_model::straight_line(readings, readings.column(axis), readings.column(measured),
+                                   unit.empty() ? nullptr : &readings.column(unit));
+  return named_list({{"at_zero", Rcpp::Shield<SEXP>(Rf_ScalarLogical(line.begins_at_zero))},
+                     {"falls", Rcpp::Shield<SEXP>(Rf_ScalarLogical(line.falls))},
+                     {"rate", Rcpp::Shield<SEXP>(Rf_ScalarReal(line.rate))}});
+}
+
 }  // namespace
 
 void add_tables(Doors& doors) {
   doors.push_back(door<&table_of>("table_of"));
   doors.push_back(door<&table_of_file>("table_of_file"));
   doors.push_back(door<&headings>("headings"));
+  doors.push_back(door<&size_of_lives>("life_size"));
+  doors.push_back(door<&line_of>("straight_line"));
 }
 
 }  // namespace wearwell::r

@@ -102,10 +102,15 @@ test_that("random effects are those of lme4 and brms", {
 test_that("stress laws are written out, by is a level's own scale", {
   hot <- transform(pumps, T = rep(c(40, 60), 5))
   arrhenius <- study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius"), units = c(T = "degC"))$text
-  expect_match(arrhenius, "scale = \"characteristic * exp(energy/boltzmann * (1/T - 1/T_reference))\"", fixed = TRUE)
-  expect_match(study_of(Surv(hours, event) ~ 1, hot, stress = c(load = "inverse-power"))$text, "-load_power * log(load/load_reference)", fixed = TRUE)
+  expect_match(arrhenius, "scale = \"life_ref * exp(energy/boltzmann * (1/T - 1/T_ref))\"", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ 1, hot, stress = c(load = "inverse-power"))$text, "-load_power * log(load/load_ref)", fixed = TRUE)
   expect_match(study_of(Surv(hours, event) ~ 1, hot, by = "site")$text, "scale = \"characteristic[site]\"", fixed = TRUE)
-  expect_match(study_of(Surv(hours, event) ~ load * site, hot)$text, "b_load_by_site_B * (load - load_reference) * (site == \\\"B\\\")", fixed = TRUE)
+  expect_match(study_of(Surv(hours, event) ~ load * site, hot)$text, "b_load_by_site_B * (load - load_ref) * (site == \\\"B\\\")", fixed = TRUE)
+  # The scale is that at the harshest stress, lives are those at the mildest, as in Python and `wearwell new`.
+  expect_match(arrhenius, "T_ref = \"60 degC\"", fixed = TRUE)
+  expect_match(arrhenius, "given = { T = \"40 degC\" }", fixed = TRUE)
+  refused(study_of(Surv(hours, event) ~ arrhenius(T), hot), "the law of a stress is stress = c(T = \"arrhenius\")")
+  refused(study_of(Surv(hours, event) ~ 1, hot, count = "load", weights = "load"), "count and weights are one")
   refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arrhenius")), "T has no unit: units = c(T = \"degC\") states it")
   refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(T = "arhenius")), "it is one of arrhenius")
   refused(study_of(Surv(hours, event) ~ 1, hot, stress = c(site = "inverse-power")), "holds texts")
@@ -136,8 +141,9 @@ test_that("columns of counts and units that are not used are named", {
   for (name in c("count", "Counts", "weight", "weights", "n", "quantity", "qty", "freq", "frequency", "number")) {
     frame <- with(name, rep_len(c(1, 20), rows))
     expect_identical(said(Surv(hours, event) ~ 1, frame),
-                     paste0("column '", name, "' looks like a number of equal rows and is not used: write weights = \"", name, "\", or unused = \"",
+                     paste0("column '", name, "' looks like a number of equal rows and is not used: write count = \"", name, "\", or unused = \"",
                             name, "\" if it says something else"))
+    expect_length(said(Surv(hours, event) ~ 1, frame, count = name), 0)
     expect_length(said(Surv(hours, event) ~ 1, frame, weights = name), 0)
     expect_length(said(Surv(hours, event) ~ 1, frame, unused = name), 0)
   }
@@ -283,4 +289,14 @@ test_that("classical estimates stand beside the posterior", {
   expect_equal(unname(values[c("characteristic", "slope")]), maximum(pumps$hours, to), tolerance = 1e-4)
   expect_false(grepl("classical", study_of(Surv(hours, event) ~ 1, data = pumps)$text, fixed = TRUE))
   expect_error(study_of(Surv(hours, event) ~ 1, data = pumps, classical = "yes"), "it is TRUE or FALSE")
+})
+
+test_that("a life under a stress is that of ww.life in Python", {
+  # Numbers of the second example of help(wearwell.life), printed to more digits.
+  ovens <- data.frame(T = rep(c(150, 175, 200), each = 4), hours = c(3200, 4100, 5000, 5000, 1100, 1500, 1900, 2600, 410, 560, 700, 880),
+                      status = c("failed", "failed", "censored", "censored", rep("failed", 8)))
+  fit <- quiet(ww_life(Surv(hours, status) ~ 1, ovens, family = "exponential", stress = c(T = "arrhenius"), given = list(T = 100),
+                       units = c(T = "degC", hours = "h"), method = "exact", draws = 50, report = FALSE, seed = 1))
+  expect_equal(fit$parameters[c("life_ref", "energy"), "mean"], c(811.9283731662, 0.7900556943), tolerance = 1e-8)
+  expect_equal(fit$parameters["life_ref", "q05"], 391.8880139712, tolerance = 1e-8)
 })

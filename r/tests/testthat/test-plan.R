@@ -145,7 +145,7 @@ test_that("tests that were done are read as the Surv() of their fit", {
                       temperature = rep(c(330, 360, 390), c(3, 3, 2)))
   fit <- quiet(ww_life(Surv(hours, failed) ~ 1, data = lives, stress = c(temperature = "arrhenius"), units = c(hours = "h", temperature = "K"),
                        seed = 1, method = "exact", draws = 100, report = FALSE))
-  goal <- "characteristic"
+  goal <- "life_ref"
   done <- data.frame(hours = c(1500, 400), failed = c(1, 0), temperature = c(360, 390))
   own <- data.frame("life [h]" = done$hours, status = c("failure", "runout"), "temperature [K]" = done$temperature, check.names = FALSE)
   plan <- function(tests) quiet(ww_plan_next(fit, goal, grid = list(temperature = c(340, 380)), tests = tests, samples = 64, nodes = 200))$summary
