@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "support/messages.h"
+#include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/toml_reader.h"
 

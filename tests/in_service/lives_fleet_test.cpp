@@ -79,9 +79,10 @@ TEST_F(LivesFleet, HasTheNumbersOfDecide) {
       }
     }
     for (const json& unit : other["units"]) {
-      for (const json& each : mine["worst"])
-        if (each["unit"] == unit["unit"])
-          EXPECT_NEAR(each["median"].get<double>() / unit["q50"].get<double>(), 1, 0.02);
+      for (const json& each : mine["worst"]) {
+        if (each["unit"] != unit["unit"]) continue;
+        EXPECT_NEAR(each["median"].get<double>() / unit["q50"].get<double>(), 1, 0.02);
+      }
     }
   }
 }
