@@ -177,18 +177,18 @@ TEST(FleetOutlook, SurvivalOfAllIsEvidenceAsFarAsItIsResolved) {
   EXPECT_NEAR(few.failures[0].expected, sum / mass, 0.005 * sum / mass);
   const FleetOutlook many = with(100'000, false);
   EXPECT_FALSE(many.population.resolved);
-  EXPECT_EQ(many.failures[0].expected, with(100'000, true).failures[0].expected);
+  EXPECT_NEAR(many.failures[0].expected / with(100'000, true).failures[0].expected, 1, 1e-12);
 }
 
 TEST(FleetOutlook, SomeNeverFail) {
   PopulationLives half(
-      {WeightedLives(std::vector<double>{1, 2, 3, infinity}, std::vector<double>{1, 1, 1, 3})},
+      {WeightedLives(std::vector<double>{1, 2, 3, infinity}, std::vector<double>{1, 1, 1, 4})},
       {1});
   const std::vector<PopulationLives> groups = {half};
   const FleetOutlook outlook =
       fleet_outlook(groups, of_ages({0.5}, false), std::vector<double>{1, 100});
   EXPECT_TRUE(std::isinf(outlook.median[0]));
-  EXPECT_NEAR(outlook.failing[1][0], 0.5, 1e-12);
+  EXPECT_NEAR(outlook.failing[1][0], 3.0 / 7, 1e-12);
   EXPECT_TRUE(some_survive(half, 100));
   EXPECT_FALSE(some_survive(PopulationLives(weibull(1, 2)), 100));
 }

@@ -128,8 +128,10 @@ TEST_F(LivesFleet, UnitsHaveTheirOwnConditions) {
   };
   EXPECT_NEAR(of(two, "A"), of(ten, "A"), 1e-9);
   EXPECT_GT(of(two, "B"), 5 * of(ten, "B"));
-  // 10 degC lies outside the tests; that is said, and how many units.
-  EXPECT_THAT(ten["checks"].dump(), HasSubstr("2 units have a temperature outside"));
+  // 90 degC lies outside the tests, from 10 to 80.
+  const json hot = fleet(fit("accelerated") + " " +
+                         file("hot.csv", "unit,age [h],temperature [degC]\nA,500,90\n") + horizon);
+  EXPECT_THAT(hot["checks"].dump(), HasSubstr("have a temperature outside the study's 10 to 80"));
   EXPECT_EQ(two["fleet"]["conditions"], 2);
 }
 
