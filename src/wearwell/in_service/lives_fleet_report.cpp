@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -45,7 +46,8 @@ double shown(const LivesFindings& found, double si) {
 }
 
 std::string horizon_text(const LivesFindings& found, double si) {
-  return fmt::format("{:.6g} {}", shown(found, si), found.axis.text);
+  const bool factor = std::isdigit(static_cast<unsigned char>(found.axis.text.front())) != 0;
+  return fmt::format("{:.6g} {}{}", shown(found, si), factor ? "x " : "", found.axis.text);
 }
 
 bool has_conditions(const LivesFindings& found) {
@@ -192,13 +194,14 @@ Check extrapolation_check_of(const LivesFindings& found) {
   }
   if (old > 0)
     findings.add(Verdict::warn,
-                 fmt::format("{} units are older than the longest life in the study, {}", old,
+                 fmt::format("units older than the longest life in the study, {1}: {0}", old,
                              horizon_text(found, found.longest_seen)),
                  advice);
   if (later > old)
-    findings.add(Verdict::warn,
-                 fmt::format("{} units will be, within {}", later, horizon_text(found, last)),
-                 advice);
+    findings.add(
+        Verdict::warn,
+        fmt::format("units that will be within {1}: {0}", later, horizon_text(found, last)),
+        advice);
   std::size_t number = 0;
   for (const UnitColumns::Given& each : found.columns.conditions) {
     const Condition& condition = each.condition;
