@@ -32,7 +32,7 @@ const std::vector<std::set<std::string>> order = {
     {"present"},
     {"study"},
     {"selection", "prognosis", "fleet"},
-    {"plan"},
+    {"plan", "in_service"},
     {"joint", "bearing", "clutch", "fatigue", "formula_model", "recurrence"},
     {"models", "monitor", "workbench"},
     {"cli"},

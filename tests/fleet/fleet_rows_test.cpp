@@ -7,7 +7,6 @@
 #include "fleet/sample_fleet.h"
 #include "support/scratch.h"
 #include "wearwell/models/clutch/left_out.h"
-#include "wearwell/prognosis/carried_state.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -187,25 +186,6 @@ TEST_F(FleetRows, TemperaturesInTheOtherUnitAreRefused) {
   write("cold.csv", boost::replace_all_copy(text, ",T,", ",temperature [K],"));
   const CommandResult cold = run_wearwell("fleet " + name + " " + path("cold.csv") + output());
   EXPECT_THAT(cold.err, Not(HasSubstr("calibrated range")));
-}
-
-// What works for a fit of another model.
-TEST_F(FleetRows, OtherModelsAreRefusedWithTheCommandThatWorks) {
-  const auto result = [&](const std::string& kind) {
-    prognosis::CarriedState state;
-    state.model = kind;
-    state.parameters = {"k"};
-    state.posterior.values = Points::Ones(1, 1);
-    state.posterior.weights = Eigen::VectorXd::Ones(1);
-    std::filesystem::create_directories(folder() / kind);
-    write(kind + "/state.bin", prognosis::state_bytes(state));
-    return path(kind);
-  };
-  file("a.csv", fleet_cycles(50, 2, 37));
-  refused(result("formula") + " --engine postgresql://me:secret@h/d --table plant.liners",
-          "--dialect postgresql --table plant.liners > wear.sql && psql URL -f wear.sql");
-  refused(result("formula") + " " + path("a.csv"), "wearwell export sql");
-  refused(result("sn") + " " + path("a.csv"), "wearwell new monitor");
 }
 
 TEST_F(FleetRows, OfOtherCountriesAreTheSame) {

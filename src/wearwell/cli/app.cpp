@@ -11,6 +11,7 @@
 #include "wearwell/cli/decide.h"
 #include "wearwell/cli/fatigue/fatigue_commands.h"
 #include "wearwell/cli/fit.h"
+#include "wearwell/cli/fleet.h"
 #include "wearwell/cli/formula/export_command.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
@@ -64,6 +65,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_monitor_command(*app, models, exit_code);
   bearing::add_bearing_command(*app);
   clutch::add_clutch_commands(*app, exit_code);
+  add_fleet_command(*app, models, exit_code);
   fatigue::add_fatigue_command(*app, exit_code);
   formula_model::add_export_command(*app, exit_code);
   add_select_command(*app, exit_code);

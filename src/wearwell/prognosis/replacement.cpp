@@ -6,6 +6,7 @@
 
 #include "wearwell/math/root.h"
 #include "wearwell/prognosis/least.h"
+#include "wearwell/prognosis/survival_sweep.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -79,13 +80,12 @@ WeightedLives PopulationLives::mixture() const {
   const WeightedLives together(all, share);
   if (together.points().empty()) return together;
   const WeightedLives places = represented_lives([&](double p) { return together.quantile(p); });
-  std::vector<double> life, failed;
-  for (const double x : places.points()) {
-    if (!std::isfinite(x)) break;
-    life.push_back(x);
-    failed.push_back(1 - survival(x));
-  }
+  std::vector<double> life;
+  for (const double x : places.points())
+    if (std::isfinite(x)) life.push_back(x);
   if (life.empty()) return together;
+  std::vector<double> failed = survivals(*this, life);
+  for (double& each : failed) each = 1 - each;
   const double last = infinite_share(together) > 0 ? never : life.back();
   return represented_lives([&](double p) {
     const auto above = std::lower_bound(failed.begin(), failed.end(), p);

@@ -25,6 +25,7 @@ void sort(std::vector<Point>& points) {
   constexpr int digit = 12;
   constexpr std::size_t values = std::size_t{1} << digit;
   const auto less = [](const Point& a, const Point& b) { return a.life < b.life; };
+  if (std::is_sorted(points.begin(), points.end(), less)) return;
   if (points.size() < few || points.size() > std::numeric_limits<std::uint32_t>::max())
     return std::stable_sort(points.begin(), points.end(), less);
   struct Key {

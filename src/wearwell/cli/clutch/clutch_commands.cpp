@@ -18,7 +18,6 @@ void add_clutch_commands(CLI::App& app, int& exit_code) {
   add_compare_command(*command);
   add_sql_command(*command);
   add_sql_command(app)->group("");  // the name before the command moved to clutch
-  add_fleet_command(app, exit_code);
 }
 
 }  // namespace wearwell::clutch

@@ -6,7 +6,7 @@ class App;
 
 namespace wearwell::clutch {
 
-/// `wearwell clutch design|simulate|features|predict|life|compare|sql` and `wearwell fleet`.
+/// `wearwell clutch design|simulate|features|predict|life|compare|sql`.
 void add_clutch_commands(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell::clutch

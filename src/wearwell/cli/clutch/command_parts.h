@@ -14,8 +14,7 @@ void add_predict_command(CLI::App& clutch, int& exit_code);
 void add_life_command(CLI::App& clutch);
 void add_compare_command(CLI::App& clutch);
 
-/// `sql` of the parent, and `wearwell fleet`.
+/// `sql` of the parent.
 CLI::App* add_sql_command(CLI::App& parent);
-void add_fleet_command(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell::clutch

@@ -1,0 +1,361 @@
+#include "wearwell/in_service/lives_fleet_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/input/parquet_writer.h"
+#include "wearwell/math/quantile.h"
+
+// Longer than others: the tables of one report in their order.
+namespace wearwell::in_service {
+namespace {
+
+using present::digits;
+using present::fixed;
+using present::given;
+using present::Prose;
+using present::Range;
+using present::Section;
+using present::Table;
+using prognosis::PopulationWeights;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t worst_shown = 100;
+constexpr double much_left_out = 0.05;
+
+// Units by the B10 of remaining life, ties by the median and by name.
+std::vector<std::size_t> worst_first(const LivesFindings& found) {
+  std::vector<std::size_t> order(found.rows.names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const prognosis::FleetOutlook& out = found.outlook;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (out.b10[a] != out.b10[b]) return out.b10[a] < out.b10[b];
+    if (out.median[a] != out.median[b]) return out.median[a] < out.median[b];
+    return found.rows.names[a] < found.rows.names[b];
+  });
+  return order;
+}
+
+double shown(const LivesFindings& found, double si) {
+  return from_si(found.axis, si);
+}
+
+std::string horizon_text(const LivesFindings& found, double si) {
+  const bool factor = std::isdigit(static_cast<unsigned char>(found.axis.text.front())) != 0;
+  return fmt::format("{:.6g} {}{}", shown(found, si), factor ? "x " : "", found.axis.text);
+}
+
+bool has_conditions(const LivesFindings& found) {
+  return std::any_of(found.rows.sets.begin(), found.rows.sets.end(),
+                     [](const ConditionSet& each) { return !each.description.empty(); });
+}
+
+Table failures_table(const LivesFindings& found) {
+  Table table{
+      "failures",
+      fmt::format("Failures among {} units in service, from now on", found.rows.names.size()),
+      {{"Horizon", found.axis.text, given},
+       {"Failures expected", "1", digits(4)},
+       {"5 to 95 %", "1", fixed(0), true},
+       {"Share of fleet", "%", digits(3)}}};
+  const double all = static_cast<double>(found.rows.names.size());
+  for (std::size_t h = 0; h < found.horizons.size(); ++h) {
+    const prognosis::FleetFailures& n = found.outlook.failures[h];
+    table.rows.push_back({shown(found, found.horizons[h]), n.expected, Range{n.low, n.high},
+                          100 * n.expected / all});
+  }
+  return table;
+}
+
+Table worst_table(const LivesFindings& found, const std::vector<std::size_t>& order) {
+  const std::size_t count = std::min(worst_shown, order.size());
+  const bool conditions = has_conditions(found);
+  Table table{"worst",
+              count == 1 ? std::string("The unit")
+                         : fmt::format("The {} units with the shortest remaining life", count),
+              {{"Unit"}, {"Age", found.axis.text, digits(5)}}};
+  if (conditions) table.columns.push_back({"Conditions"});
+  for (const double each : found.horizons)
+    table.columns.push_back({"Fails within " + horizon_text(found, each), "%", digits(3)});
+  table.columns.push_back({"Remaining life, B10", found.axis.text, present::life(4)});
+  table.columns.push_back({"Median", found.axis.text, present::life(4)});
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t u = order[i];
+    std::vector<present::Cell>& row = table.rows.emplace_back();
+    row = {found.rows.names[u], shown(found, found.rows.units.age[u])};
+    if (conditions) row.push_back(found.rows.sets[found.rows.units.group[u]].description);
+    for (const auto& each : found.outlook.failing) row.push_back(100 * each[u]);
+    row.push_back(shown(found, found.outlook.b10[u]));
+    row.push_back(shown(found, found.outlook.median[u]));
+  }
+  return table;
+}
+
+Table spread_table(const LivesFindings& found) {
+  Table table{"spread", "Quantiles over the fleet", {{"Of each unit"}}};
+  constexpr double levels[] = {0.05, 0.25, 0.5, 0.75, 0.95};
+  for (const double p : levels)
+    table.columns.push_back({fmt::format("{:g} %", 100 * p), "1", digits(4)});
+  const auto add = [&](const std::string& name, std::vector<double> values, double scale) {
+    std::sort(values.begin(), values.end());
+    table.rows.push_back({name});
+    for (const double p : levels) table.rows.back().push_back(quantile(values, p) / scale);
+  };
+  const std::string unit = found.axis.text;
+  add(fmt::format("age [{}]", unit), found.rows.units.age, found.axis.scale);
+  for (std::size_t h = 0; h < found.horizons.size(); ++h)
+    add(fmt::format("fails within {} [%]", horizon_text(found, found.horizons[h])),
+        found.outlook.failing[h], 0.01);
+  add(fmt::format("remaining life, B10 [{}]", unit), found.outlook.b10, found.axis.scale);
+  add(fmt::format("remaining life, median [{}]", unit), found.outlook.median, found.axis.scale);
+  return table;
+}
+
+Table sets_table(const LivesFindings& found) {
+  Table table{"conditions",
+              "Units by their conditions",
+              {{"Conditions"}, {"Units", "1", fixed(0)}, {"Outside the tests"}}};
+  for (const ConditionSet& set : found.rows.sets) {
+    std::string outside;
+    std::size_t number = 0;
+    for (const UnitColumns::Given& each : found.columns.conditions) {
+      if (each.condition.si.empty()) continue;
+      const double x = set.values[number++];
+      if (x >= each.condition.low && x <= each.condition.high) continue;
+      outside += (outside.empty() ? "" : ", ") + each.condition.name;
+    }
+    table.rows.push_back({set.description, present::count(set.units), outside});
+  }
+  return table;
+}
+
+std::vector<Table> left_out_tables(const UnitRows& rows, const Unit& axis) {
+  if (rows.left_out == 0) return {};
+  Table reasons{"left-out-reasons",
+                "Rows left out, by the first reason",
+                {{"Reason"}, {"Rows", "1", fixed(0)}, {"Share", "%", digits(3)}}};
+  for (const auto& [reason, count] : rows.reasons)
+    reasons.rows.push_back({reason, count, 100 * count / rows.rows});
+  Table list{"left-out",
+             rows.left_out > static_cast<double>(rows.first_left_out.size())
+                 ? fmt::format("The first {} rows left out", rows.first_left_out.size())
+                 : std::string("Rows left out"),
+             {{"Unit"}, {"Reason"}, {"Age", axis.text, given}}};
+  for (const LeftOutRow& each : rows.first_left_out) {
+    list.rows.push_back({each.unit, each.reason});
+    if (std::isfinite(each.age)) {
+      list.rows.back().push_back(from_si(axis, each.age));
+    } else {
+      list.rows.back().push_back(std::monostate{});
+    }
+  }
+  return {std::move(reasons), std::move(list)};
+}
+
+Check population_check(const LivesFindings& found) {
+  const PopulationWeights& population = found.outlook.population;
+  const std::vector<char>& in_study = found.rows.units.in_study;
+  if (std::all_of(in_study.begin(), in_study.end(), [](char each) { return each != 0; }))
+    return {"population", Verdict::pass,
+            fmt::format("failures are counted over {} points of the population; the study has the "
+                        "survival of all units",
+                        found.points),
+            ""};
+  if (population.resolved)
+    return {"population", Verdict::pass,
+            fmt::format("failures are counted over {} points of the population, weighted by the "
+                        "survival of the units to their ages (effective number {:.1f})",
+                        found.points, population.effective),
+            ""};
+  return {"population", Verdict::warn,
+          fmt::format("the survival of the units is more evidence on the population than its {} "
+                      "points resolve (effective number {:.1f}): the numbers of failures rest on "
+                      "the population as the study has it, the numbers of each unit on that with "
+                      "its own survival",
+                      found.points, population.effective),
+          "Fit with these units as run-outs, beside the failures that happened (wearwell update), "
+          "and give --in-study."};
+}
+
+Check extrapolation_check_of(const LivesFindings& found) {
+  Findings findings("extrapolation");
+  const std::string advice =
+      "These numbers rest on the distribution and its relation to the conditions, not on data.";
+  std::size_t old = 0, later = 0;
+  const double last = found.horizons.back();
+  for (const double age : found.rows.units.age) {
+    old += age > found.longest_seen;
+    later += age + last > found.longest_seen;
+  }
+  if (old > 0)
+    findings.add(Verdict::warn,
+                 fmt::format("units older than the longest life in the study, {1}: {0}", old,
+                             horizon_text(found, found.longest_seen)),
+                 advice);
+  if (later > old)
+    findings.add(
+        Verdict::warn,
+        fmt::format("units that will be within {1}: {0}", later, horizon_text(found, last)),
+        advice);
+  std::size_t number = 0;
+  for (const UnitColumns::Given& each : found.columns.conditions) {
+    const Condition& condition = each.condition;
+    if (condition.si.empty()) continue;
+    std::size_t outside = 0;
+    for (const ConditionSet& set : found.rows.sets)
+      if (set.values[number] < condition.low || set.values[number] > condition.high)
+        outside += set.units;
+    ++number;
+    if (outside == 0) continue;
+    findings.add(Verdict::warn,
+                 fmt::format("{} units have a {} outside the study's {:.6g} to {:.6g} {}", outside,
+                             condition.name, from_si(condition.unit, condition.low),
+                             from_si(condition.unit, condition.high), condition.unit.text),
+                 advice);
+  }
+  return findings.result("ages, horizons and conditions lie within the study");
+}
+
+std::vector<Check> checks_of(const LivesFindings& found, bool skip_bad) {
+  std::vector<Check> checks;
+  checks.push_back({"fit", found.trusted_fit ? Verdict::pass : Verdict::fail,
+                    found.trusted_fit ? "the fit is trusted"
+                                      : "the fit is not trusted, nor is what follows from it",
+                    found.trusted_fit ? "" : "See the checks of the fit: wearwell report."});
+  checks.push_back(population_check(found));
+  checks.push_back(extrapolation_check_of(found));
+  if (!skip_bad) return checks;
+  const double share = found.rows.left_out / found.rows.rows;
+  checks.push_back(
+      {"left-out",
+       share > much_left_out ? Verdict::fail
+       : share > 0           ? Verdict::warn
+                             : Verdict::pass,
+       fmt::format(
+           "{:.0f} of {:.0f} rows were left out (--skip-bad); their failures are not counted",
+           found.rows.left_out, found.rows.rows),
+       share > 0 ? "Correct the rows of the table left-out." : ""});
+  return checks;
+}
+
+Json left_out_json(const UnitRows& rows) {
+  Json reasons = Json::array();
+  for (const auto& [reason, count] : rows.reasons)
+    reasons.push_back({{"reason", reason}, {"rows", count}});
+  return {{"rows", rows.left_out}, {"reasons", std::move(reasons)}};
+}
+
+Json body_of(const LivesFindings& found, const std::vector<std::size_t>& order, bool skip_bad) {
+  const prognosis::FleetOutlook& out = found.outlook;
+  Json body = {{"fleet",
+                {{"units", found.rows.names.size()},
+                 {"noun", found.noun},
+                 {"rows", found.rows.rows},
+                 {"engine", found.engine},
+                 {"model", found.fingerprint},
+                 {"life_unit", found.axis.text},
+                 {"conditions", found.rows.sets.size()},
+                 {"interpolated", out.interpolated},
+                 {"populations",
+                  {{"count", found.points},
+                   {"effective", out.population.effective},
+                   {"resolved", out.population.resolved}}}}},
+               {"failures", Json::array()},
+               {"worst", Json::array()}};
+  if (!found.layout.empty()) body["fleet"]["layout"] = found.layout;
+  for (std::size_t h = 0; h < found.horizons.size(); ++h)
+    body["failures"].push_back({{"horizon", shown(found, found.horizons[h])},
+                                {"expected", out.failures[h].expected},
+                                {"low", out.failures[h].low},
+                                {"high", out.failures[h].high}});
+  for (std::size_t i = 0; i < std::min(worst_shown, order.size()); ++i) {
+    const std::size_t u = order[i];
+    Json failing = Json::array();
+    for (const auto& each : out.failing) failing.push_back(each[u]);
+    body["worst"].push_back({{"unit", found.rows.names[u]},
+                             {"age", shown(found, found.rows.units.age[u])},
+                             {"conditions", found.rows.sets[found.rows.units.group[u]].description},
+                             {"failing", std::move(failing)},
+                             {"b10", shown(found, out.b10[u])},
+                             {"median", shown(found, out.median[u])}});
+  }
+  if (skip_bad) body["left_out"] = left_out_json(found.rows);
+  return body;
+}
+
+std::string units_file(const LivesFindings& found, const std::vector<std::size_t>& order) {
+  std::vector<WordColumn> words = {{"unit", {}}};
+  if (has_conditions(found)) words.push_back({"conditions", {}});
+  const std::string unit = found.axis.text;
+  std::vector<NumberColumn> columns = {{fmt::format("age [{}]", unit), {}}};
+  for (const double each : found.horizons)
+    columns.push_back({"failing_within " + horizon_text(found, each), {}});
+  columns.push_back({fmt::format("left_b10 [{}]", unit), {}});
+  columns.push_back({fmt::format("left_median [{}]", unit), {}});
+  for (const std::size_t u : order) {
+    words.front().values.push_back(found.rows.names[u]);
+    if (words.size() > 1)
+      words.back().values.push_back(found.rows.sets[found.rows.units.group[u]].description);
+    std::size_t c = 0;
+    columns[c++].values.push_back(shown(found, found.rows.units.age[u]));
+    for (const auto& each : found.outlook.failing) columns[c++].values.push_back(each[u]);
+    columns[c++].values.push_back(shown(found, found.outlook.b10[u]));
+    columns[c].values.push_back(shown(found, found.outlook.median[u]));
+  }
+  return parquet_of(words, columns);
+}
+
+Prose lead_of(const LivesFindings& found) {
+  const prognosis::FleetFailures& n = found.outlook.failures.front();
+  return {
+      fmt::format("Of {} units in service, {:.4g} ({:.0f} to {:.0f}, 90 %) are expected to fail "
+                  "within {}.",
+                  html::given(static_cast<double>(found.rows.names.size())), n.expected, n.low,
+                  n.high, horizon_text(found, found.horizons.front())),
+      true};
+}
+
+}  // namespace
+
+Result lives_fleet_result(const LivesFindings& found, bool skip_bad) {
+  const std::vector<std::size_t> order = worst_first(found);
+  Result result;
+  Header& header = result.header;
+  header.version = WEARWELL_VERSION;
+  header.title = fmt::format("A fleet of {} units: {}", found.rows.names.size(), found.title);
+  header.model = "life-fleet";
+  header.equation = "failures within h = sum over units of 1 - S(age + h)/S(age)";
+  header.data = {found.files, static_cast<std::size_t>(found.rows.rows), found.fingerprint};
+  header.checks = checks_of(found, skip_bad);
+  header.trusted = std::none_of(header.checks.begin(), header.checks.end(),
+                                [](const Check& each) { return each.verdict == Verdict::fail; });
+  result.body = body_of(found, order, skip_bad);
+  result.files.emplace_back("units.parquet", units_file(found, order));
+  Section failures{"failures", "Failures"};
+  failures.add(lead_of(found));
+  failures.add(failures_table(found));
+  failures.add(Prose{"Each unit counts once: parts that fail again are not counted."});
+  Section worst{"worst", "Worst units"};
+  worst.add(worst_table(found, order));
+  Section fleet{"fleet", "Fleet"};
+  fleet.add(spread_table(found));
+  if (has_conditions(found)) fleet.add(sets_table(found));
+  for (Table& each : left_out_tables(found.rows, found.axis)) fleet.add(std::move(each));
+  Section how{"how", "How"};
+  present::Facts facts{{{"engine", found.engine},
+                        {"rows read", fmt::format("{:.0f}", found.rows.rows)},
+                        {"lives of", found.noun},
+                        {"points of the population", fmt::format("{}", found.points)},
+                        {"model", found.fingerprint}}};
+  if (!found.layout.empty()) facts.facts.push_back({"layout of the files", found.layout});
+  how.add(std::move(facts));
+  result.sections = {std::move(failures), std::move(worst), std::move(fleet), std::move(how)};
+  return result;
+}
+
+}  // namespace wearwell::in_service
