@@ -276,17 +276,22 @@ TEST_F(Configs, ProblemsOfOneTableAreAllReported) {
 TEST_F(Configs, UnknownKeysOfAllTablesAreReportedAtOnce) {
   const std::string text =
       "result = \"result\"\ntitel = \"x\"\n[reading]\nunit = \"machine\"\nsequence = 5\nevnt = "
-      "\"e\"\n[reading.columns]\nwear = { feld = \"w\", unit = \"um\" }\ntme = { field = \"h\", unit "
-      "= \"min\" }\n[source.a]\nkind = \"folder\"\nfolder = \"none\"\nformt = \"influx\"\n[source.b]\n"
-      "kind = \"stdinn\"\nbroker = \"mqtt://h\"\nbrker = 1\n[alarm]\nhorizon = \"500 kg\"\nwtch = 0.1\n";
+      "\"e\"\n[reading.columns]\nwear = { feld = \"w\", unit = \"um\" }\ntme = { field = \"h\", "
+      "unit "
+      "= \"min\" }\n[source.a]\nkind = \"folder\"\nfolder = \"none\"\nformt = "
+      "\"influx\"\n[source.b]\n"
+      "kind = \"stdinn\"\nbroker = \"mqtt://h\"\nbrker = 1\n[alarm]\nhorizon = \"500 kg\"\nwtch = "
+      "0.1\n";
   const std::string message = message_of<InputError>([&] { read(text); });
   for (const char* each :
        {"titel: unknown key; did you mean 'title'", "reading.sequence: must be a text",
         "reading.evnt: unknown key; did you mean 'event'", "reading.columns.wear.field: is missing",
         "reading.columns.wear.feld: unknown key; did you mean 'field'",
         "reading.columns.tme: unknown key; did you mean 'time'", "the study has time [h] as well",
-        "source.a.folder: no such file or folder", "source.a.formt: unknown key; did you mean 'format'",
-        "source.b.kind: 'stdinn' is not allowed", "source.b.brker: unknown key; did you mean 'broker'",
+        "source.a.folder: no such file or folder",
+        "source.a.formt: unknown key; did you mean 'format'",
+        "source.b.kind: 'stdinn' is not allowed",
+        "source.b.brker: unknown key; did you mean 'broker'",
         "alarm.horizon: unit 'kg' has the wrong dimension",
         "alarm.wtch: unknown key; did you mean 'watch'"})
     EXPECT_THAT(message, HasSubstr(each));

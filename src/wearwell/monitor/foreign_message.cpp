@@ -15,6 +15,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/time_text.h"
 
+// Longer than others: two protocols, which share how a text is divided into messages.
 namespace wearwell::monitor {
 namespace {
 

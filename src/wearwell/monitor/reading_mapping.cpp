@@ -15,6 +15,7 @@
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/unit_events.h"
 
+// Longer than others: one mapping, from its table in the file to a reading.
 namespace wearwell::monitor {
 namespace {
 
@@ -181,10 +182,6 @@ void refuse_missing(const StoredReading& reading, const Fields& fields,
     if (column.measured) fail_missing(find_field(fields, column.field), column.field);
   }
 }
-
-}  // namespace
-
-namespace {
 
 /// Without a tracker: the study may have each of the columns.
 void note_columns(const TomlReader& reading) {
