@@ -46,6 +46,16 @@ TEST(Shown, AnExcerptWithACaretKeepsItsLines) {
   EXPECT_EQ(shown("a\n    ^"), "a     ^");
 }
 
+TEST(Shown, AnExampleKeepsItsLines) {
+  EXPECT_EQ(
+      shown(
+          "a.toml:1:1: source: is missing; for example:\n    [source.line]\n    kind = \"x\x1b\""),
+      "a.toml:1:1: source: is missing; for example:\n    [source.line]\n    kind = \"x\\x1b\"");
+  EXPECT_EQ(shown("is missing; for example:\nwearwell: b"), "is missing; for example: wearwell: b");
+  EXPECT_EQ(shown("is missing, like this:\n    [a]\n    b = 1"),
+            "is missing, like this:     [a]     b = 1");
+}
+
 // RFC 3629: what is no UTF-8 (a lone byte, an overlong form, a surrogate, beyond U+10FFFF, cut).
 TEST(Shown, WhatIsNoUtf8IsReplacedByteByByte) {
   const std::string no = "\xEF\xBF\xBD";

@@ -42,13 +42,13 @@ json with_exit_code(const std::string& arguments, int exit_code) {
   return run.out.empty() ? json() : json::parse(run.out);
 }
 
-/// The CSV with bad rows added: of each kind one, of units that have others.
+/// The CSV with bad rows added: of each kind one, of units that have others; two of them with an energy that no closing has.
 std::string with_bad_rows(const std::vector<FleetCycle>& cycles) {
   std::string text = fleet_csv(cycles);
   for (const char* row : {"unit 1,90001,100,50,150,two,9000", "unit 1,90002,100,-50,150,2,9000",
                           "unit 1,90003,-1,-50,150,2,9000", "unit 2,2.5,100,50,150,2,9000",
-                          "unit 2,90004,100,50,-300,2,9000", "unit 2,90005,100,50,150,2,",
-                          ",90006,100,50,150,2,9000", "unit 3,90007,100,50"})
+                          "unit 2,90004,100,50,-300,2,9e7", "unit 2,90005,100,50,150,2,",
+                          ",90006,100,50,150,2,9e7", "unit 3,90007,100,50"})
     text += std::string(row) + "\n";
   return text;
 }

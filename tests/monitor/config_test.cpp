@@ -166,6 +166,8 @@ TEST_F(Configs, Refused) {
               HasSubstr("is not HOST:PORT"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
               HasSubstr("neither a file nor postgresql"));
+  EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"none/x.sqlite\"\n[alarm]"),
+              HasSubstr("store.url: no such folder"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nkeep = \"5 min\"\n[alarm]"),
               HasSubstr("store.keep: must lie between 1 d and 1000 years"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nkeep = \"5 um\"\n[alarm]"), HasSubstr("store.keep"));
@@ -268,6 +270,97 @@ TEST_F(Configs, ProblemsOfOneTableAreAllReported) {
       "result = \"result\"\n[source.line]\nkind = \"stdin\"\n[alarm]\nhorizon = \"1 h\"\n";
   EXPECT_THAT(message_of<InputError>([&] { read(line); }),
               testing::AllOf(HasSubstr("[reading]"), HasSubstr("wear = { field = \"wear\"")));
+}
+
+// Unknown keys of all tables, also beside problems of the same table; none of those behind a problem is called unknown.
+TEST_F(Configs, UnknownKeysOfAllTablesAreReportedAtOnce) {
+  const std::string text =
+      "result = \"result\"\ntitel = \"x\"\n[reading]\nunit = \"machine\"\nsequence = 5\nevnt = "
+      "\"e\"\n[reading.columns]\nwear = { feld = \"w\", unit = \"um\" }\ntme = { field = \"h\", "
+      "unit "
+      "= \"min\" }\n[source.a]\nkind = \"folder\"\nfolder = \"none\"\nformt = "
+      "\"influx\"\n[source.b]\n"
+      "kind = \"stdinn\"\nbroker = \"mqtt://h\"\nbrker = 1\n[alarm]\nhorizon = \"500 kg\"\nwtch = "
+      "0.1\n";
+  const std::string message = message_of<InputError>([&] { read(text); });
+  for (const char* each :
+       {"titel: unknown key; did you mean 'title'", "reading.sequence: must be a text",
+        "reading.evnt: unknown key; did you mean 'event'", "reading.columns.wear.field: is missing",
+        "reading.columns.wear.feld: unknown key; did you mean 'field'",
+        "reading.columns.tme: unknown key; did you mean 'time'", "the study has time [h] as well",
+        "source.a.folder: no such file or folder",
+        "source.a.formt: unknown key; did you mean 'format'",
+        "source.b.kind: 'stdinn' is not allowed",
+        "source.b.brker: unknown key; did you mean 'broker'",
+        "alarm.horizon: unit 'kg' has the wrong dimension",
+        "alarm.wtch: unknown key; did you mean 'watch'"})
+    EXPECT_THAT(message, HasSubstr(each));
+  std::size_t unknown = 0;
+  for (std::size_t at = 0; (at = message.find("unknown key", at)) != message.npos; ++at) ++unknown;
+  EXPECT_EQ(unknown, 7U) << message;
+  // In the order of the file.
+  const std::string file = (folder() / "c.toml").string() + ":";
+  std::size_t before = 0, places = 0;
+  for (std::size_t at = 0; (at = message.find(file, at)) != message.npos; at += file.size()) {
+    const std::size_t line = std::stoul(message.substr(at + file.size()));
+    EXPECT_LE(before, line) << message;
+    before = line;
+    ++places;
+  }
+  EXPECT_EQ(places, 13U) << message;
+}
+
+// A [reading] that no source uses would be read as if it counted.
+TEST_F(Configs, AReadingThatNoSourceUsesIsRefused) {
+  EXPECT_THAT(refusal("kind = \"stdin\"",
+                      "kind = \"stdin\"\n[source.line.reading]\nunit = \"machine\"\nsequence = "
+                      "\"n\"\n[source.line.reading.columns]\nwear = { field = \"w\", unit = \"um\" "
+                      "}\ntime = { field = \"h\", unit = \"min\" }"),
+              HasSubstr("reading: is not used"));
+}
+
+// What is missing can be copied from the message, and is then right.
+TEST_F(Configs, ExamplesOfMissingTablesAreRight) {
+  std::string text = "result = \"result\"\n";
+  for (int round = 0; round < 2; ++round) {
+    std::string message;
+    try {
+      read(text);
+      EXPECT_EQ(round, 1);
+    } catch (const InputError& error) {
+      message = error.what();
+      EXPECT_EQ(round, 0) << message;
+    }
+    for (std::size_t at = 0; (at = message.find("\n    ", at)) != message.npos; ++at)
+      text += message.substr(at + 5, message.find('\n', at + 1) - at - 4) + "\n";
+  }
+}
+
+TEST_F(Configs, AnEmptyFileIsRefusedWithItsNeeds) {
+  write("c.toml", "# nothing\n\n");
+  EXPECT_THAT(message_of<InputError>([&] { read_config_file(folder() / "c.toml"); }),
+              testing::AllOf(HasSubstr("is empty"), HasSubstr("[reading.columns]"),
+                             HasSubstr("[source.NAME]"), HasSubstr("[alarm]")));
+}
+
+// Everything that needs no result, beside a result that is missing or cannot be read.
+TEST_F(Configs, ProblemsBesideAResultThatCannotBeRead) {
+  const TomlReader root = TomlReader::parse(
+      {folder() / "c.toml",
+       "result = \"nowhere\"\n[store]\nurl = \"sub/dir/x.sqlite\"\n[reading]\nunit = "
+       "\"machine\"\nunti = 1\n[reading.columns]\nwear = { field = \"w\", unit = \"kg\" }\n"
+       "[source.a]\nkind = \"mqtt\"\n[source.b]\nkind = \"stdinn\"\n[alarm]\nwatch = \"50 %\"\nact "
+       "= \"20 %\"\n"});
+  const std::string message = message_of<InputError>([&] { read_result_path(root); });
+  for (const char* each :
+       {"result: no such file or folder", "store.url: no such folder", "so is time",
+        "reading.unti: unknown key", "source.a.broker: is missing", "source.a.topic: is missing",
+        "source.b.kind: 'stdinn'", "alarm.horizon: is missing", "must be below act"})
+    EXPECT_THAT(message, HasSubstr(each));
+  EXPECT_THAT(message, testing::Not(HasSubstr("reading.columns")));
+  const std::string other =
+      message_of<InputError>([&] { refuse_result(root, "nowhere has no state.bin"); });
+  EXPECT_THAT(other, testing::AllOf(HasSubstr("must be below act"), HasSubstr("no state.bin")));
 }
 
 // Also where the result is not known.

@@ -1,8 +1,10 @@
 // The line protocol of InfluxDB and JSON of OPC UA PubSub.
 #include <gmock/gmock.h>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/monitor/foreign_message.h"
+#include "wearwell/monitor/reading_mapping.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -162,6 +164,37 @@ TEST(OpcUaMessages, HaveStatusCodes) {
        {"2147483648", "{\"Code\": 2150891520}", "-2147483648", "-2144075776", "{\"Code\": -1}",
         "3221225472", "\"Bad\"", "true", "1.5", "{\"Symbol\": \"BadTimeout\"}"})
     EXPECT_EQ(value(bad), "a=null;") << bad;
+}
+
+// The reading says why its value is missing.
+TEST(OpcUaMessages, NameTheBadStatusOfAValue) {
+  ReadingMapping mapping;
+  mapping.unit = "m";
+  mapping.sequence = "n";
+  mapping.columns = {{"wear", true, "w", Unit{"m", 1, 0}, {}, false}};
+  const auto refusal = [&](const std::string& fields) {
+    std::string why;
+    read_opc_ua(
+        R"({"Messages": [{"Payload": {"m": "M1", "n": 1, "w": 2}}, {"Payload": )" + fields + "}]}",
+        [&](const Fields& row) {
+          try {
+            reading_of(row, "", mapping, 5);
+          } catch (const InputError& error) {
+            why += error.what();
+          }
+        },
+        [&](const std::string& problem) { why += problem; }, Form::opc_ua);
+    return why;
+  };
+  EXPECT_EQ(refusal(R"({"m": "M1", "n": 2, "w": {"Value": 3, "Status": 2150891520}})"),
+            "w is missing: it has the bad status 2150891520");
+  EXPECT_EQ(refusal(R"({"m": "M1", "n": 2, "w": {"Value": {"Value": 3, "StatusCode": )"
+                    R"({"Code": 2150891520, "Symbol": "BadTimeout"}}}})"),
+            R"(w is missing: it has the bad status {"Code":2150891520,"Symbol":"BadTimeout"})");
+  EXPECT_EQ(refusal(R"({"m": {"Value": "M1", "Status": 2150891520}, "n": 2, "w": 3})"),
+            "m is missing: it has the bad status 2150891520");
+  EXPECT_EQ(refusal(R"({"m": "M1", "n": 2})"), "w is missing");
+  EXPECT_EQ(refusal(R"({"m": "M1", "n": 2, "w": {"Value": 3, "Status": 0}})"), "");
 }
 
 TEST(OpcUaMessages, RefuseWhatCannotBeAReading) {

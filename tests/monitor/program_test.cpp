@@ -108,6 +108,35 @@ TEST_F(Programs, CheckReportsEachProblem) {
   EXPECT_THAT(run.err, HasSubstr("alarm.horizon: is missing"));
 }
 
+// What a start says of its store, the check says too: alone, and beside other problems.
+TEST_F(Programs, CheckLooksAtTheStoreAsAStart) {
+  const auto refusals = [&](const std::string& store, int exit_code) {
+    const std::string config = configure("a", "[source.line]\nkind = \"stdin\"\n", store).string();
+    const CommandResult check = run_wearwell("monitor '" + config + "' --check");
+    const CommandResult start = run_wearwell("monitor '" + config + "' --once < /dev/null");
+    EXPECT_EQ(check.exit_code, exit_code) << check.err;
+    EXPECT_EQ(check.err, start.err);
+    EXPECT_EQ(start.exit_code, exit_code);
+    return check.err;
+  };
+  EXPECT_THAT(refusals("none/fleet.sqlite", 2), HasSubstr("store.url: no such folder"));
+  const std::string nowhere = fmt::format("postgresql://me@127.0.0.1:{}/x", free_port());
+  EXPECT_THAT(refusals(nowhere, 3), HasSubstr("127.0.0.1"));
+  const auto config = configure("a", "[source.line]\nkind = \"stdni\"\n", nowhere);
+  const CommandResult both = run_wearwell("monitor '" + config.string() + "' --check");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, testing::AllOf(HasSubstr("nearest: 'stdin'"), HasSubstr("127.0.0.1")));
+  // A store that is still to be made is right, and the check makes none.
+  const auto good = configure("b", "[source.line]\nkind = \"stdin\"\n");
+  EXPECT_EQ(run_wearwell("monitor '" + good.string() + "' --check").exit_code, 0);
+  std::size_t files = 0;
+  for (const auto& each : std::filesystem::directory_iterator(good.parent_path())) {
+    EXPECT_TRUE(each.path().filename() == "fleet.toml" || each.path().filename() == "incoming");
+    ++files;
+  }
+  EXPECT_EQ(files, 2U);
+}
+
 TEST_F(Programs, BeginWithACommentedConfiguration) {
   const std::string folder_name = (folder() / "new").string();
   const std::string make = "new monitor '" + folder_name + "' --from '" + result() + "'";

@@ -1,5 +1,6 @@
 // What both stores promise: a reading once and for good, the order of storage, and what they refuse.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <limits>
 #include <thread>
@@ -7,6 +8,7 @@
 #include "monitor/fleet_rig.h"
 #include "support/messages.h"
 #include "support/servers.h"
+#include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/monitor/backup.h"
 
@@ -65,6 +67,45 @@ TEST_P(Stores, KeepAReadingOnce) {
   store->of_unit("b", first[0].place, INT64_MAX,
                  [&](const StoredReading& each) { of_b += std::to_string(each.key); });
   EXPECT_EQ(of_b, "233");
+}
+
+// Whether a monitor could begin, without a trace: before there is a store, beside one that is written to, and where there can be none.
+TEST_P(Stores, HaveAPlaceThatCanBeChecked) {
+  EXPECT_NO_THROW(check_place(url(), folder()));
+  EXPECT_THROW(open({{"wear", "time"}, {"site"}, true}, Access::copy), NoStoreYet);
+  const auto store = open();
+  EXPECT_NO_THROW(check_place(url(), folder()));
+  if (server_) {
+    ASSERT_EQ(server_
+                  ->sql("create database other; create role reader login; revoke create on schema "
+                        "public from public")
+                  .exit_code,
+              0);
+    std::string reader = url();
+    reader.replace(reader.find("wearwell@"), 8, "reader");
+    EXPECT_NO_THROW(check_place(reader, folder()));  // the store is there
+    reader.replace(reader.rfind('/'), reader.npos, "/other");
+    server_->sql("\\c other\nrevoke create on schema public from public");
+    EXPECT_THAT(message_of<StoreError>([&] { check_place(reader, folder()); }),
+                HasSubstr("permission denied"));
+    server_->kill();
+    EXPECT_THROW(check_place(url(), folder()), StoreError);
+    return;
+  }
+  EXPECT_THAT(message_of<InputError>([&] { check_place("none/fleet.sqlite", folder()); }),
+              testing::AllOf(HasSubstr("cannot write to"), HasSubstr("none/.fleet.sqlite.lock"),
+                             HasSubstr("No such file or directory")));
+  std::filesystem::create_directory(folder() / "closed");
+  std::filesystem::permissions(folder() / "closed", std::filesystem::perms(0555));
+  constexpr uid_t other = 65534;  // root may write everywhere
+  const uid_t me = geteuid();
+  if (me == 0) {
+    ASSERT_EQ(seteuid(other), 0);
+  }
+  const std::string refused =
+      message_of<InputError>([&] { check_place("closed/fleet.sqlite", folder()); });
+  ASSERT_EQ(seteuid(me), 0);
+  EXPECT_THAT(refused, HasSubstr("Permission denied"));
 }
 
 TEST_P(Stores, KeepFitsAndWhatTheyMoved) {

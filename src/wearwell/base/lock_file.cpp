@@ -13,9 +13,13 @@
 
 namespace wearwell {
 
-LockFile::LockFile(const std::filesystem::path& file, const std::function<void()>& waiting) {
+std::filesystem::path LockFile::beside(const std::filesystem::path& file) {
   const std::filesystem::path target = behind_links(file);
-  path_ = target.parent_path() / fmt::format(".{}.lock", target.filename().string());
+  return target.parent_path() / fmt::format(".{}.lock", target.filename().string());
+}
+
+LockFile::LockFile(const std::filesystem::path& file, const std::function<void()>& waiting)
+    : path_(beside(file)) {
   if (take(false)) return;
   waiting();
   while (!take(true)) {

@@ -18,6 +18,9 @@ class LockFile {
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
 
+  /// The lock of a file.
+  static std::filesystem::path beside(const std::filesystem::path& file);
+
  private:
   bool take(bool wait);
 

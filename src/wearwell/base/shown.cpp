@@ -57,7 +57,8 @@ std::string on_one_line(std::string text) {
 }
 
 /// The position of the excerpt at the end of a message: lines indented by four spaces, the second
-/// with a caret. The indent distinguishes them from messages. npos without an excerpt.
+/// with a caret, or an example to be copied. The indent distinguishes them from messages. npos
+/// without an excerpt.
 std::size_t excerpt_in(std::string_view text) {
   constexpr std::string_view indent = "\n    ";
   std::size_t begin = text.npos, caret = text.npos;
@@ -67,8 +68,9 @@ std::size_t excerpt_in(std::string_view text) {
     caret = begin;
     begin = end = line;
   }
-  if (begin == text.npos || caret == text.npos || text.size() - begin > longest_excerpt)
-    return text.npos;
+  if (begin == text.npos || text.size() - begin > longest_excerpt) return text.npos;
+  if (text.substr(0, begin).ends_with("; for example:")) return begin;
+  if (caret == text.npos) return text.npos;
   const std::string_view below = text.substr(caret + 1, text.find('\n', caret + 1) - caret - 1);
   const bool points = below.ends_with('^') && below.find_first_not_of(' ') == below.size() - 1;
   return points ? begin : text.npos;

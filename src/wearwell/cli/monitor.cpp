@@ -1,9 +1,11 @@
 #include "wearwell/cli/monitor.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -13,10 +15,12 @@
 #include "wearwell/cli/monitored.h"
 #include "wearwell/http/tls.h"
 #include "wearwell/monitor/backup.h"
+#include "wearwell/monitor/config_problems.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_text.h"
+#include "wearwell/monitor/learned_readings.h"
 #include "wearwell/monitor/monitor_run.h"
 #include "wearwell/monitor/monitor_signals.h"
 #include "wearwell/monitor/retention.h"
@@ -109,23 +113,75 @@ void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
   }
 }
 
-/// What reading the configuration does not show: the certificate and its key, and a store that is
-/// there already.
-void check_files(const MonitoredFleet& read) {
-  if (read.config.http) tls_of(*read.config.http);
+/// A store as a start would open it; it may be missing, be of an earlier version, or be in use.
+void check_store(const MonitoredFleet& read) {
   const std::string& url = read.config.store;
+  monitor::check_place(url, read.config.folder);
   std::error_code ignored;
-  if (monitor::is_postgres(url)) return;
-  const std::filesystem::path file = read.config.folder / url;
-  if (!std::filesystem::exists(file, ignored)) {
-    const std::filesystem::path parent = file.parent_path();
-    if (!std::filesystem::is_directory(parent, ignored))
-      throw InputError(
-          fmt::format("store.url = \"{}\": the folder {} does not exist", url, parent.string()));
+  if (!monitor::is_postgres(url) && !std::filesystem::exists(read.config.folder / url, ignored))
     return;
+  std::unique_ptr<monitor::Store> store;
+  try {
+    store = monitor::open_store(url, read.config.folder,
+                                monitor::store_columns(read.config, *read.tracker),
+                                monitor::Access::copy);
+  } catch (const monitor::NoStoreYet&) {
+    if (monitor::is_postgres(url)) return;
+    throw;
   }
-  monitor::open_store(url, read.config.folder, monitor::store_columns(read.config, *read.tracker),
-                      monitor::Access::copy);
+  bool earlier = false;
+  try {
+    store_to_read(read);
+  } catch (const InputError&) {
+    earlier = true;
+  }
+  try {
+    monitor::refuse_learned(*store, read.fingerprint, *read.tracker);
+  } catch (const monitor::StoreError&) {
+    if (!earlier) throw;  // versions that know of no fit: a start refuses nothing
+  }
+}
+
+/// The store of a configuration in which something else is wrong.
+void check_place_alone(const std::filesystem::path& config) {
+  std::string url;
+  try {
+    url = monitor::read_store(monitor::read_config_file(config));
+  } catch (const InputError&) {
+    return;  // reported already
+  }
+  monitor::check_place(url, config.parent_path());
+}
+
+/// Reads the configuration as a start would, and what reading it does not show: the certificate and
+/// its key, and the store. Throws all problems together.
+MonitoredFleet checked_fleet(const std::filesystem::path& config, Models models) {
+  monitor::Problems problems;
+  std::vector<std::string> failures;  // of the machine
+  const auto look = [&](const std::function<void()>& part) {
+    try {
+      problems.in(part);
+    } catch (const monitor::StoreError& error) {
+      failures.push_back(error.what());
+    } catch (const MachineError& error) {
+      failures.push_back(error.what());
+    }
+  };
+  std::optional<MonitoredFleet> read;
+  look([&] { read = monitored_fleet(config, models); });
+  if (read) {
+    look([&] {
+      if (read->config.http) tls_of(*read->config.http);
+    });
+    look([&] { check_store(*read); });
+  } else {
+    look([&] { check_place_alone(config); });
+  }
+  if (problems.empty() && !failures.empty())
+    throw MachineError(fmt::format("{}", fmt::join(failures, "; ")));
+  for (const std::string& each : failures) problems.add(each);
+  problems.finish();
+  return *read;
 }
 
 /// What store.keep means for the store that is there; empty without it.
@@ -159,13 +215,9 @@ void run(const MonitorCommand& command, Models models) {
   // A reload while the result is read is a reload, not the end.
   std::optional<monitor::HangupNote> note;
   if (runs(command)) note.emplace();
-  const MonitoredFleet read = monitored_fleet(command.config, models);
+  const MonitoredFleet read = command.check ? checked_fleet(command.config, models)
+                                            : monitored_fleet(command.config, models);
   if (command.check) {
-    try {
-      check_files(read);
-    } catch (const monitor::StoreError& error) {
-      throw MachineError(error.what());
-    }
     const std::size_t sources = read.config.sources.size();
     if (command.quiet) return;
     fmt::print("{} is valid: {} source{}, store {}\n", command.config.string(), sources,

@@ -1,5 +1,6 @@
 #include "wearwell/cli/monitored.h"
 
+#include "wearwell/base/error.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/monitor/monitor_run.h"
@@ -24,13 +25,18 @@ monitor::Population MonitoredFleet::population() const {
 }
 
 MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models models) {
-  const TomlReader root = TomlReader::parse_file(config);
+  const TomlReader root = monitor::read_config_file(config);
   MonitoredFleet fleet;
   fleet.result.folder = monitor::read_result_path(root);
   fleet.result.read = [folder = fleet.result.folder, models] {
     return population_in(folder, models);
   };
-  const monitor::Population population = fleet.result.read();
+  monitor::Population population;
+  try {
+    population = fleet.result.read();
+  } catch (const InputError& error) {
+    monitor::refuse_result(root, error.what());
+  }
   fleet.tracker = population.tracker;
   fleet.fingerprint = population.fingerprint;
   fleet.trusted = population.trusted;

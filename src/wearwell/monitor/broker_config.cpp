@@ -31,18 +31,23 @@ BrokerSettings read_broker(const TomlReader& table, const std::string& usual_cli
       },
       fmt::format("client = \"{}\"", usual_client));
   problems.in([&] { broker.user = table.text("user").value_or(""); }, "user = \"wearwell\"");
-  problems.in([&] {
-    if (!table.has("password_file")) return;
-    if (broker.user.empty())
-      table.fail("password_file", "is a password without a user; add user = \"...\"");
-    broker.password = read_text_file(existing(table, "password_file")).text;
-    while (!broker.password.empty() && broker.password.back() == '\n') broker.password.pop_back();
-  });
-  problems.in([&] {
-    if (!table.has("authority")) return;
-    broker.authority = existing(table, "authority");
-    if (has_url && !broker.tls) table.fail("authority", "needs a broker at mqtts://");
-  });
+  problems.in(
+      [&] {
+        if (!table.has("password_file")) return;
+        if (broker.user.empty())
+          table.fail("password_file", "is a password without a user; add user = \"...\"");
+        broker.password = read_text_file(existing(table, "password_file")).text;
+        while (!broker.password.empty() && broker.password.back() == '\n')
+          broker.password.pop_back();
+      },
+      "password_file = \"broker.password\" with user = \"wearwell\"");
+  problems.in(
+      [&] {
+        if (!table.has("authority")) return;
+        broker.authority = existing(table, "authority");
+        if (has_url && !broker.tls) table.fail("authority", "needs a broker at mqtts://");
+      },
+      "authority = \"ca.pem\" with broker = \"mqtts://broker.example:8883\"");
   problems.in(
       [&] {
         broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/time_text.h"
 
+// Longer than others: two protocols, which share how a text is divided into messages.
 namespace wearwell::monitor {
 namespace {
 
@@ -170,12 +172,21 @@ bool is_bad(const Json& status) {
   return (code.get<std::uint64_t>() >> 30 & 3) >= 2;
 }
 
-/// A plain value of a DataValue or a Variant; null if its status is bad.
-Json plain_value(Json value) {
+std::string bad_status(const Json& status) {
+  return fmt::format(
+      "the bad status {}",
+      printable(shortened(status.dump(-1, ' ', false, Json::error_handler_t::replace))));
+}
+
+/// A plain value of a DataValue or a Variant; null, and the reason in `lost`, if its status is bad.
+Json plain_value(Json value, std::string& lost) {
   constexpr int deepest = 4;
   for (int i = 0; i < deepest && value.is_object(); ++i) {
-    if (value.contains("Status") && is_bad(value["Status"])) return nullptr;
-    if (value.contains("StatusCode") && is_bad(value["StatusCode"])) return nullptr;
+    for (const char* key : {"Status", "StatusCode"}) {
+      if (!value.contains(key) || !is_bad(value[key])) continue;
+      lost = "it has " + bad_status(value[key]);
+      return nullptr;
+    }
     const char* inner = value.contains("Body")    ? "Body"
                         : value.contains("Value") ? "Value"
                                                   : nullptr;
@@ -203,9 +214,14 @@ void read_data_set(const Json& message, const Json& publisher,
   if (payload == message.end() || !payload->is_object())
     throw InputError("has no Payload with fields");
   if (message.contains("Status") && is_bad(message["Status"]))
-    throw InputError(fmt::format("has the bad status {}", message["Status"].dump()));
+    throw InputError("has " + bad_status(message["Status"]));
   Json flat = Json::object();
-  for (const auto& [key, value] : payload->items()) flat[key] = plain_value(value);
+  std::map<std::string, std::string> lost;
+  for (const auto& [key, value] : payload->items()) {
+    std::string why;
+    flat[key] = plain_value(value, why);
+    if (!why.empty()) lost[key] = why;
+  }
   const auto header = [&](const char* field, const Json& value) {
     if (!value.is_null()) flat[field] = value;
   };
@@ -226,7 +242,12 @@ void read_data_set(const Json& message, const Json& publisher,
   const std::string text = flat.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() > longest_row)
     throw InputError(fmt::format("has {} bytes; the limit is {}", text.size(), longest_row));
-  row(fields_of_json(text));
+  Fields fields = fields_of_json(text);
+  for (Field& each : fields) {
+    const auto why = lost.find(each.name);
+    if (why != lost.end() && each.kind == Field::Kind::null) each.text = why->second;
+  }
+  row(fields);
 }
 
 void read_network_message(const Json& message, const std::function<void(const Fields&)>& row,

@@ -20,6 +20,9 @@ std::string read_token(const TomlReader& table, const char* key, const std::stri
   return token;
 }
 
+constexpr const char* token_example =
+    "token_file = \"fleet.token\", after openssl rand -hex 16 > fleet.token";
+
 /// A token in the configuration, or in a file.
 std::string read_token_or_file(const TomlReader& table) {
   const bool in_file = table.has("token_file"), here = table.has("token");
@@ -40,7 +43,7 @@ void read_tokens(const TomlReader& tokens, HttpSettings& http) {
     HttpToken each{name, {}, 0};
     const bool in_file = table.has("token_file");
     Problems own;
-    own.in([&] { each.token = read_token_or_file(table); });
+    own.in([&] { each.token = read_token_or_file(table); }, token_example);
     own.in(
         [&] {
           for (const std::string& role : table.texts("roles")) {
@@ -94,9 +97,11 @@ HttpSettings read_http(const TomlReader& table) {
   problems.in([&] { http.names = table.texts("names"); }, "names = [\"fleet.example\"]");
   problems.in([&] { http.events = table.boolean("events").value_or(true); }, "events = true");
   const std::size_t before_tokens = problems.count();
-  problems.in([&] {
-    if (table.has("token") || table.has("token_file")) http.token = read_token_or_file(table);
-  });
+  problems.in(
+      [&] {
+        if (table.has("token") || table.has("token_file")) http.token = read_token_or_file(table);
+      },
+      token_example);
   problems.in([&] {
     if (const auto tokens = table.table("tokens")) read_tokens(*tokens, http);
   });
@@ -104,9 +109,11 @@ HttpSettings read_http(const TomlReader& table) {
   const std::size_t before_files = problems.count();
   const bool tokens_are_right = before_tokens == before_files;
   for (const auto& [key, file] : {std::pair("certificate", &http.certificate), {"key", &http.key}})
-    problems.in([&, to = file, name = key] {
-      if (table.has(name)) *to = existing(table, name);
-    });
+    problems.in(
+        [&, to = file, name = key] {
+          if (table.has(name)) *to = existing(table, name);
+        },
+        fmt::format("{} = \"{}.pem\"", key, std::string_view(key) == "key" ? "key" : "cert"));
   if (problems.count() == before_files) {
     problems.in([&] {
       if (http.certificate.empty() != http.key.empty())
@@ -126,7 +133,6 @@ HttpSettings read_http(const TomlReader& table) {
         fmt::format("{}certificate = \"cert.pem\" and key = \"key.pem\"",
                     open ? "token_file = \"fleet.token\", " : ""));
   }
-  problems.in([&] { table.finish(); });
   problems.finish();
   return http;
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/unit_events.h"
 #include "wearwell/prognosis/change_watch.h"
@@ -85,6 +86,13 @@ std::string learned_from(Store& store, const prognosis::Tracker& now) {
     }
   }
   return {};
+}
+
+void refuse_learned(Store& store, const std::string& population, const prognosis::Tracker& now) {
+  const std::vector<StoredFit> fits = store.fits();
+  if (fits.empty() || fits.back().population == population) return;
+  if (const std::string why = learned_from(store, now); !why.empty())
+    throw InputError(fmt::format("the result {}: {}", population.substr(0, 7), why));
 }
 
 }  // namespace wearwell::monitor

@@ -18,4 +18,8 @@ std::string learned_units(const prognosis::Tracker& present, const prognosis::Tr
 /// farthest reading of a unit in the study is one of its stored readings. Throws StoreError.
 std::string learned_from(Store& store, const prognosis::Tracker& now);
 
+/// At a start with the fit `population`: throws InputError if the store was last monitored with
+/// another fit and this one has learned readings of it.
+void refuse_learned(Store& store, const std::string& population, const prognosis::Tracker& now);
+
 }  // namespace wearwell::monitor

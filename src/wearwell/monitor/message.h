@@ -22,7 +22,7 @@ struct Field {
   double number = 0;         ///< of a number
   std::int64_t integer = 0;  ///< of a number that is whole
   bool whole = false;
-  std::string text = {};  ///< of a text
+  std::string text = {};  ///< of a text; of a null the reason, if there is one
 };
 using Fields = std::vector<Field>;
 

@@ -1,11 +1,11 @@
 #include "wearwell/monitor/monitor_config.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/base/nearest.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/text_file.h"
 #include "wearwell/monitor/broker_config.h"
 #include "wearwell/monitor/config_problems.h"
 #include "wearwell/monitor/config_values.h"
@@ -17,9 +17,18 @@
 namespace wearwell::monitor {
 namespace {
 
-AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& tracker) {
-  const prognosis::ReadingColumn& axis = tracker.axis();
-  const std::string horizon = fmt::format("horizon = \"500 {}\"", axis.unit.text);
+/// The risk's distance, in the unit of the study's axis.
+double read_horizon(const TomlReader& table, const prognosis::Tracker& tracker) {
+  const Unit& unit = tracker.axis().unit;
+  const double horizon = required_si(table, "horizon", unit) - unit.offset;
+  if (!(horizon > 0)) table.fail("horizon", "must be above 0");
+  return horizon;
+}
+
+/// Without a tracker (null) the horizon is not checked.
+AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker* tracker) {
+  const std::string horizon =
+      fmt::format("horizon = \"500 {}\"", tracker ? tracker->axis().unit.text : "h");
   if (!root.has("alarm"))
     root.fail("alarm", fmt::format("is missing: how far ahead the risk looks; for example:\n    "
                                    "[alarm]\n    {}",
@@ -29,8 +38,11 @@ AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& track
   Problems problems;
   problems.in(
       [&] {
-        alarm.horizon = required_si(table, "horizon", axis.unit) - axis.unit.offset;
-        if (!(alarm.horizon > 0)) table.fail("horizon", "must be above 0");
+        if (tracker) {
+          alarm.horizon = read_horizon(table, *tracker);
+        } else if (!table.has("horizon")) {
+          table.fail("horizon", "is missing");
+        }
       },
       horizon);
   const auto share = [&](const char* key, double& into) {
@@ -63,7 +75,6 @@ AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& track
         alarm.silence = silence->si();
       },
       "silence = \"2 d\"");
-  problems.in([&] { table.finish(); });
   problems.finish();
   return alarm;
 }
@@ -79,7 +90,6 @@ PublishSettings read_publish(const TomlReader& table) {
           table.fail("prefix", "is not a topic");
       },
       "prefix = \"wearwell\"");
-  problems.in([&] { table.finish(); });
   problems.finish();
   return publish;
 }
@@ -94,45 +104,45 @@ std::optional<double> read_keep(const TomlReader& store) {
   return keep->si();
 }
 
-/// The keys of the file itself, where `finish` would also see those behind a problem.
-void refuse_unknown_tables(const TomlReader& root) {
-  const std::vector<std::string> known = {"result", "title", "store",   "reading", "source",
-                                          "alarm",  "http",  "publish", "webhook", "limits"};
-  for (const std::string& key : root.keys()) {
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      root.fail(key, fmt::format("unknown key; did you mean '{}'? (possible: {})",
-                                 nearest_name(key, known), fmt::join(known, ", ")));
-  }
+constexpr std::initializer_list<const char*> root_keys = {"result",  "title", "store", "reading",
+                                                          "source",  "alarm", "http",  "publish",
+                                                          "webhook", "limits"};
+
+/// The file or URL in [store].
+std::string read_store_url(const TomlReader& store) {
+  std::string url = store.text("url").value_or("");
+  if (url.empty()) return default_store;
+  if (is_postgres(url)) return url;
+  if (url.find("://") != std::string::npos)
+    store.fail("url", "is neither a file nor postgresql://...");
+  const std::filesystem::path folder = (folder_of(store) / url).parent_path();
+  std::error_code ignored;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    store.fail("url", fmt::format("no such folder: {}", folder.string()));
+  return url;
 }
 
 /// What can be read without the population of the result.
 void read_own_tables(const TomlReader& root, MonitorConfig& config, Problems& problems) {
   problems.in([&] { config.title = root.text("title").value_or(""); },
               "title = \"Pumps of hall 2\"");
-  problems.in_table(root, "store", [&] {
-    config.store = "fleet.sqlite";
+  problems.in([&] {
+    config.store = default_store;
     const auto store = root.table("store");
     if (!store) return;
-    problems.in(
-        [&] {
-          const std::string url = store->text("url").value_or("");
-          if (url.find("://") != std::string::npos && !is_postgres(url))
-            store->fail("url", "is neither a file nor postgresql://...");
-          if (!url.empty()) config.store = url;
-        },
-        "url = \"fleet.sqlite\"");
+    problems.in([&] { config.store = read_store_url(*store); }, "url = \"fleet.sqlite\"");
     problems.in([&] { config.keep_s = read_keep(*store); }, "keep = \"5 years\"");
   });
-  problems.in_table(root, "http", [&] {
+  problems.in([&] {
     if (const auto http = root.table("http")) config.http = read_http(*http);
   });
-  problems.in_table(root, "publish", [&] {
+  problems.in([&] {
     if (const auto publish = root.table("publish")) config.publish = read_publish(*publish);
   });
-  problems.in_table(root, "webhook", [&] {
+  problems.in([&] {
     if (const auto webhook = root.table("webhook")) config.webhook = read_webhook(*webhook);
   });
-  problems.in_table(root, "limits", [&] {
+  problems.in([&] {
     constexpr long long most = 10'000'000;
     const auto limits = root.table("limits");
     if (!limits) return;
@@ -145,7 +155,53 @@ void read_own_tables(const TomlReader& root, MonitorConfig& config, Problems& pr
   });
 }
 
+/// Without a tracker (null): all that needs no result.
+MonitorConfig read_tables(const TomlReader& root, const prognosis::Tracker* tracker,
+                          Problems& problems) {
+  MonitorConfig config;
+  config.folder = folder_of(root);
+  for (const char* key : root_keys) root.has(key);
+  read_own_tables(root, config, problems);
+  problems.in([&] { read_sources(root, tracker, config, problems); });
+  problems.in([&] {
+    const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
+    if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
+      root.fail("http",
+                "is missing: a source of kind \"http\" needs a server, [http]; for example:\n    "
+                "[http]\n    listen = \"127.0.0.1:8080\"");
+  });
+  problems.in([&] { config.alarm = read_alarm(root, tracker); });
+  problems.unknown_keys(root);
+  return config;
+}
+
+/// Whether a text has nothing but comments and blanks.
+bool has_only_comments(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != line.npos && line[first] != '#') return false;
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return true;
+}
+
 }  // namespace
+
+TomlReader read_config_file(const std::filesystem::path& file) {
+  const TextFile text = read_text_file(file);
+  if (has_only_comments(text.text))
+    throw InputError(
+        fmt::format("{} is empty: a configuration has result, [reading] with [reading.columns], "
+                    "[source.NAME] and [alarm]; wearwell new monitor NAME --from RESULT writes one",
+                    file.string()));
+  return TomlReader::parse(text);
+}
+
+std::string read_store(const TomlReader& root) {
+  const auto store = root.table("store");
+  return store ? read_store_url(*store) : default_store;
+}
 
 std::filesystem::path read_result_path(const TomlReader& root) {
   std::filesystem::path result;
@@ -158,40 +214,24 @@ std::filesystem::path read_result_path(const TomlReader& root) {
       },
       "result = \"study-results\"");
   if (found) return result;
-  MonitorConfig rest;
-  read_own_tables(root, rest, problems);
-  for (const char* key : {"reading", "source", "alarm"}) {
-    problems.in([&] {
-      if (!root.has(key))
-        root.fail(key, "is missing; wearwell new monitor NAME --from RESULT writes it");
-    });
-  }
-  problems.in([&] { refuse_unknown_tables(root); });
+  read_tables(root, nullptr, problems);
   problems.finish();
   return result;
 }
 
-MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker) {
-  MonitorConfig config;
-  config.folder = folder_of(root);
-  root.has("result");
+void refuse_result(const TomlReader& root, const std::string& why) {
   Problems problems;
-  read_own_tables(root, config, problems);
-  problems.in([&] { read_sources(root, tracker, config, problems); });
-  problems.in([&] {
-    const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
-    if (!root.has("http") && std::any_of(config.sources.begin(), config.sources.end(), posts))
-      root.fail("http",
-                "is missing: a source of kind \"http\" needs a server, [http]; for example:\n    "
-                "[http]\n    listen = \"127.0.0.1:8080\"");
-  });
-  problems.in_table(root, "alarm", [&] { config.alarm = read_alarm(root, tracker); });
-  if (problems.empty()) {
-    root.finish();
-  } else {
-    problems.in([&] { refuse_unknown_tables(root); });
-  }
+  problems.add(why);
+  read_tables(root, nullptr, problems);
   problems.finish();
+  throw InputError(why);
+}
+
+MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker) {
+  Problems problems;
+  MonitorConfig config = read_tables(root, &tracker, problems);
+  problems.finish();
+  root.finish();
   return config;
 }
 

@@ -66,11 +66,23 @@ struct MonitorConfig {
   bool sequence = false;             ///< sequence numbers identify readings, else times
 };
 
-/// The folder of results named in the file. Throws InputError.
+inline constexpr const char* default_store = "fleet.sqlite";
+
+/// Throws InputError: unreadable, not TOML, or empty, with what it needs.
+TomlReader read_config_file(const std::filesystem::path& file);
+
+/// The store alone, of a file whose rest may be wrong. Throws InputError.
+std::string read_store(const TomlReader& root);
+
+/// The folder of results named in the file. Throws InputErrors with all of the file that is wrong,
+/// as far as no result is needed to see it.
 std::filesystem::path read_result_path(const TomlReader& root);
 
-/// Everything else. Throws InputError with file, place and key: unknown keys with the nearest name,
-/// missing, contradictory or ambiguous values; all of them, one below the other.
+/// Throws InputErrors with a problem of the result, and all of the file that needs no result.
+[[noreturn]] void refuse_result(const TomlReader& root, const std::string& why);
+
+/// Everything else. Throws InputErrors with file, place and key: unknown keys with the nearest name,
+/// missing, contradictory or ambiguous values; all of them, in the order of the file.
 MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker);
 
 }  // namespace wearwell::monitor

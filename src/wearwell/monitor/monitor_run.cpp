@@ -131,7 +131,6 @@ class RunningFleet {
   void exchange(const FitExchange::Ready& ready);
 
  private:
-  void refuse_learned();
   FleetSettings settings_of(const Population& population) const;
   std::shared_ptr<Fleet> make(const Population& population, FleetSettings settings);
 
@@ -211,7 +210,7 @@ void RunningFleet::catch_up(MonitorSignals& signals) {
     sort_by_change(moved);
     fleet_->set_moved(fits.back().since_ms, std::move(moved));
   } else {
-    if (!fits.empty()) refuse_learned();
+    refuse_learned(store_, population_.fingerprint, *population_.tracker);
     store_.begin_fit(fit, {});
     fleet_->set_moved(fit.since_ms, {});
   }
@@ -223,11 +222,6 @@ void RunningFleet::catch_up(MonitorSignals& signals) {
   }
   fleet_->save();
   fleet_->refresh(true);
-}
-
-void RunningFleet::refuse_learned() {
-  if (const std::string why = learned_from(store_, *population_.tracker); !why.empty())
-    throw InputError(fmt::format("the result {}: {}", population_.fingerprint.substr(0, 7), why));
 }
 
 void RunningFleet::exchange(const FitExchange::Ready& ready) {

@@ -186,7 +186,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   if (version.empty())
-    throw InputError(fmt::format("{} has no store yet: no monitor has run", name_));
+    throw NoStoreYet(fmt::format("{} has no store yet: no monitor has run", name_));
   const int number = check_store(name_, version, there, columns, access);
   if (number == store_version || access != Access::write) return;
   migrate(number);
@@ -580,7 +580,22 @@ std::map<std::string, std::int64_t> PostgresStore::files() {
   return files;
 }
 
+/// Ends a transaction without its changes.
+struct RolledBack {};
+
 }  // namespace
+
+void check_postgres_place(const std::string& url) {
+  PostgresSession session(url, [](pqxx::connection&) {});
+  try {
+    session.run([](pqxx::work& work) {
+      if (!work.exec1("SELECT to_regclass('wearwell') IS NULL")[0].as<bool>()) return;
+      work.exec(tables);
+      throw RolledBack{};
+    });
+  } catch (const RolledBack&) {
+  }
+}
 
 std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
                                            Access access, const StoreNotice& reported) {

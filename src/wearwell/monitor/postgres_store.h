@@ -11,5 +11,7 @@ namespace wearwell::monitor {
 /// lost connection is reopened by the next call. Throws as open_store does.
 std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
                                            Access access, const StoreNotice& reported);
+/// As check_place does.
+void check_postgres_place(const std::string& url);
 
 }  // namespace wearwell::monitor

@@ -15,6 +15,7 @@
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/unit_events.h"
 
+// Longer than others: one mapping, from its table in the file to a reading.
 namespace wearwell::monitor {
 namespace {
 
@@ -36,6 +37,8 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     return chosen;
   }
   const TomlReader table = columns.required_table(column.name);
+  for (const char* key : {"field", "unit", "value"})
+    table.has(key);  // requested, whatever is wrong
   if (table.has("value")) {
     if (column.measured) table.fail("value", "is measured and cannot be constant");
     if (table.has("field") || table.has("unit"))
@@ -69,12 +72,14 @@ void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapp
         if (!topic_names_unit) mapping.unit = reading.required_text("unit");
       },
       "unit = \"machine\"");
-  problems.in([&] {
-    if (topic_names_unit && reading.has("unit"))
-      reading.fail(
-          "unit",
-          "is given, but the topic names the unit already; remove this, or {unit} in the topic");
-  });
+  problems.in(
+      [&] {
+        if (topic_names_unit && reading.has("unit"))
+          reading.fail("unit",
+                       "is given, but the topic names the unit already; remove this, or {unit} in "
+                       "the topic");
+      },
+      "topic = \"plant/+/wear\", or no unit here");
   problems.in([&] { mapping.sequence = reading.text("sequence").value_or(""); },
               "sequence = \"n\"");
   if (reading.has("time")) {
@@ -142,10 +147,16 @@ double number_of(const Field* field, const ColumnField& column) {
   return si;
 }
 
+/// "wear is missing: it has the bad status 2147483648".
+[[noreturn]] void fail_missing(const Field* field, const std::string& what) {
+  const bool has_reason = field && !field->text.empty();
+  throw InputError(fmt::format("{} is missing{}{}", shown_value(what), has_reason ? ": " : "",
+                               has_reason ? field->text : ""));
+}
+
 /// A valid name of a unit or a label, from a text or a whole number.
 std::string name_of(const Field* field, const std::string& what) {
-  if (!field || field->kind == Field::Kind::null)
-    throw InputError(fmt::format("{} is missing", shown_value(what)));
+  if (!field || field->kind == Field::Kind::null) fail_missing(field, what);
   std::string name = !field->text.empty() ? field->text
                      : field->whole       ? fmt::format("{}", field->integer)
                                           : std::string();
@@ -157,33 +168,38 @@ std::string name_of(const Field* field, const std::string& what) {
 }
 
 /// An incomplete reading is not stored, so that a complete one with the same key may follow.
-void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping) {
+void refuse_missing(const StoredReading& reading, const Fields& fields,
+                    const ReadingMapping& mapping) {
   bool measured = false;
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
     const bool there = !std::isnan(reading.numbers[i]);
     if (!there && !mapping.columns[i].measured && !mapping.columns[i].carried)
-      throw InputError(fmt::format("{} is missing", shown_value(mapping.columns[i].field)));
+      fail_missing(find_field(fields, mapping.columns[i].field), mapping.columns[i].field);
     measured = measured || (there && mapping.columns[i].measured);
   }
   if (measured) return;
   for (const ColumnField& column : mapping.columns) {
-    if (column.measured) throw InputError(fmt::format("{} is missing", shown_value(column.field)));
+    if (column.measured) fail_missing(find_field(fields, column.field), column.field);
   }
 }
 
-}  // namespace
+/// Without a tracker: the study may have each of the columns.
+void note_columns(const TomlReader& reading) {
+  if (!reading.has("columns")) reading.fail("columns", "is missing: the field of each column");
+  const TomlReader columns = *reading.table("columns");
+  for (const std::string& key : columns.keys()) columns.has(key);
+}
 
-namespace {
-
-void read_columns(const TomlReader& reading, const prognosis::Tracker& tracker,
-                  ReadingMapping& mapping) {
+void read_columns(const TomlReader& reading, const std::string& path,
+                  const prognosis::Tracker& tracker, ReadingMapping& mapping) {
   std::vector<std::string> missing, lines;
   Problems problems;
   const bool some = reading.has("columns");
   const std::optional<TomlReader> columns = reading.table("columns");
   for (const prognosis::ReadingColumn& column : tracker.columns()) {
     if (some && columns->has(column.name)) {
-      problems.in([&] { mapping.columns.push_back(read_column_field(*columns, column)); });
+      problems.in([&] { mapping.columns.push_back(read_column_field(*columns, column)); },
+                  example_line(column));
       continue;
     }
     missing.push_back(fmt::format("{} [{}]", column.name, column.unit.text));
@@ -199,14 +215,12 @@ void read_columns(const TomlReader& reading, const prognosis::Tracker& tracker,
     lines.push_back(example_line(label));
   }
   if (!missing.empty()) {
-    // An unknown column is probably misspelt; this error comes first.
-    if (some && problems.empty()) problems.in([&] { columns->finish(); });
+    if (!some) lines.insert(lines.begin(), fmt::format("[{}.columns]", path));
     problems.in([&] {
-      reading.fail(
-          "columns",
-          fmt::format("the study has {} as well; give the field of each; for example:\n    "
-                      "{}",
-                      fmt::join(missing, ", "), fmt::join(lines, "\n    ")));
+      reading.fail("columns",
+                   fmt::format("the study has {}{}; give the field of each; for example:\n    {}",
+                               fmt::join(missing, ", "), some ? " as well" : "",
+                               fmt::join(lines, "\n    ")));
     });
   }
   problems.finish();
@@ -246,13 +260,30 @@ std::string example_line(const std::string& label) {
   return fmt::format("{} = \"{}\"", label, label);
 }
 
-ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
-                            bool topic_names_unit) {
-  ReadingMapping mapping = tracker_checks(tracker);
+std::string example_columns(const prognosis::Tracker* tracker) {
+  if (!tracker)
+    return "# for each column that the study reads: COLUMN = { field = \"FIELD\", unit = \"UNIT\" "
+           "}";
+  std::vector<std::string> lines;
+  for (const prognosis::ReadingColumn& each : tracker->columns())
+    lines.push_back(example_line(each));
+  for (const std::string& each : tracker->labels()) lines.push_back(example_line(each));
+  return fmt::format("{}", fmt::join(lines, "\n    "));
+}
+
+ReadingMapping read_mapping(const TomlReader& reading, const std::string& path,
+                            const prognosis::Tracker* tracker, bool topic_names_unit) {
+  ReadingMapping mapping = tracker ? tracker_checks(*tracker) : ReadingMapping{};
   Problems problems;
   read_identity(reading, topic_names_unit, mapping, problems);
   problems.in([&] { mapping.event = reading.text("event").value_or(""); }, "event = \"event\"");
-  problems.in([&] { read_columns(reading, tracker, mapping); });
+  problems.in([&] {
+    if (tracker) {
+      read_columns(reading, path, *tracker, mapping);
+    } else {
+      note_columns(reading);
+    }
+  });
   problems.finish();
   return mapping;
 }
@@ -296,8 +327,7 @@ StoredReading identity_of(const Fields& fields, const std::string& unit,
   reading.received_ms = received_ms;
   if (!mapping.time.empty()) {
     const Field* time = find_field(fields, mapping.time);
-    if (!time || time->kind == Field::Kind::null)
-      throw InputError(fmt::format("{} is missing", shown_value(mapping.time)));
+    if (!time || time->kind == Field::Kind::null) fail_missing(time, mapping.time);
     reading.time_ms = time_of(*time, mapping.format);
   }
   reading.key = reading.time_ms;
@@ -319,7 +349,7 @@ StoredReading reading_of(const Fields& fields, const std::string& unit,
   StoredReading reading = identity_of(fields, unit, mapping, received_ms);
   for (const ColumnField& column : mapping.columns)
     reading.numbers.push_back(value_of(fields, column));
-  refuse_missing(reading, mapping);
+  refuse_missing(reading, fields, mapping);
   for (const std::string& label : mapping.labels)
     reading.labels.push_back(name_of(find_field(fields, label), label));
   if (mapping.implausible) {

@@ -50,15 +50,17 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
 
 inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, or of a label
 
-/// `topic_names_unit`: then no field may. Throws InputError with file, place and key: a column
-/// without a field or a unit, neither time nor sequence, ...
 /// The line of [reading.columns] for a column or label of the study, for examples.
 std::string example_line(const prognosis::ReadingColumn& column);
 std::string example_line(const std::string& label);
+/// The lines of all, each after "\n    " but the first; a comment without a tracker.
+std::string example_columns(const prognosis::Tracker* tracker);
 
-/// Throws InputErrors with all problems.
-ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
-                            bool topic_names_unit);
+/// Reads the table at `path` ("reading"). `topic_names_unit`: then no field may. Without a tracker (null) the columns are not
+/// checked, and the mapping has none. Throws InputErrors with all problems, each with file, place and
+/// key: a column without a field or a unit, neither time nor sequence, ...
+ReadingMapping read_mapping(const TomlReader& reading, const std::string& path,
+                            const prognosis::Tracker* tracker, bool topic_names_unit);
 
 /// What a tracker says to readings and events, without fields. The tracker must outlive it.
 ReadingMapping tracker_checks(const prognosis::Tracker& tracker);

@@ -13,50 +13,6 @@
 namespace wearwell::monitor {
 namespace {
 
-BrokerSettings read_broker(const TomlReader& table, const std::string& usual_client) {
-  BrokerSettings broker;
-  const auto read_url = [&] {
-    const std::string url = table.required_text("broker");
-    broker.tls = url.starts_with("mqtts://");
-    if (!broker.tls && !url.starts_with("mqtt://"))
-      table.fail("broker",
-                 fmt::format("'{}' is not a URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
-    const std::string_view rest = std::string_view(url).substr(broker.tls ? 8 : 7);
-    const HostAndPort address = read_address(table, "broker", rest, broker.tls ? 8883 : 1883);
-    broker.host = address.host;
-    broker.port = address.port;
-  };
-  Problems problems;
-  const bool has_url = problems.in(read_url, "broker = \"mqtts://broker.example:8883\"");
-  problems.in(
-      [&] {
-        broker.client = table.text("client").value_or(usual_client);
-        if (broker.client.empty() || broker.client.size() > 100)
-          table.fail("client", "must be of 1 to 100 bytes");
-      },
-      fmt::format("client = \"{}\"", usual_client));
-  problems.in([&] { broker.user = table.text("user").value_or(""); }, "user = \"wearwell\"");
-  problems.in([&] {
-    if (!table.has("password_file")) return;
-    if (broker.user.empty())
-      table.fail("password_file", "is a password without a user; add user = \"...\"");
-    broker.password = read_text_file(existing(table, "password_file")).text;
-    while (!broker.password.empty() && broker.password.back() == '\n') broker.password.pop_back();
-  });
-  problems.in([&] {
-    if (!table.has("authority")) return;
-    broker.authority = existing(table, "authority");
-    if (has_url && !broker.tls) table.fail("authority", "needs a broker at mqtts://");
-  });
-  problems.in(
-      [&] {
-        broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";
-      },
-      "protocol = \"5\"");
-  problems.finish();
-  return broker;
-}
-
 /// A level of a topic; all levels by default.
 std::string read_level(const TomlReader& table, const char* key, const char* usual) {
   const std::string level = table.text(key).value_or(usual);
@@ -154,6 +110,7 @@ void check_braces(const TomlReader& reading, const SourceSettings& source) {
 
 /// How messages are written: JSON and CSV by themselves, other forms by name.
 void read_format(const TomlReader& table, SourceSettings& source) {
+  table.has("precision");  // requested, whatever is wrong
   const auto format = table.choice("format", {"json or csv", "influx", "opc ua"});
   const auto precision = table.choice("precision", {"ns", "us", "ms", "s"});
   if (source.kind == SourceKind::sparkplug) {
@@ -186,72 +143,102 @@ TopicPattern read_topic(const TomlReader& table) {
 }
 
 /// Without [reading] nothing of it can be checked: its whole is the example.
-[[noreturn]] void fail_without_reading(const TomlReader& root, const prognosis::Tracker& tracker) {
-  std::string columns;
-  for (const prognosis::ReadingColumn& each : tracker.columns())
-    columns += "\n    " + example_line(each);
-  for (const std::string& each : tracker.labels()) columns += "\n    " + example_line(each);
+[[noreturn]] void fail_without_reading(const TomlReader& root, const prognosis::Tracker* tracker) {
+  const bool named = tracker && !tracker->noun().empty();
   root.fail(
       "reading",
       fmt::format("is missing: the fields of a message; for example:\n    [reading]\n    unit "
                   "= \"{}\"\n    time = \"t\"\n    time_format = \"iso 8601\"\n    "
-                  "[reading.columns]{}",
-                  tracker.noun().empty() ? "unit" : tracker.noun(), columns));
+                  "[reading.columns]\n    {}",
+                  named ? tracker->noun() : "unit", example_columns(tracker)));
+}
+
+/// What is wrong in [reading] where no source can be read that uses it.
+void check_reading(const TomlReader& root, const prognosis::Tracker* tracker) {
+  if (!root.has("reading")) fail_without_reading(root, tracker);
+  const TomlReader reading = root.required_table("reading");
+  // A topic may name the unit.
+  read_mapping(reading, "reading", tracker, !reading.has("unit"));
+}
+
+constexpr std::initializer_list<const char*> source_keys = {
+    "kind", "reading",       "format",    "precision", "folder", "broker", "topic", "client",
+    "user", "password_file", "authority", "protocol",  "group",  "edge",   "host",  "births"};
+
+SourceKind read_kind(const TomlReader& table) {
+  const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "sparkplug", "http"});
+  if (!kind)
+    table.fail("kind", "is missing: \"stdin\", \"folder\", \"mqtt\", \"sparkplug\" or \"http\"");
+  return *kind == "folder"      ? SourceKind::folder
+         : *kind == "mqtt"      ? SourceKind::mqtt
+         : *kind == "sparkplug" ? SourceKind::sparkplug
+         : *kind == "http"      ? SourceKind::http
+                                : SourceKind::stdin;
+}
+
+std::filesystem::path read_folder(const TomlReader& table) {
+  const std::filesystem::path folder = existing(table, "folder");
+  if (!std::filesystem::is_directory(folder))
+    table.fail("folder", fmt::format("{} is not a folder", folder.string()));
+  return folder;
 }
 
 SourceSettings read_source(const TomlReader& root, const TomlReader& table, const std::string& name,
-                           const prognosis::Tracker& tracker) {
+                           const prognosis::Tracker* tracker) {
   SourceSettings source;
   source.name = name;
-  const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "sparkplug", "http"});
-  if (!kind)
-    table.fail("kind",
-               "is missing: \"stdin\", \"folder\", \"mqtt\", \"sparkplug\" or \"http\"; for "
-               "example: kind = \"stdin\"");
   Problems problems;
-  if (*kind == "folder") {
-    source.kind = SourceKind::folder;
-    problems.in(
-        [&] {
-          source.folder = existing(table, "folder");
-          if (!std::filesystem::is_directory(source.folder))
-            table.fail("folder", fmt::format("{} is not a folder", source.folder.string()));
-        },
-        "folder = \"incoming\", after mkdir incoming beside this file");
-  } else if (*kind == "mqtt") {
-    source.kind = SourceKind::mqtt;
+  const bool known = problems.in([&] { source.kind = read_kind(table); }, "kind = \"stdin\"");
+  if (!known) {
+    for (const char* key : source_keys) table.has(key);
+    problems.in([&] {
+      if (!table.has("reading")) check_reading(root, tracker);
+    });
+    problems.finish();
+  }
+  if (source.kind == SourceKind::folder) {
+    problems.in([&] { source.folder = read_folder(table); },
+                "folder = \"incoming\", after mkdir incoming beside this file");
+  } else if (source.kind == SourceKind::mqtt) {
     problems.in([&] { source.broker = read_broker(table, "wearwell-" + name); });
     problems.in([&] { source.topic = read_topic(table); }, "topic = \"plant/{unit}/wear\"");
-  } else if (*kind == "sparkplug") {
-    source.kind = SourceKind::sparkplug;
+  } else if (source.kind == SourceKind::sparkplug) {
     problems.in([&] { read_sparkplug_source(table, name, source); });
-  } else if (*kind == "http") {
-    source.kind = SourceKind::http;
   }
   problems.in([&] { read_format(table, source); }, "format = \"influx\" with precision = \"ns\"");
   problems.in([&] {
     const auto own = table.table("reading");
     if (!own && !root.has("reading")) fail_without_reading(root, tracker);
     const TomlReader reading = own ? *own : root.required_table("reading");
-    source.mapping = read_mapping(reading, tracker, source.topic.names_unit());
+    const std::string path = own ? fmt::format("source.{}.reading", name) : "reading";
+    source.mapping = read_mapping(reading, path, tracker, source.topic.names_unit());
     check_braces(reading, source);
   });
   problems.finish();
   return source;
 }
 
+[[noreturn]] void fail_without_source(const TomlReader& root, const char* problem) {
+  root.fail("source",
+            fmt::format("{}; for example:\n    [source.line]\n    kind = \"stdin\"", problem));
+}
+
 }  // namespace
 
-void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, MonitorConfig& config,
+void read_sources(const TomlReader& root, const prognosis::Tracker* tracker, MonitorConfig& config,
                   Problems& problems) {
-  if (!root.has("source"))
-    root.fail("source",
-              "is missing: where readings come from; for example:\n    [source.line]\n    kind = "
-              "\"stdin\"");
+  std::vector<std::string> names;
+  const bool listed = problems.in([&] {
+    if (!root.has("source")) fail_without_source(root, "is missing: where readings come from");
+    names = root.required_table("source").keys();
+    if (names.empty()) fail_without_source(root, "has no source");
+  });
+  if (!listed) {
+    problems.in([&] { check_reading(root, tracker); });
+    return;
+  }
   const TomlReader sources = root.required_table("source");
-  bool some = false;
   const auto read_one = [&](const std::string& name) {
-    some = true;
     const SourceSettings source = read_source(root, sources.required_table(name), name, tracker);
     const auto same = [&](const SourceSettings& each) { return each.kind == source.kind; };
     const bool one_only = source.kind == SourceKind::stdin || source.kind == SourceKind::http;
@@ -265,12 +252,17 @@ void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, Mon
     config.sequence = sequence;
     config.sources.push_back(source);
   };
-  for (const std::string& name : sources.keys()) {
-    if (problems.in([&] { read_one(name); }))
-      problems.in([&] { sources.required_table(name).finish(); });
+  bool shared = false;
+  for (const std::string& name : names) {
+    problems.in([&] { read_one(name); });
+    problems.in([&] {
+      const auto table = sources.table(name);
+      shared = shared || !table || !table->has("reading");
+    });
   }
-  if (!some)
-    root.fail("source", "has no source; for example:\n    [source.line]\n    kind = \"stdin\"");
+  if (shared || !root.has("reading")) return;
+  problems.in(
+      [&] { root.fail("reading", "is not used: each source has a [source.NAME.reading]"); });
 }
 
 }  // namespace wearwell::monitor

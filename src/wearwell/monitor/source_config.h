@@ -5,9 +5,9 @@
 
 namespace wearwell::monitor {
 
-/// Reads [source.NAME], with [reading] or [source.NAME.reading], and adds what is wrong to `problems`. Throws InputError
-/// without any source.
-void read_sources(const TomlReader& root, const prognosis::Tracker& tracker, MonitorConfig& config,
+/// Reads [source.NAME], with [reading] or [source.NAME.reading], and adds what is wrong to `problems`. Without a tracker
+/// (null) the columns are not checked.
+void read_sources(const TomlReader& root, const prognosis::Tracker* tracker, MonitorConfig& config,
                   Problems& problems);
 
 }  // namespace wearwell::monitor

@@ -1,11 +1,15 @@
 #include "wearwell/monitor/sqlite_store.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <iterator>
 #include <mutex>
 #include <optional>
 
+#include "wearwell/base/disk.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/lock_file.h"
 #include "wearwell/monitor/alarm.h"
@@ -125,7 +129,7 @@ std::optional<LockFile> locked(const std::filesystem::path& file, Access access)
   if (access != Access::write) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
-      throw InputError(fmt::format("{} is not a store yet: no monitor has run", file.string()));
+      throw NoStoreYet(fmt::format("{} is not a store yet: no monitor has run", file.string()));
     return {};
   }
   return std::optional<LockFile>(std::in_place, file, [&] {
@@ -519,6 +523,16 @@ std::map<std::string, std::int64_t> SqliteStore::files() {
 }
 
 }  // namespace
+
+void check_sqlite_place(const std::filesystem::path& file) {
+  const std::filesystem::path target = behind_links(file);
+  const std::filesystem::path folder = target.parent_path();
+  // As LockFile, which is the first to write.
+  if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    fail_to_write(LockFile::beside(file), errno);
+  if (faccessat(AT_FDCWD, target.c_str(), R_OK | W_OK, AT_EACCESS) != 0 && errno != ENOENT)
+    fail_to_write(file, errno);
+}
 
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
                                          const StoreColumns& columns, Access access,

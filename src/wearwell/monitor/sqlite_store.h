@@ -13,5 +13,7 @@ namespace wearwell::monitor {
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
                                          const StoreColumns& columns, Access access,
                                          const StoreNotice& reported);
+/// As check_place does.
+void check_sqlite_place(const std::filesystem::path& file);
 
 }  // namespace wearwell::monitor

@@ -38,6 +38,11 @@ std::string shown_store(const std::string& url) {
   return is_postgres(url) ? shown_url(url) : url;
 }
 
+void check_place(const std::string& url, const std::filesystem::path& folder) {
+  if (is_postgres(url)) return check_postgres_place(url);
+  check_sqlite_place(folder / url);
+}
+
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
                                   const StoreColumns& columns, Access access,
                                   const StoreNotice& reported) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/base/error.h"
 #include "wearwell/monitor/fit_record.h"
 #include "wearwell/monitor/fleet_view.h"
 #include "wearwell/monitor/unit_event.h"
@@ -164,6 +165,16 @@ enum class Access { write, read, copy };
 
 /// Takes messages about the opening of a store.
 using StoreNotice = std::function<void(const std::string& what)>;
+
+/// There is no store yet: no monitor has run.
+struct NoStoreYet : InputError {
+  using InputError::InputError;
+};
+
+/// Throws as the opening for writing would, before there is a store or beside a running monitor: the
+/// folder is missing or cannot be written to, the server is unreachable or lets no tables be made.
+/// Leaves nothing.
+void check_place(const std::string& url, const std::filesystem::path& folder);
 
 /// Opens or creates a store: a URL "postgresql://...", or else a file of SQLite, relative to
 /// `folder`. A writer upgrades an older one in one transaction, and reports it. Throws InputError:

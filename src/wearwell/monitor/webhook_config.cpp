@@ -47,7 +47,8 @@ WebhookSettings read_webhook(const TomlReader& table) {
   Problems problems;
   const bool has_url = problems.in([&] { read_webhook_url(table, webhook); },
                                    "url = \"https://alarms.example/wear\"");
-  problems.in([&] { read_webhook_token(table, has_url, webhook); });
+  problems.in([&] { read_webhook_token(table, has_url, webhook); },
+              "token_file = \"alarms.token\", a file with the token alone");
   problems.in(
       [&] {
         const auto after = table.quantity("after", "s");
@@ -58,7 +59,6 @@ WebhookSettings read_webhook(const TomlReader& table) {
         webhook.lasting = std::chrono::milliseconds(std::llround(1000 * after->si()));
       },
       "after = \"1 min\"");
-  problems.in([&] { table.finish(); });
   problems.finish();
   return webhook;
 }

@@ -33,10 +33,15 @@ std::string SqlWriter::refused() const {
 
 namespace {
 
-/// The energy of a row over that of its closing, 0 if a value is so extreme that the product
-/// overflows.
-std::string closing_ratio() {
-  std::string can_be = "raw_energy > 0 and raw_energy < 1e300";
+/// The condition on a row that is summed: valid values, and a unit.
+std::string usable(const std::string& valid, bool clickhouse) {
+  return fmt::format("{} and {}", valid, clickhouse ? "unit <> ''" : "unit is not null");
+}
+
+/// The energy of a row over that of its closing; 0 if the row does not meet `condition`, or if a
+/// value is so extreme that the product overflows.
+std::string closing_ratio(const std::string& condition) {
+  std::string can_be = condition;
   for (const char* each : {"slip_speed", "torque", "closing_time"})
     can_be += fmt::format(" and raw_{0} > 1e-60 and raw_{0} < 1e60", each);
   return fmt::format(
@@ -58,7 +63,8 @@ std::string SqlWriter::check() const {
   }
   columns.keep("max(raw_energy)");
   columns.keep(fleet::real(
-      dialect_, count_if(fmt::format("({}) > {}", closing_ratio(), number(EnergyOutliers::most)))));
+      dialect_, count_if(fmt::format("({}) > {}", closing_ratio(usable(valid(), clickhouse())),
+                                     number(EnergyOutliers::most)))));
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
 }
 
@@ -67,7 +73,7 @@ std::string SqlWriter::outlier() const {
   columns.add(fleet::text(dialect_, "unit"), "name");
   columns.add(fleet::real(dialect_, "cycle"), "number");
   columns.keep("raw_energy");
-  columns.add(closing_ratio(), "ratio");
+  columns.add(closing_ratio(usable(valid(), clickhouse())), "ratio");
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si order by ratio desc, name, number limit 1",
                      columns.text(), si(false));
 }
