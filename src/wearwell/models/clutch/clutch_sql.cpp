@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "wearwell/fleet/named_columns.h"
 #include "wearwell/models/clutch/sql_writer.h"
 #include "wearwell/models/clutch/sums_key.h"
 
@@ -114,12 +115,7 @@ std::string SqlWriter::with_parameters() const {
 }
 
 std::string SqlWriter::cell(const std::string& column) const {
-  const std::string name = "t." + fleet::identifier(dialect_, column);
-  if (source_.text_decimal == 0) return name;
-  if (source_.text_decimal == '.') return fmt::format("try_cast({} as double)", name);
-  // A point would be one of thousands, or of another country.
-  return fmt::format(
-      "case when not contains({0}, '.') then try_cast(replace({0}, ',', '.') as double) end", name);
+  return fleet::number_cell("t." + fleet::identifier(dialect_, column), source_.text_decimal);
 }
 
 std::string SqlWriter::in_si(const SqlColumn& column) const {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/fleet/named_columns.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/labelled.h"
 #include "wearwell/models/clutch/clutch_tables.h"
@@ -19,44 +19,6 @@ namespace {
 const std::vector<std::string> names = {"unit",   "cycle",       "slip_speed",
                                         "torque", "temperature", "closing_time",
                                         "energy", "time",        "cycles_per_day"};
-
-/// The unit that an example proposes: temperatures in kelvin are rare.
-std::string_view usual_unit(std::string_view si) {
-  return si == "K" ? "degC" : si;
-}
-
-/// By name, as given.
-std::map<std::string, std::string> split(const std::vector<std::string>& options) {
-  std::map<std::string, std::string> given;
-  for (const std::string& option : options) {
-    const std::size_t equals = option.find('=');
-    const std::string name = option.substr(0, equals);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("--columns: '{}' is unknown; use one of {} (nearest: '{}')",
-                                   printable(name), fmt::join(names, ", "),
-                                   nearest_name(name, names)));
-    if (equals == std::string::npos || equals + 1 == option.size())
-      throw InputError(fmt::format("--columns: '{0}' has no column: write '{0}=COLUMN'", name));
-    if (!given.emplace(name, option.substr(equals + 1)).second)
-      throw InputError(fmt::format("--columns: '{}' occurs twice", name));
-  }
-  return given;
-}
-
-void require_known(const std::vector<fleet::EngineColumn>& known, const std::string& column,
-                   const std::string& table, bool is_number) {
-  if (known.empty()) return;
-  std::vector<std::string> all;
-  for (const auto& each : known) all.push_back(each.name);
-  const auto at = std::find(all.begin(), all.end(), column);
-  if (at == all.end())
-    throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", table, printable(column),
-                                 printable(nearest_name(column, all))));
-  const fleet::EngineColumn& found = known[static_cast<std::size_t>(at - all.begin())];
-  if (is_number && !found.is_number && found.text_decimal == 0)
-    throw InputError(
-        fmt::format("{}: column '{}' does not hold numbers", table, printable(column)));
-}
 
 /// All columns that neither the options nor the table's names give, in one message.
 void require_given(const std::map<std::string, std::string>& given,
@@ -69,10 +31,10 @@ void require_given(const std::map<std::string, std::string>& given,
       return each == heading || (si && read_heading(each, si).name == heading);
     });
     if (found) return;
-    missing.push_back(si ? fmt::format("'{} [{}]'", heading, usual_unit(si))
+    missing.push_back(si ? fmt::format("'{} [{}]'", heading, fleet::usual_unit(si))
                          : fmt::format("'{}'", heading));
     const std::string option =
-        fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", usual_unit(si)) : "");
+        fmt::format("{}=COLUMN{}", name, si ? fmt::format(":{}", fleet::usual_unit(si)) : "");
     options.push_back(option.find(' ') == option.npos ? option : "'" + option + "'");
   };
   look("unit", "plate", nullptr);
@@ -92,29 +54,15 @@ void require_given(const std::map<std::string, std::string>& given,
 
 /// "M:N m", "torque [N m]".
 SqlColumn with_unit(const std::string& name, const std::string& text, const char* si) {
-  const std::size_t colon = text.rfind(':');
-  const std::string column = text.substr(0, colon);
-  std::string unit = colon == std::string::npos ? "" : text.substr(colon + 1);
-  if (column.empty()) throw InputError(fmt::format("--columns: '{}' has no column", name));
-  const Heading heading = read_heading(column, si);
-  if (unit.empty() && !heading.certain)
-    throw InputError(fmt::format("--columns: '{0}={1}' has no unit: write '{0}={2}:{3}'", name,
-                                 printable(text), printable(column), usual_unit(si)));
-  const Unit read = read_unit(unit.empty() ? heading.unit : unit, si);
-  if (!unit.empty() && heading.certain) {
-    const Unit other = read_unit(heading.unit, si);
-    if (other.scale != read.scale || other.offset != read.offset)
-      throw InputError(
-          fmt::format("--columns: '{}' has the unit '{}' in its name and '{}' after the colon",
-                      printable(column), heading.unit, printable(unit)));
-  }
-  return {column, read.scale, read.offset, false, read.text, !heading.certain};
+  const fleet::UnitColumn found = fleet::column_with_unit(name, text, si);
+  const Unit& unit = found.unit;
+  return {found.column, unit.scale, unit.offset, false, unit.text, found.unit_by_option};
 }
 
 }  // namespace
 
 std::string unit_column(const std::vector<std::string>& options) {
-  const auto given = split(options);
+  const auto given = fleet::split_columns(options, names);
   const auto at = given.find("unit");
   return at == given.end() ? "plate" : at->second;
 }
@@ -122,7 +70,7 @@ std::string unit_column(const std::vector<std::string>& options) {
 void read_fleet_columns(const std::vector<std::string>& options,
                         const std::vector<fleet::EngineColumn>& known, const std::string& table,
                         SqlSource& source) {
-  const std::map<std::string, std::string> given = split(options);
+  const std::map<std::string, std::string> given = fleet::split_columns(options, names);
   std::vector<std::string> headings;
   for (const auto& each : known) {
     headings.push_back(each.name);
@@ -132,7 +80,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
   const auto plain = [&](const char* name, const char* otherwise, bool is_number) {
     const auto at = given.find(name);
     SqlColumn column{at == given.end() ? otherwise : at->second};
-    require_known(known, column.name, table, is_number);
+    fleet::require_column(known, column.name, table, is_number);
     for (const auto& each : known) column.is_real |= each.name == column.name && each.is_real;
     return column;
   };
@@ -148,7 +96,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
       const ColumnChoice found = find_labelled(headings, name, si, table, "--columns");
       column = {found.column, found.unit.scale, found.unit.offset, false, found.unit.text};
     }
-    require_known(known, column.name, table, true);
+    fleet::require_column(known, column.name, table, true);
     return column;
   };
   source.unit = plain("unit", "plate", false);
@@ -167,7 +115,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
                       "life in cycles",
                       name));
     const bool rate = std::string_view(name) == "cycles_per_day";
-    require_known(known, at->second, table, rate);
+    fleet::require_column(known, at->second, table, rate);
     (rate ? source.per_day : source.time) = at->second;
   }
   if (!source.time.empty() && !source.per_day.empty())

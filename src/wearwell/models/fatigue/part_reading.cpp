@@ -90,7 +90,11 @@ std::string PartReading::read(const std::vector<double>& numbers, double& cycles
     stress = only_;
     return {};
   }
-  if (first) return fmt::format("{} is missing", *first);
+  if (first)
+    return fmt::format(
+        "{} is missing: give all columns of the stress, or none where it is that of the reading "
+        "before",
+        *first);
   Stress read;
   const std::string problem = stress_of(numbers, read);
   if (problem.empty()) stress = read;
