@@ -137,6 +137,29 @@ TEST_F(Programs, CheckLooksAtTheStoreAsAStart) {
   EXPECT_EQ(files, 2U);
 }
 
+// A result that has learned what is in the store would count it twice: the check says so, as the start.
+TEST_F(Programs, CheckComparesTheResultWithTheStore) {
+  const auto config = configure("a", "[source.line]\nkind = \"stdin\"\n");
+  append(folder() / "lines", readings(2, 5));
+  const std::string monitor = "monitor '" + config.string() + "'",
+                    csv = (folder() / "r.csv").string(), learned = (folder() / "learned").string();
+  ASSERT_EQ(
+      run_wearwell(monitor + " --once --quiet < '" + (folder() / "lines").string() + "'").exit_code,
+      0);
+  EXPECT_EQ(run_wearwell(monitor + " --check").exit_code, 0);
+  ASSERT_EQ(run_wearwell(monitor + " --export '" + csv + "'").exit_code, 0);
+  const CommandResult update =
+      run_wearwell("update '" + result() + "' '" + csv + "' -o '" + learned + "' --no-report");
+  ASSERT_LE(update.exit_code, 1) << update.err;
+  std::string text = content(config);
+  text.replace(text.find(result()), result().size(), learned);
+  write("a/fleet.toml", text);
+  const CommandResult check = run_wearwell(monitor + " --check");
+  EXPECT_EQ(check.exit_code, 2) << check.err;
+  EXPECT_THAT(check.err, HasSubstr("it has learned readings of this store"));
+  EXPECT_EQ(check.err, run_wearwell(monitor + " --once < /dev/null").err);
+}
+
 TEST_F(Programs, BeginWithACommentedConfiguration) {
   const std::string folder_name = (folder() / "new").string();
   const std::string make = "new monitor '" + folder_name + "' --from '" + result() + "'";
