@@ -286,7 +286,7 @@ test_that("classical estimates stand beside the posterior", {
   values <- vapply(found, `[[`, 0, "value")
   names(values) <- vapply(found, `[[`, "", "name")
   to <- ifelse(pumps$event == 1, pumps$hours, Inf)
-  expect_equal(unname(values[c("characteristic", "slope")]), maximum(pumps$hours, to), tolerance = 1e-4)
+  expect_equal(unname(values[c("characteristic", "slope")]), maximum(from = pumps$hours, to = to), tolerance = 1e-4)
   expect_false(grepl("classical", study_of(Surv(hours, event) ~ 1, data = pumps)$text, fixed = TRUE))
   expect_error(study_of(Surv(hours, event) ~ 1, data = pumps, classical = "yes"), "it is TRUE or FALSE")
 })

@@ -48,11 +48,14 @@ struct Spread {
   Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
          const std::function<double(const double* x)>& quantity)
       : center(at_node) {
+    double lowest = at_node, highest = at_node;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
       const double half = 0.5 * b - 0.5 * a;
       if (!std::isfinite(half)) continue;
+      lowest = std::min({lowest, a, b});
+      highest = std::max({highest, a, b});
       const Along along(draws, i, axis);
       const double middle = 0.5 * a + 0.5 * b - at_node;
       const double moved = draws.has_cells()
@@ -76,6 +79,9 @@ struct Spread {
         others += half * half;
       }
     }
+    // Where a quantity changes by orders of magnitude within a cell, the parabolas leave its range: a
+    // mean life would be negative.
+    if (std::isfinite(center)) center = std::clamp(center, lowest, highest);
   }
 };
 

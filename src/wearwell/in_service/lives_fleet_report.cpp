@@ -10,6 +10,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
+#include "wearwell/study/trust_blocks.h"
 
 // Longer than others: the tables of one report in their order.
 namespace wearwell::in_service {
@@ -213,7 +214,8 @@ Check extrapolation_check_of(const LivesFindings& found) {
     ++number;
     if (outside == 0) continue;
     findings.add(Verdict::warn,
-                 fmt::format("{} units have a {} outside the study's {:.6g} to {:.6g} {}", outside,
+                 fmt::format("{} a {} outside the study's {:.6g} to {:.6g} {}",
+                             outside == 1 ? "1 unit has" : fmt::format("{} units have", outside),
                              condition.name, from_si(condition.unit, condition.low),
                              from_si(condition.unit, condition.high), condition.unit.text),
                  advice);
@@ -354,7 +356,8 @@ Result lives_fleet_result(const LivesFindings& found, bool skip_bad) {
                         {"model", found.fingerprint}}};
   if (!found.layout.empty()) facts.facts.push_back({"layout of the files", found.layout});
   how.add(std::move(facts));
-  result.sections = {std::move(failures), std::move(worst), std::move(fleet), std::move(how)};
+  result.sections = {std::move(failures), std::move(worst), std::move(fleet),
+                     checks_section(header.checks), std::move(how)};
   return result;
 }
 

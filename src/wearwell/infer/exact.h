@@ -40,10 +40,10 @@ struct ExactPosterior {
       log_evidence;  ///< log of the integral of likelihood x prior; only if every prior is proper
   double log_mass = 0;  ///< log of the integral of likelihood x prior kernels
   double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
-  double highest = 0;        ///< log density (on the real line) of the highest node
-  long evaluations = 0;      ///< of the density
-  bool along_ridge = false;  ///< its lattice follows the ridge of a funnel (lattice_chart.h)
-  std::string failure;  ///< empty when the mass converged; else what happened, without nodes
+  double highest = 0;         ///< log density (on the real line) of the highest node
+  long evaluations = 0;       ///< of the density
+  bool along_ridge = false;   ///< its lattice follows the ridge of a funnel (lattice_chart.h)
+  std::string failure;        ///< empty when the mass converged; else what happened, without nodes
   bool contradicted = false;  ///< it failed because of what the walk along the ridge met
 };
 

@@ -52,7 +52,7 @@ struct ExponentiatedWeibull : OnPositive {
  private:
   // The Weibull quantile of exp(log_p).
   static double quantile_at(double log_p, const double* s) {
-    const double z = log_p < -37 ? log_p : std::log(-std::log(-std::expm1(log_p)));
+    const double z = log_p < -37 ? log_p : std::log(-log_rest(log_p));
     return Weibull::inverse(z, s);
   }
 };

@@ -35,8 +35,7 @@ std::string terminal_text(const Result& result, const TerminalStyle& style) {
   for (const present::Table* table : present::tables(result.sections)) {
     if (table->id != "checks") out += "\n" + present::text(*table);
   }
-  out += "\n" + present::text(checks_table(header.checks));
-  return out + "\n" + trust;
+  return out + "\nChecks\n" + checks_text(header.checks) + "\n" + trust;
 }
 
 std::string report_html(const Header& header, const std::vector<present::Section>& sections) {

@@ -90,4 +90,11 @@ present::Table checks_table(const std::vector<Check>& checks) {
   return table;
 }
 
+present::Section checks_section(const std::vector<Check>& checks) {
+  present::Section section{"checks", "Checks"};
+  section.add(trust_callout(checks));
+  section.add(checks_table(checks));
+  return section;
+}
+
 }  // namespace wearwell

@@ -29,4 +29,7 @@ std::string checks_text(const std::vector<Check>& checks);
 /// Every check with its finding.
 present::Table checks_table(const std::vector<Check>& checks);
 
+/// The verdict and every check, of a result whose report has no verdict of its own.
+present::Section checks_section(const std::vector<Check>& checks);
+
 }  // namespace wearwell

@@ -13,6 +13,7 @@
 #include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
+#include "wearwell/study/trust_blocks.h"
 
 // Longer than others: the tables of one report in their order.
 namespace wearwell::clutch {
@@ -354,7 +355,8 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
   if (!found.layout.empty()) facts.facts.push_back({"layout of the files", found.layout});
   how.add(std::move(facts));
   how.add(present::Details{"The statements", {{present::Verbatim{found.statements}}}});
-  result.sections = {std::move(levels), std::move(worst), std::move(fleet), std::move(how)};
+  result.sections = {std::move(levels), std::move(worst), std::move(fleet),
+                     checks_section(header.checks), std::move(how)};
   return result;
 }
 

@@ -116,8 +116,8 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
   if (process.minimal_repair()) {
     asked.ages = read_ages(predict, asked, study);
     for (const double age : asked.ages) {
-      QuantityRequest mtbf = quantity("mean time between failures", unit,
-                                      "at age " + age_text(data, age), data.unit);
+      QuantityRequest mtbf =
+          quantity("mean time between failures", unit, "at age " + age_text(data, age), data.unit);
       mtbf.headline = true;
       add_quantity(asked, study, mtbf,
                    [process, age](const double* x) { return 1 / process.intensity(x, age); });
