@@ -120,14 +120,21 @@
         element('div', {class: 'fields'}, field('Reported by', element('input', {name: 'by', required: true, maxlength: 200, autocomplete: 'name'})),
                 field('Note', element('input', {name: 'note', maxlength: 1000, autocomplete: 'off'}))),
         element('button', {}, 'Report'), message);
-    const known = (path) => wearwell.ask(path).then(() => true, (error) => { if (error.status === 404) return false; throw error; });
+    const known = async (unit) => {
+      const count = 100;
+      for (let offset = 0; ; offset += count) {
+        const {matching, units} = await wearwell.ask(`/api/v1/units?search=${encodeURIComponent(unit)}&offset=${offset}&count=${count}`);
+        if (units.some((each) => each.unit === unit)) return true;
+        if (offset + count >= matching) return false;
+      }
+    };
     form.addEventListener('submit', async (event) => {
       event.preventDefault();
       message.className = 'note';
       message.textContent = 'Sending';
       try {
         const path = `/api/v1/units/${encodeURIComponent(name.value)}`;
-        if (await known(path)) throw new Error(`${name.value} is known already: open it and report the event there.`);
+        if (await known(name.value)) throw new Error(`${name.value} is known already: open it and report the event there.`);
         const answer = await wearwell.send(`${path}/events`, {...bodyOf(form), event: 'installed'});
         message.textContent = answer.events ? `Stored: ${name.value} goes into service with its first reading.` : answer.problem || 'This event is stored already.';
         name.value = '';
