@@ -131,7 +131,8 @@ TEST_F(LivesFleet, UnitsHaveTheirOwnConditions) {
   // 90 degC lies outside the tests, from 10 to 80.
   const json hot = fleet(fit("accelerated") + " " +
                          file("hot.csv", "unit,age [h],temperature [degC]\nA,500,90\n") + horizon);
-  EXPECT_THAT(hot["checks"].dump(), HasSubstr("have a temperature outside the study's 10 to 80"));
+  EXPECT_THAT(hot["checks"].dump(),
+              HasSubstr("1 unit has a temperature outside the study's 10 to 80"));
   EXPECT_EQ(two["fleet"]["conditions"], 2);
 }
 
