@@ -118,22 +118,23 @@ lives_in_unit <- function(values, study) {
   lapply(seq_along(values), function(i) in_unit(values[i], if (is.na(unit)) "" else unname(unit)))
 }
 
-ww_survival_function <- function(fit, times, given = NULL) {
-  study <- study_of_lives(fit, "ww_survival_function()")
+# What a study says of lives at these times: by `key` of [predict], the rows whose names begin with `what`.
+at_times <- function(fit, study, times, given, key, what, read) {
   require_places(times, "times", study)
   lives_frame(fit, study, given, function(at) {
-    found <- lives_asked(fit, at, list(survival_to = lives_in_unit(times, study)), list(survival_to = "times"))
-    found <- found[startsWith(column(found, "name", ""), "survival to ")]
+    found <- lives_asked(fit, at, stats::setNames(list(lives_in_unit(times, study)), key), stats::setNames(list("times"), key))
+    read(found[startsWith(column(found, "name", ""), what)])
+  })
+}
+
+ww_survival_function <- function(fit, times, given = NULL) {
+  at_times(fit, study_of_lives(fit, "ww_survival_function()"), times, given, "survival_to", "survival to ", function(found) {
     structure(cbind(data.frame(time = times), life_numbers(found, c("q05", "q50", "q95", "predictive"), NA) / 100), unit = "1")
   })
 }
 
 ww_hazard <- function(fit, times, given = NULL) {
-  study <- study_of_lives(fit, "ww_hazard()")
-  require_places(times, "times", study)
-  lives_frame(fit, study, given, function(at) {
-    found <- lives_asked(fit, at, list(hazard_at = lives_in_unit(times, study)), list(hazard_at = "times"))
-    found <- found[startsWith(column(found, "name", ""), "hazard at ")]
+  at_times(fit, study_of_lives(fit, "ww_hazard()"), times, given, "hazard_at", "hazard at ", function(found) {
     structure(cbind(data.frame(time = times), life_numbers(found, c("q05", "q50", "q95"), NA)), unit = found[[1]]$unit)
   })
 }

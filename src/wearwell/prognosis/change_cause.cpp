@@ -29,8 +29,9 @@ constexpr std::array unit_pairs = {UnitPair{1e6, "m", "um"},  UnitPair{25400, "i
                                    UnitPair{1e4, "cm", "um"}, UnitPair{1000, "mm", "um"},
                                    UnitPair{100, "m", "cm"},  UnitPair{25.4, "inches", "mm"},
                                    UnitPair{10, "cm", "mm"}};
-constexpr std::array<double, 2 * unit_pairs.size()> factors = [] {
-  std::array<double, 2 * unit_pairs.size()> all{};
+constexpr std::array<double, unit_factor_count> factors = [] {
+  static_assert(unit_factor_count == 2 * unit_pairs.size());
+  std::array<double, unit_factor_count> all{};
   for (std::size_t i = 0; i < unit_pairs.size(); ++i) {
     all[i] = unit_pairs[i].factor;
     all[all.size() - 1 - i] = 1 / unit_pairs[i].factor;
@@ -158,7 +159,7 @@ bool are_above(Since part) {
 
 }  // namespace
 
-std::span<const double> unit_factors() {
+std::span<const double, unit_factor_count> unit_factors() {
   return factors;
 }
 

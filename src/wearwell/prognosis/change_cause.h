@@ -47,8 +47,9 @@ struct AsNew {
 ChangeCause cause_of(std::span<const ReadingSince> since, double before,
                      const std::optional<AsNew>& as_new);
 
-/// Factors by which readings in a wrong unit fit again: 1000, 25.4, 10 and their inverses.
-std::span<const double> unit_factors();
+inline constexpr std::size_t unit_factor_count = 14;
+/// Factors by which readings in a wrong unit fit again: 10, 25.4, 100, 1000, 10,000, 25,400, a million and their inverses.
+std::span<const double, unit_factor_count> unit_factors();
 /// "such as mm in place of um"; "1/25.4".
 std::string unit_change(double factor);
 /// "the unit is not that of the study (such as mm in place of um)"

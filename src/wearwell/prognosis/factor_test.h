@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/change_cause.h"
 #include "wearwell/prognosis/predicted_reading.h"
 #include "wearwell/prognosis/tracker.h"
 
@@ -37,7 +38,7 @@ class FactorTest {
   void load(ByteReader& from, const Tracker& tracker);
 
  private:
-  static constexpr std::size_t count = 14;  // of factors
+  static constexpr std::size_t count = unit_factor_count;
   struct Other {
     double log_evidence = 0;
     bool is_nearer = false;  // the last reading is more probable with it
