@@ -214,7 +214,7 @@ class Monitor:
         **fields
             ``by``, who reports it; perhaps ``note``; ``key``, the place among the unit's readings (as in ``moments`` of
             ``unit()``); and by the names of the study's columns what the event needs: the use on the counter, the offset of a
-            sensor, all values of a corrected reading. ``restored``, the amount that a repair takes back, in the unit of the level. ``number`` of the event that is cancelled, ``alarm_ms`` of the alarm that is
+            sensor, all values of a corrected reading. ``restored``, the amount that a repair takes back, in the unit of the level. ``part_name``, the part of the study that goes on, of ``"installed"`` and ``"replaced"``. ``number`` of the event that is cancelled, ``alarm_ms`` of the alarm that is
             acknowledged (both as ``unit()`` has them).
 
         Returns

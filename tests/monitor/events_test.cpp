@@ -4,6 +4,7 @@
 #include "monitor/events_rig.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
+#include "wearwell/monitor/learned_readings.h"
 #include "wearwell/monitor/stored_units.h"
 
 namespace wearwell::monitor {
@@ -71,6 +72,8 @@ TEST_F(Events, TheFirstPartIsPart1) {
   report("c", "withdrawn", R"("n": 5)");
   EXPECT_EQ(view("c").part, 2);
   // One that has failed was there, without a reading.
+  deliver(message("d", 1, 20, 20));
+  report("d", "withdrawn", R"("n": 1)");
   report("d", "failed", R"("n": 3, "time": 100)");
   report("d", "installed", R"("n": 4, "time": 0)");
   EXPECT_EQ(view("d").part, 2);
@@ -84,8 +87,129 @@ TEST_F(Events, TheFirstPartIsPart1) {
   installed.use = 0;
   EXPECT_THAT(event_problem(installed, study),
               AllOf(HasSubstr("'e' is a machine of the study"), HasSubstr("\"replaced\"")));
+  installed.part = "e";
+  EXPECT_EQ(event_problem(installed, study), "");
+  installed.part = {};
   installed.unit = "f";
   EXPECT_EQ(event_problem(installed, study), "");
+  // A later part of the study, or one more?
+  study.set_study({{"f", 10}, {"f (part 2)", 20}, {"g (left)", 5}});
+  for (const EventKind kind : {EventKind::installed, EventKind::replaced}) {
+    installed.kind = kind;
+    EXPECT_THAT(
+        event_problem(installed, study),
+        AllOf(HasSubstr("the study has the machine 'f (part 2)'"),
+              HasSubstr("part_name = \"f (part 2)\""), HasSubstr("part_name = \"f (part 3)\"")));
+  }
+  installed.part = "f (part 3)";
+  EXPECT_EQ(event_problem(installed, study), "");
+}
+
+// Most often the name is wrong. The same holds for every source; the store is asked, so that a unit is known
+// from its first reading on, whether it is processed or not.
+TEST_F(Events, OfAUnitThatIsNotKnownAreRefused) {
+  open();
+  for (const auto& [event, more] :
+       {std::pair("replaced", R"("n": 11, "time": 500)"),
+        std::pair("failed", R"("n": 11, "time": 500)"), std::pair("removed", R"("n": 11)"),
+        std::pair("sensor", R"("n": 11, "wear": 3)"),
+        std::pair("repaired", R"("n": 11, "restored": 3)"), std::pair("withdrawn", R"("n": 11)")}) {
+    const Delivery refused = report("unknown", event, more);
+    EXPECT_EQ(refused.events, 0U);
+    EXPECT_EQ(refused.refused, 1U);
+    EXPECT_TRUE(refused.unknown_unit);
+    EXPECT_THAT(refused.problem, AllOf(HasSubstr(fmt::format("{}: 'unknown' is not a unit", event)),
+                                       HasSubstr("\"installed\"")));
+  }
+  EXPECT_TRUE(store_->events_after(0).empty());
+  EXPECT_FALSE(store_->has_unit("unknown"));
+  EXPECT_FALSE(tally_ref().knows("unknown"));
+  catch_up();
+  EXPECT_FALSE(fleet_->unit("unknown"));
+  // A reading makes it known: before it is processed, and in the same message.
+  deliver(message("a", 1, 50, 50));
+  EXPECT_FALSE(fleet_->view("a"));
+  EXPECT_EQ(report("a", "replaced", R"("n": 2, "time": 60)").events, 1U);
+  const Delivery both = deliver(R"({"machine": "b", "event": "removed", "n": 1, "by": "x"})" +
+                                std::string("\n") + message("b", 1, 50, 50));
+  EXPECT_EQ(both.readings + both.events, 2U);
+  // So does "installed", and the study.
+  const std::string fresh =
+      R"({"machine": "c", "event": "installed", "n": 1, "time": 0, "by": "x"})";
+  const Delivery begun =
+      deliver(fresh + "\n" + R"({"machine": "c", "event": "removed", "n": 2, "by": "x"})");
+  EXPECT_EQ(begun.events, 2U);
+  source_.mapping.in_study = [](const std::string& unit) { return unit == "of the study"; };
+  EXPECT_EQ(report("of the study", "replaced", R"("n": 1, "time": 5)").events, 1U);
+  EXPECT_EQ(report("of a study", "replaced", R"("n": 1, "time": 5)").events, 0U);
+}
+
+// A machine may have the name that the second part of another would have.
+TEST_F(Events, EachPartIsExportedUnderANameOfItsOwn) {
+  open();
+  for (int n = 1; n <= 3; ++n) deliver(message("R3", n, 50 * n, 50 * n));
+  deliver(message("R3 (part 2)", 1, 10, 10));
+  report("R3", "replaced", R"("n": 3, "time": 110)");
+  ExportCounts counts;
+  std::uint64_t lives = 0;
+  const auto twice =
+      AllOf(HasSubstr("two parts have the name 'R3 (part 2)'"), HasSubstr("unit 'R3 (part 2)'"),
+            HasSubstr("the part of unit 'R3' that event 1 began"), HasSubstr("part_name"));
+  EXPECT_THAT(message_of<InputError>([&] { readings_as_csv(*store_, tracker_, {}, counts); }),
+              twice);
+  EXPECT_THAT(message_of<InputError>([&] { lives_as_csv(*store_, tracker_, lives); }), twice);
+  report("R3", "cancelled", R"("number": 1)");
+  report("R3", "replaced", R"("n": 3, "time": 110, "part_name": "R3, spring 2026")");
+  const std::string text = readings_as_csv(*store_, tracker_, {}, counts);
+  EXPECT_THAT(text, AllOf(HasSubstr("\n\"R3, spring 2026\",3,"), HasSubstr("\nR3 (part 2),1,")));
+  EXPECT_THAT(lives_as_csv(*store_, tracker_, lives), HasSubstr("\n\"R3, spring 2026\",40,"));
+  EXPECT_EQ(counts.readings, 4U);
+  EXPECT_THAT(report("R3", "failed", R"("n": 3, "time": 150, "part_name": "x")").problem,
+              HasSubstr("part_name is for \"installed\" and \"replaced\" alone"));
+  // What the study has under the name of a part that is new is another part.
+  const auto events = events_of(events_of_units(*store_, tracker_), "R3");
+  GrowthTracker study;
+  study.set_study({{"R3 (part 3)", 100}, {"R3, spring 2026", 30}});
+  EXPECT_EQ(begun_name("R3", *events, study), "R3, spring 2026");
+  // Learned readings are found under the name, too.
+  EXPECT_EQ(learned_from(*store_, study), "");
+  study.set_study({{"R3, spring 2026", 40}});
+  EXPECT_THAT(learned_from(*store_, study), HasSubstr("machine 'R3, spring 2026'"));
+  report("a", "installed", R"("n": 1, "time": 0)");
+  report("a", "replaced", R"("n": 5, "time": 0)");
+  study.set_study({{"a (part 3)", 100}});
+  EXPECT_EQ(begun_name("a", *events_of(events_of_units(*store_, tracker_), "a"), study),
+            "a (part 3)'");
+}
+
+// A part that the study has learned goes on under a counter that shows more than its own use.
+TEST_F(Events, APartOfTheStudyGoesOn) {
+  tracker_.set_study({{"a", 100}, {"a (part 2)", 40}});
+  source_.mapping.in_study = [](const std::string& unit) { return unit == "a"; };
+  source_.mapping.event_problem = [this](const UnitEvent& event) {
+    return event_problem(event, tracker_);
+  };
+  open();
+  EXPECT_THAT(report("a", "replaced", R"("n": 1, "time": 500)").problem,
+              HasSubstr("the study has the machine 'a (part 2)'"));
+  EXPECT_EQ(
+      report("a", "replaced", R"("n": 1, "time": 500, "part_name": "a (part 2)")").events, 1U);
+  EXPECT_EQ(view("a").at, 40);  // where the study left it
+  deliver(message("a", 1, 60, 560));
+  deliver(message("a (part 2)", 1, 60, 60));
+  expect_same("a", "a (part 2)");
+  EXPECT_EQ(view("a").at, 60);
+  fleet_->save();
+  const std::string state = bits();
+  open();
+  EXPECT_EQ(view("a").at, 60);
+  EXPECT_TRUE(bits() == state);
+  EXPECT_EQ(fleet_->unit("a")->events.at(0).event.part, "a (part 2)");
+  // Its readings are exported under the name of the study, where those of another unit are not.
+  ExportCounts counts;
+  EXPECT_THAT(message_of<InputError>([&] {
+    readings_as_csv(*store_, tracker_, {}, counts); }),
+              HasSubstr("two parts have the name 'a (part 2)'"));
 }
 
 // When an event comes makes no difference: before the readings, among them, or after a restart that lost the latest states.
@@ -98,6 +222,7 @@ TEST_F(Events, CountTheSameWhenTheyCome) {
   close();
   std::filesystem::remove(folder() / "fleet.sqlite");
   open();
+  deliver(message("a", 1, 99.0, 50));
   report("a", "replaced", R"("n": 11, "time": 500)");
   catch_up();
   send_two_parts();
@@ -277,7 +402,7 @@ TEST_F(Events, ChangeTheHistory) {
   report("a", "replaced", R"("n": 15, "time": 700)");
   EXPECT_EQ(view("a").last_key, 14);
   // A unit of which only an event is known survives a restart.
-  report("b", "replaced", R"("n": 1, "time": 0)");
+  report("b", "installed", R"("n": 1, "time": 0)");
   catch_up();
   close();
   open();
@@ -313,8 +438,8 @@ TEST_F(Events, ThatNoUnitCanHaveAreRefused) {
               AllOf(HasSubstr("unit 'a'"), HasSubstr("has a reading before at 300")));
   // A part before the first installation of which nothing is known has no life.
   report("a", "cancelled", R"("number": 3)");
-  report("b", "replaced", R"("n": 1, "time": 400)");
   deliver(message("b", 1, 50, 450));
+  report("b", "replaced", R"("n": 1, "time": 400)");
   EXPECT_EQ(lives_as_csv(*store_, tracker_, lives),
             "machine,time [h],status\na,300,suspended\nb (part 2),50,suspended\n");
 }

@@ -474,6 +474,10 @@ class FailingStore : public Store {
     return store_->reading(unit, key);
   }
   std::uint64_t count() override { return store_->count(); }
+  bool has_unit(const std::string& unit) override {
+    look();
+    return store_->has_unit(unit);
+  }
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override {
     if (adds == Fails::before || fails_events) throw StoreError("the disk is full");
     auto kept = store_->add_events(events);

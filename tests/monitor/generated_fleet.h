@@ -179,7 +179,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
 
   /// Lines of {"unit": "M1003", "at": 1200, "wear": 31.5}.
   using Inbox::deliver;
-  Delivery deliver(const std::string&, const std::string& payload,
+  Delivery deliver(const std::string& topic, const std::string& payload,
                    const std::string& no_events) override {
     {
       const std::scoped_lock lock(mutex_);
@@ -187,6 +187,12 @@ class GeneratedFleet : public FleetReader, public Inbox {
     }
     if (away) return {false, 0, 0, 0, "the store cannot be reached"};
     Delivery delivery{true, 0, 0, 0, ""};
+    if (!topic.empty() && !view(topic) && payload.find("installed") == payload.npos) {
+      delivery.unknown_unit = true;
+      delivery.refused = 1;
+      delivery.problem = "'" + topic + "' is not a unit; report \"installed\" first";
+      return delivery;
+    }
     std::istringstream lines(payload);
     for (std::string line; std::getline(lines, line);) {
       const auto json = nlohmann::json::parse(line, nullptr, false);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 
@@ -52,6 +54,21 @@ double restored_in(const Fields& fields, const ReadingMapping& mapping) {
   return value_of(fields, amount) - to_si(level.unit, 0);
 }
 
+/// The name of a part, in a field of its own that no mapping uses otherwise.
+std::string part_in(const Fields& fields, const ReadingMapping& mapping, EventKind kind) {
+  constexpr const char* field = "part_name";
+  const auto is_column = [&](const ColumnField& each) { return each.field == field; };
+  if (mapping.unit == field ||
+      std::any_of(mapping.columns.begin(), mapping.columns.end(), is_column) ||
+      std::find(mapping.labels.begin(), mapping.labels.end(), field) != mapping.labels.end())
+    return {};
+  std::string part = text_in(fields, field, longest_name);
+  if (!part.empty() && !begins_part(kind))
+    throw InputError(
+        fmt::format("{}: {} is for \"installed\" and \"replaced\" alone", name(kind), field));
+  return part;
+}
+
 }  // namespace
 
 bool is_event(const Fields& fields, const ReadingMapping& mapping) {
@@ -81,6 +98,7 @@ UnitEvent event_of(const Fields& fields, const std::string& unit, const ReadingM
   event.received_ms = received_ms;
   event.author = text_in(fields, "by", longest_name);
   event.note = text_in(fields, "note", longest_note);
+  event.part = part_in(fields, mapping, event.kind);
   if (corrected) {
     event.numbers = at.numbers;
     event.labels = at.labels;

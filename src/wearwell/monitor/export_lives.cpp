@@ -60,7 +60,7 @@ std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::u
       "{},{},status\n", printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun()),
       printable_csv_cell(column_heading(tracker.axis())));
   count = 0;
-  const PartNames names(store, events);
+  PartNames names(store, events);
   const prognosis::TrackerUnits reported(tracker);
   for (const auto& [unit, lives] : units) {
     const auto of_unit = events_of(events, unit);
@@ -72,7 +72,7 @@ std::string lives_as_csv(Store& store, const prognosis::Tracker& tracker, std::u
           ended(lives[i], unit, parts[i], i + 1 < parts.size() ? &parts[i + 1] : nullptr, reported);
       if (!(life.use > 0)) continue;
       ++count;
-      text += fmt::format("{},{},{}\n", printable_csv_cell(names.name(unit, parts[i].number)),
+      text += fmt::format("{},{},{}\n", printable_csv_cell(names.exported(unit, parts[i].number)),
                           reported.along(life.use), life.failed ? "failed" : "suspended");
     }
   }

@@ -17,10 +17,10 @@ namespace {
 void for_each_reading(Store& store, const prognosis::Tracker& tracker,
                       const std::function<void(const StoredReading&)>& visit) {
   const EventsOfUnits events = events_of_units(store, tracker);
-  const PartNames names(store, events);
+  PartNames names(store, events);
   for_each_counted(store, events, [&](const std::string& unit, CountedReading& seen) {
     if (seen.state != CountedReading::State::counts) return;
-    seen.reading.unit = names.name(unit, seen.part);
+    seen.reading.unit = names.exported(unit, seen.part);
     visit(seen.reading);
   });
 }
@@ -38,11 +38,9 @@ bool count_reading(const StoredReading& reading, const DoubtedParts& doubted,
 
 DoubtedParts doubted_parts(Store& store, const Population& population) {
   DoubtedParts parts;
-  for (const auto& [unit, record] : stored_units(store, population)) {
-    if (!record.watch.in_doubt()) continue;
-    const UnitEvents& events = *record.events;
-    parts.insert(part_name(unit, events.shown_part(events.part().number, record.earlier_readings)));
-  }
+  const PartNames names(store, events_of_units(store, *population.tracker));
+  for (const auto& [unit, record] : stored_units(store, population))
+    if (record.watch.in_doubt()) parts.insert(names.name(unit, record.events->part().number));
   return parts;
 }
 

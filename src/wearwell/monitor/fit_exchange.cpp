@@ -121,6 +121,9 @@ void FitExchange::look(bool asked, const std::stop_token& stop) {
   }
   std::vector<std::string> units;
   for (const UnitView& each : fleet->units("", 0, SIZE_MAX)) units.push_back(each.unit);
+  for (const auto& [unit, events] : fleet->events())
+    for (const UnitPart& each : events->parts())
+      if (!each.name.empty()) units.push_back(each.name);
   if (const std::string why = misfit(present_, now, units); !why.empty()) return refuse(why);
   if (const std::string why = left_out(*fleet, stop); !why.empty()) return refuse(why);
   if (stop.stop_requested()) return;

@@ -57,6 +57,7 @@
     if (kind === 'cancelled') return [field('Number of the event', element('input', {name: 'number', type: 'number', step: 1, min: 1, required: true}))];
     const fields = [keyField(fleet, view, kind)];
     if (kind === 'installed' || kind === 'replaced' || kind === 'failed') fields.push(field(`${wearwell.capital(fleet.axis)} on the counter`, numeric(fleet.axis), fleet.axis_unit));
+    if (kind === 'installed' || kind === 'replaced') fields.push(field('Name of the part, if the study has it', element('input', {name: 'part_name', maxlength: 200, autocomplete: 'off'})));
     if (kind === 'repaired') fields.push(field('Amount that the repair takes back', numeric('restored'), fleet.level_unit));
     if (kind === 'sensor') fields.push(field('What the new sensor shows too much', numeric(fleet.level_column), fleet.level_unit));
     if (kind === 'corrected') {

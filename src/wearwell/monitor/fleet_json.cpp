@@ -57,6 +57,7 @@ Json json_of_event(const EventView& view) {
   if (std::isfinite(view.use)) json["use"] = view.use;
   if (event.kind == EventKind::sensor) json["offset"] = view.offset;
   if (event.kind == EventKind::repaired) json["restored"] = view.restored;
+  if (!event.part.empty()) json["part_name"] = event.part;
   for (const auto& [column, value] : view.values) json["values"][column] = number(value);
   json["received_ms"] = event.received_ms;
   json["by"] = event.author;

@@ -184,6 +184,7 @@ struct Delivery {
   std::uint64_t readings = 0, repeated = 0, refused = 0;
   std::string problem = {};  ///< the first one
   std::uint64_t events = 0;
+  bool unknown_unit = false;  ///< an event was refused since nothing is known of its unit
 };
 class Inbox {
  public:

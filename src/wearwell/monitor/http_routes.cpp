@@ -296,15 +296,15 @@ HttpResponse HttpRoutes::readings(const HttpRequest& question) const {
 HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::string& body) const {
   if (!events_) return refusal(404, "this monitor takes no events by HTTP");
   const std::string name = percent_decoded(encoded);
-  const std::optional<UnitView> unit = reader_.view(name);
-  // The first event of a unit; another one is more likely to have a wrong name.
-  if (!unit && event_in(body) != monitor::name(EventKind::installed))
-    return refusal(
-        404, fmt::format("\"{}\" is not a unit; report \"installed\" first if it is a new one",
-                         shortened(name)));
-  if (!unit) return answer_of(events_->deliver(name, body));
-  if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
-  return answer_of(events_->deliver(name, body));
+  // A unit whose first readings are still to be processed has no alarm; whether there is such a unit
+  // at all, the inbox knows.
+  if (const std::optional<UnitView> unit = reader_.view(name)) {
+    if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
+  } else if (event_in(body) == monitor::name(EventKind::acknowledged)) {
+    return refusal(404, fmt::format("\"{}\" is not a unit with an alarm", shortened(name)));
+  }
+  const Delivery delivery = events_->deliver(name, body);
+  return delivery.unknown_unit ? refusal(404, delivery.problem) : answer_of(delivery);
 }
 
 HttpResponse HttpRoutes::metrics(const HttpCounts& http) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -59,6 +60,7 @@ Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
     return delivery;
   }
   delivery.stored = true;
+  delivery.unknown_unit = batch.unknown_unit;
   tally_.messages(batch.rows, unix_ms_now());
   for (const Refusal& each : batch.refusals) refuse(source, each, delivery);
   for (std::size_t i = 0; i < batch.kept.size(); ++i) {
@@ -133,16 +135,12 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
 void Intake::read_row(const SourceSettings& source, const Fields& fields, const std::string& unit,
                       std::int64_t now_ms, Batch& batch) {
   ++batch.rows;
-  const auto admit = [&](const std::string& name) {
-    if (!tally_.admit(name))
-      throw InputError(fmt::format(
-          "'{}' is a new unit, and the number of units has reached limits.units", name));
-  };
   try {
     if (is_event(fields, source.mapping)) {
       if (!batch.no_events.empty()) throw InputError(batch.no_events);
       UnitEvent event = event_of(fields, unit, source.mapping, now_ms);
-      if (!needs_reference(event.kind)) admit(event.unit);
+      const auto& in_study = source.mapping.in_study;
+      batch.of_study.push_back(in_study && in_study(event.unit));
       batch.events.push_back(std::move(event));
       return;
     }
@@ -153,6 +151,12 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
     const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
     batch.refusals.push_back({named ? named->text : unit, error.what()});
   }
+}
+
+void Intake::admit(const std::string& unit) {
+  if (!tally_.admit(unit))
+    throw InputError(
+        fmt::format("'{}' is a new unit, and the number of units has reached limits.units", unit));
 }
 
 void Intake::commit(Batch& batch) {
@@ -168,12 +172,24 @@ void Intake::commit(Batch& batch) {
   }
 }
 
+/// Why an event has another unit than it names: most often the name is misspelt. Asks the store, not
+/// the fleet, which may still have to process the unit's first readings.
+std::string Intake::unknown_unit(const UnitEvent& event, bool of_study) {
+  if (begins_unit(event.kind) || of_study || store_.has_unit(event.unit)) return {};
+  return fmt::format(
+      "{}: '{}' is not a unit: no reading or event of it is stored, and the study does not have "
+      "it; "
+      "correct the name, or report \"installed\" first if it is a new one",
+      name(event.kind), printable(shortened(event.unit)));
+}
+
 /// What an event refers to and the store does not have; empty if it is there.
 std::string Intake::missing_reference(const UnitEvent& event) {
   if (!needs_reference(event.kind)) return {};
   if (event.kind == EventKind::acknowledged)
-    return tally_.knows(event.unit) ? std::string()
-                                    : fmt::format("acknowledged: '{}' is not a unit", event.unit);
+    return store_.has_unit(event.unit)
+               ? std::string()
+               : fmt::format("acknowledged: '{}' is not a unit with an alarm", event.unit);
   if (event.kind != EventKind::cancelled) {
     if (store_.reading(event.unit, event.key)) return {};
     return fmt::format("{}: unit '{}' has no stored reading with key {}", name(event.kind),
@@ -193,12 +209,20 @@ void Intake::commit_events(Batch& batch) {
   try {
     std::vector<UnitEvent> events;
     std::vector<Refusal> refusals;
-    for (const UnitEvent& each : batch.events) {
-      const std::string missing = missing_reference(each);
-      if (missing.empty()) {
+    std::set<std::string> begun;  // by events of this message
+    for (std::size_t i = 0; i < batch.events.size(); ++i) {
+      const UnitEvent& each = batch.events[i];
+      const std::string unknown =
+          unknown_unit(each, batch.of_study[i] || begun.contains(each.unit));
+      batch.unknown_unit |= !unknown.empty();
+      const std::string missing = unknown.empty() ? missing_reference(each) : unknown;
+      try {
+        if (!missing.empty()) throw InputError(missing);
+        admit(each.unit);
+        if (begins_unit(each.kind)) begun.insert(each.unit);
         events.push_back(each);
-      } else {
-        refusals.push_back({each.unit, missing});
+      } catch (const InputError& error) {
+        refusals.push_back({each.unit, error.what()});
       }
     }
     batch.kept_events = store_.add_events(events);

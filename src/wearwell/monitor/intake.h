@@ -53,12 +53,14 @@ class Intake {
   struct Batch {
     std::vector<StoredReading> readings = {};
     std::vector<UnitEvent> events = {};
+    std::vector<char> of_study = {};     // whether the study has the unit of each event
     std::vector<Refusal> refusals = {};  // counted when the others are stored, and so only once
     std::size_t rows = 0;
     std::string no_events = {};
     std::vector<Kept> kept = {}, kept_events = {};
     std::string remark = {};  // of an event that was stored already and does not hold
     std::string trouble = {};
+    bool unknown_unit = false;
     bool done = false;
   };
   void read(const SourceSettings& source, const Message& message, Batch& batch);
@@ -68,6 +70,8 @@ class Intake {
   void refuse(const SourceSettings& source, const Refusal& refusal, Delivery& delivery);
   void commit(Batch& batch);
   void commit_events(Batch& batch);
+  void admit(const std::string& unit);
+  std::string unknown_unit(const UnitEvent& event, bool of_study);
   std::string missing_reference(const UnitEvent& event);
   std::string not_in_force(const UnitEvent& event);
   void store_waiting(std::unique_lock<std::mutex>& lock);

@@ -19,12 +19,6 @@ namespace {
 /// A text file has the digits of a number, in another unit.
 constexpr double position_accuracy = 1e-9;
 
-/// "M7 (part 2)" -> "M7", as `part_name` makes it; a name without a part is its own.
-std::string unit_of_part(const std::string& name) {
-  const std::size_t at = name.rfind(" (part ");
-  return at == name.npos || at == 0 || !name.ends_with(')') ? name : name.substr(0, at);
-}
-
 /// Where the study's readings of a unit end, along the axis.
 double last_position(const prognosis::Tracker& tracker, const std::string& name) {
   return tracker.begin(name)->forecast().now;
@@ -74,7 +68,9 @@ std::string learned_from(Store& store, const prognosis::Tracker& now) {
   const PartNames names(store, events);
   for (const std::string& name : now.seen()) {
     std::optional<double> position;  // expensive: only of units with stored readings
-    for (const std::string& unit : std::set<std::string>{name, unit_of_part(name)}) {
+    std::set<std::string> candidates = names.units_with(name);
+    candidates.insert({name, unit_of_part(name)});
+    for (const std::string& unit : candidates) {
       bool any = false;
       store.of_unit(unit, 0, std::numeric_limits<std::int64_t>::max(),
                     [&](const StoredReading&) { any = true; });

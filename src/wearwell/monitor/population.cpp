@@ -66,6 +66,7 @@ void PopulationChecks::bind(ReadingMapping& mapping) const {
   mapping.implausible = [this](const StoredReading& reading) {
     return present()->mapping.implausible(reading);
   };
+  mapping.in_study = [this](const std::string& unit) { return present()->mapping.in_study(unit); };
   mapping.event_problem = [this](const UnitEvent& event) {
     return present()->mapping.event_problem(event);
   };

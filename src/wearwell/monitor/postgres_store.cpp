@@ -113,6 +113,7 @@ class PostgresStore : public Store {
                const std::function<void(const StoredReading&)>& visit) override;
   std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
+  bool has_unit(const std::string& unit) override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
   std::vector<UnitEvent> events_of(const std::string& unit) override;
@@ -504,6 +505,18 @@ std::uint64_t PostgresStore::count() {
     number = work.exec1("SELECT count(*) FROM wearwell_reading")[0].as<std::uint64_t>();
   });
   return number;
+}
+
+bool PostgresStore::has_unit(const std::string& unit) {
+  bool has = false;
+  read_.run([&](pqxx::work& work) {
+    has = work.exec_params(
+                  "SELECT EXISTS (SELECT 1 FROM wearwell_reading WHERE unit = $1) OR EXISTS "
+                  "(SELECT 1 FROM wearwell_event WHERE unit = $1)",
+                  unit)[0][0]
+              .as<bool>();
+  });
+  return has;
 }
 
 void PostgresStore::save(const std::string& population, const std::vector<Checkpoint>& states,

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <unordered_set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -236,6 +238,10 @@ ReadingMapping tracker_checks(const prognosis::Tracker& tracker) {
                            implausible = implausible_event(tracker)](const UnitEvent& event) {
     const std::string problem = event_problem(event, tracker);
     return problem.empty() ? implausible(event) : problem;
+  };
+  mapping.in_study = [names = std::make_shared<const std::unordered_set<std::string>>(
+                          tracker.seen().begin(), tracker.seen().end())](const std::string& unit) {
+    return names->contains(unit);
   };
   mapping.watched = prognosis::watched_columns(tracker);
   return mapping;

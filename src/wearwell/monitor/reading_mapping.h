@@ -41,6 +41,8 @@ struct ReadingMapping {
   std::string event = {};  ///< field: rows that have it are events; empty: none are
   /// Why an event is refused, see `event_problem`.
   std::function<std::string(const UnitEvent& event)> event_problem = {};
+  /// Whether the study has a unit of this name.
+  std::function<bool(const std::string& unit)> in_study = {};
   prognosis::WatchedColumns watched = {};
 };
 

@@ -87,6 +87,7 @@ class SqliteStore : public Store {
                const std::function<void(const StoredReading&)>& visit) override;
   std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
+  bool has_unit(const std::string& unit) override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
   std::vector<UnitEvent> events_of(const std::string& unit) override;
@@ -399,6 +400,15 @@ std::uint64_t SqliteStore::count() {
   const std::lock_guard lock(read_lock_);
   SqliteStatement select(read_, "SELECT count(*) FROM reading");
   return select.next() ? static_cast<std::uint64_t>(select.integer(0)) : 0;
+}
+
+bool SqliteStore::has_unit(const std::string& unit) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_,
+                         "SELECT EXISTS (SELECT 1 FROM reading WHERE unit = ?) OR EXISTS (SELECT 1 "
+                         "FROM event WHERE unit = ?)");
+  select.bind(1, std::string_view(unit)).bind(2, std::string_view(unit));
+  return select.next() && select.integer(0) != 0;
 }
 
 void SqliteStore::save(const std::string& population, const std::vector<Checkpoint>& states,

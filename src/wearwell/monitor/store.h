@@ -106,6 +106,8 @@ class Store {
   /// The reading of a unit with this key, as it was stored.
   virtual std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) = 0;
   virtual std::uint64_t count() = 0;
+  /// Whether a reading or an event of a unit of this name is stored.
+  virtual bool has_unit(const std::string& unit) = 0;
 
   /// Stores new events, all or, when it throws, none; the same one again counts as repeated. Too old
   /// ones would change what removed readings say.

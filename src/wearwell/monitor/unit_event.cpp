@@ -39,6 +39,10 @@ bool begins_part(EventKind kind) {
   return kind == EventKind::installed || kind == EventKind::replaced;
 }
 
+bool begins_unit(EventKind kind) {
+  return kind == EventKind::installed;
+}
+
 bool changes_state(EventKind kind) {
   return kind != EventKind::acknowledged;
 }
@@ -69,6 +73,7 @@ const char* name(Service service) {
 std::string content_of(const UnitEvent& event) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (!std::isnan(event.use)) json["use"] = event.use;
+  if (!event.part.empty()) json["part"] = event.part;
   if (event.kind == EventKind::sensor) json["offset"] = event.offset;
   if (event.kind == EventKind::repaired) json["restored"] = event.restored;
   if (event.kind == EventKind::cancelled) json["cancels"] = event.cancels;
@@ -90,6 +95,7 @@ void read_content(const std::string& text, UnitEvent& event) {
   try {
     const auto json = nlohmann::json::parse(text);
     event.use = json.value("use", std::numeric_limits<double>::quiet_NaN());
+    event.part = json.value("part", "");
     event.offset = json.value("offset", 0.0);
     event.restored = json.value("restored", 0.0);
     event.cancels = json.value("cancels", std::int64_t{0});

@@ -28,6 +28,8 @@ std::optional<EventKind> event_named(std::string_view name);
 bool begins_part(EventKind kind);
 /// Whether it changes what the readings say: an acknowledgement does not.
 bool changes_state(EventKind kind);
+/// Whether it may be the first that is known of a unit.
+bool begins_unit(EventKind kind);
 /// Whether it is about a stored reading, another event or an alarm, so that its unit is there.
 bool needs_reference(EventKind kind);
 /// The kind in a store. Throws StoreError for another text.
@@ -53,8 +55,11 @@ struct UnitEvent {
   /// SI, along the axis: what the counter of use shows then; NaN if not given. A counter that is
   /// set back when a part is replaced shows 0.
   double use = std::numeric_limits<double>::quiet_NaN();
-  double offset = 0;                     ///< SI, of `sensor`: what it shows minus the level
-  double restored = 0;                   ///< SI, of `repaired`: the amount that is taken back
+  double offset = 0;    ///< SI, of `sensor`: what it shows minus the level
+  double restored = 0;  ///< SI, of `repaired`: the amount that is taken back
+  /// Of `installed` and `replaced`: the name of the part; one of the study goes on from there. Empty:
+  /// a new part, which has the unit's name and its number.
+  std::string part = {};
   std::vector<double> numbers = {};      ///< of `corrected`: as StoredReading
   std::vector<std::string> labels = {};  ///< of `corrected`
   std::int64_t cancels = 0;              ///< of `cancelled`: the number of the other event

@@ -3,11 +3,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 
 namespace wearwell::monitor {
+namespace {
+
+bool is_of_study(const prognosis::Tracker& tracker, const std::string& name) {
+  const auto study = tracker.seen();
+  return std::find(study.begin(), study.end(), name) != study.end();
+}
+
+/// Why a part without a name could be one of the study, or another; empty if it could not.
+std::string unclear_part(const UnitEvent& event, const prognosis::Tracker& tracker) {
+  const std::string unit = printable(event.unit);
+  std::int64_t last = 1;  // number of the unit's last part in the study
+  for (const std::string& each : tracker.seen()) {
+    if (each == event.unit || unit_of_part(each) != event.unit) continue;
+    std::int64_t number = 0;
+    const char* digits = each.data() + event.unit.size() + std::string_view(" (part ").size();
+    if (std::from_chars(digits, each.data() + each.size(), number).ec == std::errc{})
+      last = std::max(last, number);
+  }
+  if (last > 1)
+    return fmt::format(
+        "the study has the {} '{}'; if it is this part, add part_name = \"{}\"; if this part is "
+        "another one, add its name, such as part_name = \"{}\"",
+        tracker.noun(), part_name(unit, last), part_name(unit, last), part_name(unit, last + 1));
+  if (event.kind != EventKind::installed || !is_of_study(tracker, event.unit)) return {};
+  return fmt::format(
+      "'{}' is a {} of the study; if it is this part, it goes on without an event where its "
+      "counter "
+      "does; where the counter does not count from its installation, add part_name = \"{}\", with "
+      "what the counter showed then; if another part takes its place, report \"replaced\"",
+      unit, tracker.noun(), unit);
+}
+
+}  // namespace
 
 UnitEvents::UnitEvents(std::vector<UnitEvent> events, const prognosis::WatchedColumns& columns,
                        bool rising)
@@ -80,6 +116,8 @@ void UnitEvents::find_parts(const std::vector<const UnitEvent*>& valid) {
     part.number = parts_.back().number + 1;
     part.from_key = key;
     part.from_use = event->use;
+    part.name = event->part;
+    part.event = event->number;
     parts_.push_back(part);
   }
   for (const UnitEvent* each : valid) {
@@ -157,8 +195,27 @@ std::string part_name(const std::string& unit, std::int64_t part) {
   return part == 1 ? unit : fmt::format("{} (part {})", unit, part);
 }
 
+std::string unit_of_part(const std::string& name) {
+  const std::size_t at = name.rfind(" (part ");
+  return at == name.npos || at == 0 || !name.ends_with(')') ? name : name.substr(0, at);
+}
+
+std::string begun_name(const std::string& unit, const UnitEvents& events,
+                       const prognosis::Tracker& tracker) {
+  const UnitPart& part = events.part();
+  if (!part.name.empty()) return part.name;
+  std::string name = part_name(unit, part.number);
+  // A part that no event calls one of the study is new, whatever the study has under its name.
+  while (part.number > 1 && is_of_study(tracker, name)) name += "'";
+  return name;
+}
+
 PartNames::PartNames(Store& store, const EventsOfUnits& events) {
   for (const auto& [unit, list] : events) {
+    for (const UnitPart& each : list->parts()) {
+      if (!each.name.empty()) given_[{unit, each.number}] = each.name;
+      if (each.event > 0) events_[{unit, each.number}] = each.event;
+    }
     if (!list->begins_installed()) continue;
     bool earlier = false;
     store.of_unit(unit, 0, std::numeric_limits<std::int64_t>::max(),
@@ -170,7 +227,35 @@ PartNames::PartNames(Store& store, const EventsOfUnits& events) {
 }
 
 std::string PartNames::name(const std::string& unit, std::int64_t part) const {
+  if (const auto given = given_.find({unit, part}); given != given_.end()) return given->second;
   return part_name(unit, part - (installed_.contains(unit) ? 1 : 0));
+}
+
+std::string PartNames::described(const Part& part) const {
+  const auto event = events_.find(part);
+  return event == events_.end() ? fmt::format("unit '{}'", printable(part.first))
+                                : fmt::format("the part of unit '{}' that event {} began",
+                                              printable(part.first), event->second);
+}
+
+const std::string& PartNames::exported(const std::string& unit, std::int64_t part) {
+  const auto [at, is_new] = exported_.try_emplace({unit, part});
+  if (!is_new) return at->second;
+  at->second = name(unit, part);
+  const auto [owner, is_first] = owners_.try_emplace(at->second, at->first);
+  if (!is_first)
+    throw InputError(fmt::format(
+        "two parts have the name '{}': {} and {}; cancel such an event and report it again with "
+        "another name in part_name",
+        printable(at->second), described(owner->second), described(at->first)));
+  return at->second;
+}
+
+std::set<std::string> PartNames::units_with(const std::string& name) const {
+  std::set<std::string> units;
+  for (const auto& [part, given] : given_)
+    if (given == name) units.insert(part.first);
+  return units;
 }
 
 std::string end_problem(const UnitPart& part, double farthest,
@@ -194,15 +279,12 @@ std::string event_problem(const UnitEvent& event, const prognosis::Tracker& trac
     return fmt::format("{}: {} is missing: what the counter shows{}", what, tracker.axis().name,
                        begins ? " as the new part is installed (0 if it is set back)" : "");
   if (event.use < 0) return fmt::format("{}: {} is negative", what, tracker.axis().name);
-  const std::string refusal = begins ? tracker.refusal(part_name(event.unit, 2)) : "";
+  const std::string part = event.part.empty() ? part_name(event.unit, 2) : event.part;
+  const std::string refusal = begins ? tracker.refusal(part) : "";
   if (!refusal.empty()) return fmt::format("{}: {}", what, refusal);
-  const auto study = tracker.seen();
-  if (event.kind == EventKind::installed &&
-      std::find(study.begin(), study.end(), event.unit) != study.end())
-    return fmt::format(
-        "installed: '{}' is a {} of the study; if another part takes its place, report "
-        "\"replaced\"; if it is the part of the study, it goes on without an event",
-        printable(event.unit), tracker.noun());
+  if (const std::string why = begins && event.part.empty() ? unclear_part(event, tracker) : "";
+      !why.empty())
+    return fmt::format("{}: {}", what, why);
   if (event.kind != EventKind::sensor && event.kind != EventKind::repaired) return {};
   if (event.kind == EventKind::repaired && !tracker.can_be_restored())
     return fmt::format(

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wearwell/monitor/store.h"
@@ -19,7 +20,9 @@ namespace wearwell::monitor {
 struct UnitPart {
   std::int64_t number = 1;  ///< 1: before the first installation
   std::int64_t from_key = std::numeric_limits<std::int64_t>::min();
-  double from_use = 0;  ///< SI: what the counter showed when it was installed
+  double from_use = 0;     ///< SI: what the counter showed when it was installed
+  std::string name = {};   ///< UnitEvent::part of that event
+  std::int64_t event = 0;  ///< its number
   Service service = Service::in_service;
   std::int64_t to_key = std::numeric_limits<std::int64_t>::max();  ///< its end, if out of service
   double to_use = std::numeric_limits<double>::quiet_NaN();        ///< SI, on the same counter
@@ -102,19 +105,38 @@ EventsOfUnits events_of_units(Store& store, const prognosis::Tracker& tracker);
 /// Those of one unit; without events if it has none.
 std::shared_ptr<const UnitEvents> events_of(const EventsOfUnits& all, const std::string& unit);
 
-/// "M7 (part 2)"; of part 1 the unit's own name. A part is begun under the name of its own number: the
-/// first may be one of the study, others are not. It is exported under that of its shown number.
+/// "M7 (part 2)"; of part 1 the unit's own name.
 std::string part_name(const std::string& unit, std::int64_t part);
+/// "M7 (part 2)" -> "M7", as `part_name` makes it; a name without a part is its own.
+std::string unit_of_part(const std::string& name);
 
-/// The names under which the parts of a store are exported.
+/// The name under which a tracker begins the present part of a unit: the one that its event gives,
+/// which may be one of the study; else the unit's own, or that of its number, never one of the study.
+std::string begun_name(const std::string& unit, const UnitEvents& events,
+                       const prognosis::Tracker& tracker);
+
+/// The names under which the parts of a store are exported: those that their events give, else those
+/// of their shown numbers.
 class PartNames {
  public:
   /// Reads the store. Throws StoreError.
   PartNames(Store& store, const EventsOfUnits& events);
   std::string name(const std::string& unit, std::int64_t part) const;
+  /// The same in an export, in which each part has its own. Throws InputError for a second part of
+  /// one name: of the unit "M7 (part 2)" and of part 2 of "M7".
+  const std::string& exported(const std::string& unit, std::int64_t part);
+  /// The units that have a part to which an event gave this name.
+  std::set<std::string> units_with(const std::string& name) const;
 
  private:
+  using Part = std::pair<std::string, std::int64_t>;
+  std::string described(const Part& part) const;
+
   std::set<std::string> installed_ = {};  // units whose first part is one that was installed
+  std::map<Part, std::string> given_ = {};
+  std::map<Part, std::int64_t> events_ = {};  // that began them
+  std::map<Part, std::string> exported_ = {};
+  std::map<std::string, Part> owners_ = {};  // of exported names
 };
 
 /// Why a part cannot have ended where an event says: a reading is farther, at this use, SI, since the

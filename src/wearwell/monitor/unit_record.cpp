@@ -152,10 +152,9 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
   record.last_key = first ? reading.key : std::max(record.last_key, reading.key);
   ++record.readings;
   const prognosis::History history = counted_history(record, reading.place - 1, store);
-  const std::string part = part_name(record.unit, record.events->part().number);
   const double added = units.tracker().rising() ? seen.restored : -seen.restored;
   const prognosis::UpdateResult taken =
-      record.watch.update({units.tracker(), units.watched(), part, *record.state,
+      record.watch.update({units.tracker(), units.watched(), record.part, *record.state,
                            record.events->restored(), added, seen.offset},
                           {reading.numbers, reading.labels}, late, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
@@ -193,7 +192,8 @@ UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& track
                         std::shared_ptr<const UnitEvents> events) {
   UnitRecord record;
   record.unit = unit;
-  record.state = tracker.begin(part_name(unit, events->part().number));
+  record.part = begun_name(unit, *events, tracker);
+  record.state = tracker.begin(record.part);
   record.state->set_restored(events->restored());
   record.events = std::move(events);
   return record;
@@ -242,6 +242,7 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
     record.place = checkpoint.place;
     record.state = tracker.restore(std::string(state.begin(), state.end()));
     record.state->set_restored(events->restored());
+    record.part = begun_name(record.unit, *events, tracker);
     record.events = std::move(events);
     json.at("readings").get_to(record.readings);
     json.at("late").get_to(record.late);

@@ -21,6 +21,7 @@ struct UnitRecord {
   std::string unit;
   /// The readings of its present part alone count.
   std::shared_ptr<const UnitEvents> events = {};
+  std::string part = {};  ///< `begun_name` of its present part
   std::unique_ptr<prognosis::TrackedUnit> state;
   std::int64_t place = 0;  ///< of its last processed reading
   std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
