@@ -20,7 +20,7 @@ for (const file of summaries) {
   if (!validate(result)) faults.push(`${file}: ${validate.errors.map((e) => `${e.instancePath} ${e.message} ${JSON.stringify(e.params)}`).join('; ')}`);
   const first = Object.keys(result).slice(0, header.length);
   if (first.join() !== header.join()) faults.push(`${file} begins with ${first}`);
-  for (const key of [...header, ...(result.model === 'selection' ? ['models', 'candidates'] : result.model === 'life-fleet' ? ['fleet', 'failures'] : ['parameters', 'loo'])]) {
+  for (const key of [...header, ...(result.model === 'selection' ? ['models', 'candidates'] : ['life-fleet', 'readings-fleet'].includes(result.model) ? ['fleet', 'failures'] : ['parameters', 'loo'])]) {
     for (const change of [(r) => delete r[key], (r) => { r[key] = {unknown: []}; }, (r) => { r[`${key}_`] = r[key]; }]) {
       if (key === 'loo' && change(structuredClone(result)) === true && result.model !== 'clutch-wear') continue;  // may be absent
       const changed = structuredClone(result);

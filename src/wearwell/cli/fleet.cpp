@@ -82,10 +82,10 @@ void add_inputs(CLI::App* command, const std::shared_ptr<FleetOptions>& options)
           "Folder that wearwell fit wrote: a clutch (or its model.json), lives, or wear to a "
           "failure threshold")
       ->required();
-  command->add_option(
-      "FILES", options->files,
-      "Units in service, one row each with its age; of a clutch its cycles, as for wearwell clutch "
-      "predict: Parquet or CSV files, or a quoted pattern");
+  command->add_option("FILES", options->files,
+                      "Units in service, one row each with its age, or one for each reading of "
+                      "wear or degradation; of a clutch its cycles, as for wearwell clutch "
+                      "predict: Parquet or CSV files, or a quoted pattern");
   command
       ->add_option(
           "--engine", options->engines,
@@ -105,8 +105,9 @@ void add_inputs(CLI::App* command, const std::shared_ptr<FleetOptions>& options)
   command
       ->add_option(
           "--columns", options->columns,
-          "Columns of unit, age, in_study, life and the study's conditions: NAME=COLUMN or "
-          "NAME=COLUMN:UNIT. Of a clutch those of unit, cycle, slip_speed, torque, "
+          "Columns of unit, age, in_study, life and the study's conditions, or of unit and the "
+          "study's columns: NAME=COLUMN or NAME=COLUMN:UNIT. Of a clutch those of unit, cycle, "
+          "slip_speed, torque, "
           "temperature, closing_time, energy; and time (dates or times) or "
           "cycles_per_day for results in days")
       ->type_name("NAME=COLUMN:UNIT");

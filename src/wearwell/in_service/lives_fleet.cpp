@@ -10,7 +10,9 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/in_service/conditions.h"
+#include "wearwell/in_service/horizons.h"
 #include "wearwell/in_service/lives_fleet_report.h"
+#include "wearwell/in_service/readings_fleet.h"
 #include "wearwell/in_service/unit_rows.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/prognosis/named_life.h"
@@ -106,38 +108,18 @@ void refuse_too_old(const UnitRows& rows, const std::vector<prognosis::Populatio
   }
 }
 
-// A tenth, a quarter and a half of the median life, in round numbers of the axis.
-std::vector<double> usual_horizons(const prognosis::PopulationLives& lives, const Unit& axis) {
-  const double median = lives.quantile(0.5);
-  if (!std::isfinite(median) || !(median > 0))
-    throw InputError("--horizon: is needed, since half of the units never fail");
-  std::vector<double> horizons;
-  for (const double share : {0.1, 0.25, 0.5}) {
-    const double x = share * median / axis.scale, digit = std::pow(10, std::floor(std::log10(x)));
-    horizons.push_back(std::round(x / digit) * digit * axis.scale);
-  }
-  return horizons;
-}
-
-std::vector<double> horizons_of(const LivesRequest& request, const Unit& axis) {
-  std::vector<double> horizons;
-  for (const std::string& each : request.horizons)
-    horizons.push_back(prognosis::quantity_like("--horizon", each, axis, Allowed::positive));
-  std::sort(horizons.begin(), horizons.end());
-  horizons.erase(std::unique(horizons.begin(), horizons.end()), horizons.end());
-  return horizons;
-}
-
 }  // namespace
 
 Result fleet_of_lives(const prognosis::CarriedState& state, const std::string& result,
                       Models models, const std::vector<fleet::Engine*>& engines,
                       const LivesRequest& request, const Monitor& monitor) {
+  if (const auto tracker = tracker_of_readings(state, models, engines, request.columns))
+    return fleet_of_readings(state, tracker, models, engines, request, monitor);
   const std::unique_ptr<const Study> read = read_study(state.source, models);
   const PosteriorStudy& study = require_posterior_study(*read);
   LivesFindings found;
   found.axis = lives_named(study, result).front().request->unit;
-  found.horizons = horizons_of(request, found.axis);
+  found.horizons = read_horizons(request.horizons, found.axis);
   const std::vector<Condition> conditions = conditions_of(state.source, study);
   for (fleet::Engine* engine : engines) {
     const UnitColumns columns = read_unit_columns(request.columns, engine->columns(), conditions,

@@ -22,8 +22,8 @@ struct LivesRequest {
 };
 
 /// The failures to come of units in service, by a fitted life distribution, or by the life to the
-/// failure threshold of a degradation model: each unit has survived to its age. `result` is the
-/// name of the fit. Throws InputError that names table, column, unit and value; Cancelled.
+/// failure threshold of a degradation model: each unit has survived to its age. Of a table of readings
+/// `fleet_of_readings`. `result` is the name of the fit. Throws InputError that names table, column, unit and value; Cancelled.
 Result fleet_of_lives(const prognosis::CarriedState& state, const std::string& result,
                       Models models, const std::vector<fleet::Engine*>& engines,
                       const LivesRequest& request, const Monitor& monitor);

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/in_service/fleet_tables.h"
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/study/trust_blocks.h"
 
-// Longer than others: the tables of one report in their order.
 namespace wearwell::in_service {
 namespace {
 
@@ -27,7 +26,6 @@ using prognosis::PopulationWeights;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t worst_shown = 100;
-constexpr double much_left_out = 0.05;
 
 // Units by the B10 of remaining life, ties by the median and by name.
 std::vector<std::size_t> worst_first(const LivesFindings& found) {
@@ -42,35 +40,17 @@ std::vector<std::size_t> worst_first(const LivesFindings& found) {
   return order;
 }
 
-double shown(const LivesFindings& found, double si) {
-  return from_si(found.axis, si);
-}
-
-std::string horizon_text(const LivesFindings& found, double si) {
-  const bool factor = std::isdigit(static_cast<unsigned char>(found.axis.text.front())) != 0;
-  return fmt::format("{:.6g} {}{}", shown(found, si), factor ? "x " : "", found.axis.text);
-}
-
 bool has_conditions(const LivesFindings& found) {
   return std::any_of(found.rows.sets.begin(), found.rows.sets.end(),
                      [](const ConditionSet& each) { return !each.description.empty(); });
 }
 
-Table failures_table(const LivesFindings& found) {
-  Table table{
-      "failures",
-      fmt::format("Failures among {} units in service, from now on", found.rows.names.size()),
-      {{"Horizon", found.axis.text, given},
-       {"Failures expected", "1", digits(4)},
-       {"5 to 95 %", "1", fixed(0), true},
-       {"Share of fleet", "%", digits(3)}}};
-  const double all = static_cast<double>(found.rows.names.size());
-  for (std::size_t h = 0; h < found.horizons.size(); ++h) {
-    const prognosis::FleetFailures& n = found.outlook.failures[h];
-    table.rows.push_back({shown(found, found.horizons[h]), n.expected, Range{n.low, n.high},
-                          100 * n.expected / all});
-  }
-  return table;
+double shown(const LivesFindings& found, double si) {
+  return from_si(found.axis, si);
+}
+
+std::string horizon_text(const LivesFindings& found, double si) {
+  return in_service::horizon_text(found.axis, si);
 }
 
 Table worst_table(const LivesFindings& found, const std::vector<std::size_t>& order) {
@@ -133,29 +113,6 @@ Table sets_table(const LivesFindings& found) {
     table.rows.push_back({set.description, present::count(set.units), outside});
   }
   return table;
-}
-
-std::vector<Table> left_out_tables(const UnitRows& rows, const Unit& axis) {
-  if (rows.left_out == 0) return {};
-  Table reasons{"left-out-reasons",
-                "Rows left out, by the first reason",
-                {{"Reason"}, {"Rows", "1", fixed(0)}, {"Share", "%", digits(3)}}};
-  for (const auto& [reason, count] : rows.reasons)
-    reasons.rows.push_back({reason, count, 100 * count / rows.rows});
-  Table list{"left-out",
-             rows.left_out > static_cast<double>(rows.first_left_out.size())
-                 ? fmt::format("The first {} rows left out", rows.first_left_out.size())
-                 : std::string("Rows left out"),
-             {{"Unit"}, {"Reason"}, {"Age", axis.text, given}}};
-  for (const LeftOutRow& each : rows.first_left_out) {
-    list.rows.push_back({each.unit, each.reason});
-    if (std::isfinite(each.age)) {
-      list.rows.back().push_back(from_si(axis, each.age));
-    } else {
-      list.rows.back().push_back(std::monostate{});
-    }
-  }
-  return {std::move(reasons), std::move(list)};
 }
 
 Check population_check(const LivesFindings& found) {
@@ -225,31 +182,11 @@ Check extrapolation_check_of(const LivesFindings& found) {
 
 std::vector<Check> checks_of(const LivesFindings& found, bool skip_bad) {
   std::vector<Check> checks;
-  checks.push_back({"fit", found.trusted_fit ? Verdict::pass : Verdict::fail,
-                    found.trusted_fit ? "the fit is trusted"
-                                      : "the fit is not trusted, nor is what follows from it",
-                    found.trusted_fit ? "" : "See the checks of the fit: wearwell report."});
+  checks.push_back(fit_check(found.trusted_fit));
   checks.push_back(population_check(found));
   checks.push_back(extrapolation_check_of(found));
-  if (!skip_bad) return checks;
-  const double share = found.rows.left_out / found.rows.rows;
-  checks.push_back(
-      {"left-out",
-       share > much_left_out ? Verdict::fail
-       : share > 0           ? Verdict::warn
-                             : Verdict::pass,
-       fmt::format(
-           "{:.0f} of {:.0f} rows were left out (--skip-bad); their failures are not counted",
-           found.rows.left_out, found.rows.rows),
-       share > 0 ? "Correct the rows of the table left-out." : ""});
+  if (skip_bad) checks.push_back(left_out_check(found.rows));
   return checks;
-}
-
-Json left_out_json(const UnitRows& rows) {
-  Json reasons = Json::array();
-  for (const auto& [reason, count] : rows.reasons)
-    reasons.push_back({{"reason", reason}, {"rows", count}});
-  return {{"rows", rows.left_out}, {"reasons", std::move(reasons)}};
 }
 
 Json body_of(const LivesFindings& found, const std::vector<std::size_t>& order, bool skip_bad) {
@@ -267,14 +204,9 @@ Json body_of(const LivesFindings& found, const std::vector<std::size_t>& order, 
                   {{"count", found.points},
                    {"effective", out.population.effective},
                    {"resolved", out.population.resolved}}}}},
-               {"failures", Json::array()},
+               {"failures", failures_json(found.axis, found.horizons, out.failures)},
                {"worst", Json::array()}};
   if (!found.layout.empty()) body["fleet"]["layout"] = found.layout;
-  for (std::size_t h = 0; h < found.horizons.size(); ++h)
-    body["failures"].push_back({{"horizon", shown(found, found.horizons[h])},
-                                {"expected", out.failures[h].expected},
-                                {"low", out.failures[h].low},
-                                {"high", out.failures[h].high}});
   for (std::size_t i = 0; i < std::min(worst_shown, order.size()); ++i) {
     const std::size_t u = order[i];
     Json failing = Json::array();
@@ -312,16 +244,6 @@ std::string units_file(const LivesFindings& found, const std::vector<std::size_t
   return parquet_of(words, columns);
 }
 
-Prose lead_of(const LivesFindings& found) {
-  const prognosis::FleetFailures& n = found.outlook.failures.front();
-  return {
-      fmt::format("Of {} units in service, {:.4g} ({:.0f} to {:.0f}, 90 %) are expected to fail "
-                  "within {}.",
-                  html::given(static_cast<double>(found.rows.names.size())), n.expected, n.low,
-                  n.high, horizon_text(found, found.horizons.front())),
-      true};
-}
-
 }  // namespace
 
 Result lives_fleet_result(const LivesFindings& found, bool skip_bad) {
@@ -339,15 +261,15 @@ Result lives_fleet_result(const LivesFindings& found, bool skip_bad) {
   result.body = body_of(found, order, skip_bad);
   result.files.emplace_back("units.parquet", units_file(found, order));
   Section failures{"failures", "Failures"};
-  failures.add(lead_of(found));
-  failures.add(failures_table(found));
+  failures.add(failures_lead(found.axis, found.horizons, found.outlook.failures, order.size()));
+  failures.add(failures_table(found.axis, found.horizons, found.outlook.failures, order.size()));
   failures.add(Prose{"Each unit counts once: parts that fail again are not counted."});
   Section worst{"worst", "Worst units"};
   worst.add(worst_table(found, order));
   Section fleet{"fleet", "Fleet"};
   fleet.add(spread_table(found));
   if (has_conditions(found)) fleet.add(sets_table(found));
-  for (Table& each : left_out_tables(found.rows, found.axis)) fleet.add(std::move(each));
+  for (Table& each : left_out_tables(found.rows, found.axis, "Age")) fleet.add(std::move(each));
   Section how{"how", "How"};
   present::Facts facts{{{"engine", found.engine},
                         {"rows read", fmt::format("{:.0f}", found.rows.rows)},

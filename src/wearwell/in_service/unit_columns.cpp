@@ -1,14 +1,13 @@
 #include "wearwell/in_service/unit_columns.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/in_service/table_headings.h"
 #include "wearwell/input/heading.h"
-#include "wearwell/input/labelled.h"
 
 namespace wearwell::in_service {
 namespace {
@@ -17,31 +16,6 @@ const std::vector<std::string> roles = {"unit", "age", "in_study", "life"};
 
 bool has(const std::vector<std::string>& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();
-}
-
-// Whether a heading has this name, with or without a unit.
-bool names_it(const std::vector<std::string>& headings, const Condition& condition) {
-  return std::any_of(headings.begin(), headings.end(), [&](const std::string& each) {
-    return each == condition.name ||
-           (!condition.si.empty() && read_heading(each, condition.si).name == condition.name);
-  });
-}
-
-fleet::UnitColumn looked_up(const std::vector<std::string>& headings, const std::string& name,
-                            const std::string& si, const std::string& source) {
-  const ColumnChoice found = find_labelled(headings, name, si, source, "--columns");
-  return {found.column, found.unit};
-}
-
-[[noreturn]] void fail_without(const char* name, const std::string& hint,
-                               const std::vector<std::string>& headings,
-                               const std::string& source) {
-  std::vector<std::string> shown;
-  constexpr std::size_t most_shown = 30;
-  for (std::size_t i = 0; i < std::min(headings.size(), most_shown); ++i)
-    shown.push_back("'" + printable(shortened(headings[i])) + "'");
-  throw InputError(fmt::format("{} has no column '{}'; it has {}. State the column: --columns {}",
-                               source, name, fmt::join(shown, ", "), hint));
 }
 
 }  // namespace
@@ -72,15 +46,16 @@ UnitColumns read_unit_columns(const std::vector<std::string>& options,
     return at->second;
   };
   columns.unit = text_of("unit");
-  if (columns.unit.empty()) fail_without("unit", "unit=COLUMN", headings, source);
+  if (columns.unit.empty()) fail_without_column("unit", "unit=COLUMN", headings, source);
   columns.in_study = text_of("in_study");
   columns.life = text_of("life");
   const std::string age_hint = fmt::format("'age=COLUMN:{}'", axis.text);
   if (const auto at = given.find("age"); at != given.end()) {
     columns.age = fleet::column_with_unit("age", at->second, axis.text);
   } else {
-    if (!names_it(headings, {"age", axis.text})) fail_without("age", age_hint, headings, source);
-    columns.age = looked_up(headings, "age", axis.text, source);
+    if (!has_column(headings, "age", axis.text))
+      fail_without_column("age", age_hint, headings, source);
+    columns.age = column_by_heading(headings, "age", axis.text, source);
     // Counts may stand without a unit; here they could be of lives or of single cycles.
     if (read_heading(columns.age.column, axis.text).unit.empty())
       throw InputError(fmt::format("{}: the column '{}' has no unit: write --columns {}", source,
@@ -90,12 +65,14 @@ UnitColumns read_unit_columns(const std::vector<std::string>& options,
   for (const Condition& each : conditions) {
     if (has(roles, each.name)) continue;  // unit, age: taken
     const auto at = given.find(each.name);
-    if (at == given.end() && (each.name == columns.unit || !names_it(headings, each))) continue;
+    if (at == given.end() &&
+        (each.name == columns.unit || !has_column(headings, each.name, each.si)))
+      continue;
     fleet::UnitColumn column;
     if (each.si.empty()) {
       column.column = at == given.end() ? each.name : at->second;
     } else {
-      column = at == given.end() ? looked_up(headings, each.name, each.si, source)
+      column = at == given.end() ? column_by_heading(headings, each.name, each.si, source)
                                  : fleet::column_with_unit(each.name, at->second, each.si);
     }
     fleet::require_column(known, column.column, source, !each.si.empty());

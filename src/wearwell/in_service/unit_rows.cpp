@@ -101,10 +101,7 @@ class UnitReader {
           "conditions; --skip-bad leaves such rows out and reports them",
           source_, unit, problem,
           std::isfinite(age) ? fmt::format(" (age {:.6g} {})", age, columns_.age.unit.text) : ""));
-    ++rows_.left_out;
-    ++rows_.reasons[problem];
-    if (rows_.first_left_out.size() < most_left_out_listed)
-      rows_.first_left_out.push_back({unit, problem, to_si(columns_.age.unit, age)});
+    rows_.leave_out({unit, problem, to_si(columns_.age.unit, age)});
   }
 
   static std::string key_of(const ConditionSet& set) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wearwell/fleet/engine.h"
+#include "wearwell/in_service/rows_read.h"
 #include "wearwell/in_service/unit_columns.h"
 #include "wearwell/prognosis/fleet_outlook.h"
 
@@ -21,28 +22,15 @@ struct ConditionSet {
   std::size_t units = 0;
 };
 
-/// A row that was left out, the first reason for it, and its age.
-struct LeftOutRow {
-  std::string unit, reason;
-  double age = 0;
-};
-
 /// Units in service as read; `units.group` are places in `sets`.
-struct UnitRows {
+struct UnitRows : RowsRead {
   std::vector<std::string> names;
   prognosis::UnitsInService units;
   std::vector<ConditionSet> sets;
-  double rows = 0;
-  double left_out = 0;
-  std::map<std::string, double> reasons;  ///< of rows left out
-  std::vector<LeftOutRow> first_left_out;
 };
 
 /// More sets are refused: lives are computed for each.
 inline constexpr std::size_t most_condition_sets = 1000;
-/// Rows left out that are listed.
-inline constexpr std::size_t most_left_out_listed = 1000;
-
 struct ReadUnits {
   bool skip_bad = false;      ///< leave out rows without a unit or with an impossible value
   bool all_in_study = false;  ///< UnitsInService::in_study, of all

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -11,15 +10,11 @@
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/root.h"
-#include "wearwell/predict/count_quantile.h"
-#include "wearwell/prognosis/fleet_risk.h"
 
 namespace wearwell::prognosis {
 namespace {
 
 constexpr std::size_t most_ages = 1000;
-// Up to so many units the distribution of the number of failures is summed exactly.
-constexpr std::size_t most_convolved = 400;
 // Survival of a distribution by points beyond the last of them is a rounding error.
 constexpr double none_survive = 1e-9;
 
@@ -101,30 +96,6 @@ AtAge at_age(const PopulationLives& lives, double age, bool in_study,
   return found;
 }
 
-// Sums over units by population, for each horizon.
-struct Totals {
-  std::vector<std::vector<double>> mean, variance;
-  std::vector<double> log_likelihood;
-  // By population and horizon, by unit; only of small fleets.
-  std::vector<std::vector<std::vector<double>>> each = {};
-
-  Totals(std::size_t horizons, std::size_t populations)
-      : mean(horizons, std::vector<double>(populations, 0)),
-        variance(mean),
-        log_likelihood(populations, 0) {}
-
-  void add(const AtAge& at, double units) {
-    for (std::size_t k = 0; k < log_likelihood.size(); ++k) {
-      log_likelihood[k] += units * at.log_survival[k];
-      for (std::size_t h = 0; h < mean.size(); ++h) {
-        const double p = at.apart[h][k];
-        mean[h][k] += units * p;
-        variance[h][k] += units * p * (1 - p);
-      }
-    }
-  }
-};
-
 // Units that share lives, and whether the study has them.
 struct Part {
   std::uint32_t group = 0;
@@ -150,7 +121,8 @@ double between(double low, double high, double share) {
 }
 
 void add_part(const PopulationLives& lives, const UnitsInService& units, const Part& part,
-              std::span<const double> horizons, FleetOutlook& outlook, Totals& totals) {
+              std::span<const double> horizons, FleetOutlook& outlook, FailureTotals& totals,
+              std::vector<double>& log_likelihood) {
   std::vector<double> own;
   for (const std::size_t u : part.units) own.push_back(units.age[u]);
   const std::vector<double> ages = chosen_ages(std::move(own));
@@ -172,35 +144,14 @@ void add_part(const PopulationLives& lives, const UnitsInService& units, const P
     outlook.median[u] = between(at[i].median, at[j].median, share);
     count[i] += 1 - share;
     if (i != j) count[j] += share;
-    if (units.count() > most_convolved) continue;
-    for (std::size_t h = 0; h < horizons.size(); ++h) totals.each[h].push_back(at[i].apart[h]);
+    totals.keep(at[i].apart);
   }
-  for (std::size_t i = 0; i < ages.size(); ++i)
-    if (count[i] > 0) totals.add(at[i], count[i]);
-}
-
-// Exactly for a small fleet; else by the binomial distributions of the same means and variances.
-FleetFailures failures_of(const Totals& totals, std::size_t h, std::span<const double> weight,
-                          bool small) {
-  FleetFailures found;
-  for (std::size_t k = 0; k < weight.size(); ++k) found.expected += weight[k] * totals.mean[h][k];
-  if (small) {
-    std::vector<std::vector<double>> by_population(weight.size());
-    for (const std::vector<double>& unit : totals.each[h])
-      for (std::size_t k = 0; k < weight.size(); ++k) by_population[k].push_back(unit[k]);
-    const Count count = how_many(by_population, weight);
-    found.low = static_cast<double>(enough_for(count, 0.05));
-    found.high = static_cast<double>(enough_for(count, 0.95));
-    return found;
+  for (std::size_t i = 0; i < ages.size(); ++i) {
+    if (!(count[i] > 0)) continue;
+    totals.add(at[i].apart, count[i]);
+    for (std::size_t k = 0; k < log_likelihood.size(); ++k)
+      log_likelihood[k] += count[i] * at[i].log_survival[k];
   }
-  std::vector<CountAtPoint> points;
-  for (std::size_t k = 0; k < weight.size(); ++k)
-    points.push_back({totals.mean[h][k], totals.variance[h][k], weight[k]});
-  constexpr std::array<double, 2> ends = {0.05, 0.95};
-  const std::vector<double> bounds = count_quantiles(points, ends);
-  found.low = bounds[0];
-  found.high = bounds[1];
-  return found;
 }
 
 }  // namespace
@@ -219,15 +170,15 @@ FleetOutlook fleet_outlook(std::span<const PopulationLives> groups, const UnitsI
   outlook.b10.resize(units.count());
   outlook.median.resize(units.count());
   const std::vector<double>& prior = groups.front().weight;
-  Totals totals(horizons.size(), prior.size());
-  totals.each.resize(horizons.size());
+  FailureTotals totals(horizons.size(), prior.size());
+  std::vector<double> log_likelihood(prior.size(), 0);
   for (const Part& part : parts_of(units))
-    add_part(groups[part.group], units, part, horizons, outlook, totals);
-  outlook.population = weights_given(prior, totals.log_likelihood);
+    add_part(groups[part.group], units, part, horizons, outlook, totals, log_likelihood);
+  outlook.population = weights_given(prior, log_likelihood);
   const std::vector<double>& weight =
       outlook.population.resolved ? outlook.population.weight : prior;
   for (std::size_t h = 0; h < horizons.size(); ++h)
-    outlook.failures.push_back(failures_of(totals, h, weight, units.count() <= most_convolved));
+    outlook.failures.push_back(totals.failures(h, weight));
   return outlook;
 }
 

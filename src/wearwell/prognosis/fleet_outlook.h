@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "wearwell/prognosis/failure_totals.h"
 #include "wearwell/prognosis/population_weights.h"
 #include "wearwell/prognosis/replacement.h"
 
@@ -17,12 +18,6 @@ struct UnitsInService {
   std::vector<char> in_study;
 
   std::size_t count() const { return age.size(); }
-};
-
-/// The number of units that fail within a horizon; each counts once.
-struct FleetFailures {
-  double expected = 0;
-  double low = 0, high = 0;  ///< 5 and 95 %, whole numbers
 };
 
 /// What is expected of units in service. Each unit's numbers are averaged over the populations,

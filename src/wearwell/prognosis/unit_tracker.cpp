@@ -66,7 +66,10 @@ UnitTracker::UnitTracker(std::shared_ptr<const Tracker> tracker, std::string uni
 }
 
 std::vector<RowOutcome> UnitTracker::update(const Table& rows) {
-  std::vector<Reading> readings = readings_of_unit(*tracker_, unit_, rows);
+  return update(readings_of_unit(*tracker_, unit_, rows));
+}
+
+std::vector<RowOutcome> UnitTracker::update(std::vector<Reading> readings) {
   const Before before = present();
   try {
     return taken(readings);
@@ -121,6 +124,12 @@ std::vector<RowOutcome> UnitTracker::taken(std::vector<Reading>& readings) {
     outcomes.push_back(std::move(outcome));
   }
   return outcomes;
+}
+
+std::optional<InPopulations> UnitTracker::in_populations() const {
+  return state_->in_populations([&](const auto& visit) {
+    for (const Reading& each : history_) visit(each);
+  });
 }
 
 Json UnitTracker::json() const {

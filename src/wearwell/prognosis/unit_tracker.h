@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,11 +34,16 @@ class UnitTracker {
   /// of units may only name this unit. All rows or none, whatever is thrown: InputError that names the first row that is
   /// invalid for every unit, or Cancelled (base/stop_scope.h).
   std::vector<RowOutcome> update(const Table& rows);
+  /// The same of readings that are valid (Tracker::problem).
+  std::vector<RowOutcome> update(std::vector<Reading> readings);
 
   const std::string& unit() const { return unit_; }
   bool is_new() const { return fresh_; }
   const Tracker& tracker() const { return *tracker_; }
   Forecast forecast() const { return state_->forecast(); }
+  /// As TrackedUnit::in_populations, with its readings.
+  std::optional<InPopulations> in_populations() const;
+  const ChangeWatch& watch() const { return watch_; }
   /// The forecast in the units of the study, with the names of the monitor's /api/v1/units. Numbers
   /// that are not finite are null.
   nlohmann::ordered_json json() const;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wearwell/in_service/lives_fleet.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::in_service {
+
+/// The tracker of a formula study, if the tables of these engines hold readings of its units
+/// (reading_columns.h); else null. Throws InputError if some do and some do not.
+std::shared_ptr<const prognosis::Tracker> tracker_of_readings(
+    const prognosis::CarriedState& state, Models models, const std::vector<fleet::Engine*>& engines,
+    const std::vector<std::string>& columns);
+
+/// The failures to come of units in service by their readings: each unit is followed from the
+/// study's posterior as in the monitor, in one pass over the tables. Throws InputError that names
+/// table, column, unit and value; Cancelled.
+Result fleet_of_readings(const prognosis::CarriedState& state,
+                         std::shared_ptr<const prognosis::Tracker> tracker, Models models,
+                         const std::vector<fleet::Engine*>& engines, const LivesRequest& request,
+                         const Monitor& monitor);
+
+}  // namespace wearwell::in_service
