@@ -55,6 +55,22 @@ UnitsInService of_ages(std::vector<double> ages, bool in_study) {
   return units;
 }
 
+// A population in which no unit reaches this age has no weight, whether the study has the unit or not.
+TEST(FleetOutlook, AUnitIsOfNoPopulationThatItHasOutlived) {
+  const Population two{{0.1, 3}, {0.5, 0.5}};
+  const Population last{{3}, {1}};
+  const std::vector<PopulationLives> both = {two.lives()}, one = {last.lives()};
+  const std::vector<double> horizons = {0.4};
+  for (const bool in_study : {false, true}) {
+    const FleetOutlook found = fleet_outlook(both, of_ages({1.2}, in_study), horizons);
+    const FleetOutlook wanted = fleet_outlook(one, of_ages({1.2}, in_study), horizons);
+    EXPECT_NEAR(found.failing[0][0], wanted.failing[0][0], 1e-12);
+    EXPECT_NEAR(found.b10[0], wanted.b10[0], 1e-9);
+    EXPECT_EQ(found.population.weight[0], 0);
+    EXPECT_NEAR(found.failures[0].expected, wanted.failures[0].expected, 1e-12);
+  }
+}
+
 TEST(FleetOutlook, HasTheClosedFormOfEachUnit) {
   const Population two{{1, 3}, {0.5, 0.5}};
   const std::vector<PopulationLives> groups = {two.lives()};

@@ -1,6 +1,8 @@
 // Events of a unit: its state is that of a unit whose readings were right, and of the present part, from the start.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "monitor/events_rig.h"
 #include "wearwell/monitor/export_lives.h"
 #include "wearwell/monitor/export_readings.h"
@@ -471,6 +473,28 @@ TEST_F(Events, AreRefusedWithAReason) {
   const Delivery both = deliver(message("a", 2, 10, 20) + "\n" +
                                 R"({"machine": "a", "event": "withdrawn", "n": 2, "by": "x"})");
   EXPECT_EQ(both.readings + both.events, 2U);
+}
+
+// A state in the form of another version is no damage, and is rebuilt to the same bits.
+TEST_F(Events, StatesOfAnotherVersionAreRebuilt) {
+  open();
+  send_two_parts();
+  catch_up();
+  const std::string state = bits();
+  std::vector<Checkpoint> saved = store_->states("population");
+  for (Checkpoint& each : saved) {
+    nlohmann::json json = nlohmann::json::from_cbor(each.bytes);
+    json["version"] = 0;
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(json);
+    each.bytes.assign(bytes.begin(), bytes.end());
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { restored_record(each, tracker_, std::make_shared<const UnitEvents>()); }),
+                HasSubstr("'" + each.unit + "' was saved by another version"));
+  }
+  store_->save("population", saved, store_->all_up_to("population"));
+  open();
+  catch_up();
+  EXPECT_TRUE(bits() == state);
 }
 
 // Decisions and running monitors see the same units.

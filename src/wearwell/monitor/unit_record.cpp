@@ -14,6 +14,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Of the saved state of a unit. A release that reads or writes another form has another one.
+constexpr int record_version = 1;
+
 /// Without what repairs took back.
 std::optional<double> measured_level(const StoredReading& reading, double added,
                                      const TrackerUnits& units) {
@@ -207,6 +210,7 @@ std::string bytes_of(const UnitRecord& record) {
   record.watch.save(to);
   const std::string watch = to.take();
   const Json json = {
+      {"version", record_version},
       {"state", Json::binary({state.begin(), state.end()})},
       {"readings", record.readings},
       {"late", record.late},
@@ -233,6 +237,9 @@ UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracke
                            std::shared_ptr<const UnitEvents> events) {
   try {
     const Json json = Json::from_cbor(checkpoint.bytes);
+    if (!json.is_object() || json.value("version", 0) != record_version)
+      throw InputError(fmt::format(
+          "the state of unit '{}' was saved by another version of wearwell", checkpoint.unit));
     if (json.value("event", std::int64_t{0}) != events->last_of_state())
       throw InputError(fmt::format("the state of unit '{}' is from before event {}",
                                    checkpoint.unit, events->last_of_state()));

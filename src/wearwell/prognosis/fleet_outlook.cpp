@@ -72,8 +72,11 @@ AtAge at_age(const PopulationLives& lives, double age, bool in_study,
   for (std::size_t k = 0; k < populations; ++k) {
     survival[k] = 1 - lives.lives[k].cdf(age);
     if (survival[k] < none_survive) survival[k] = 0;
-    found.log_survival.push_back(in_study ? 0 : std::log(survival[k]));
-    weight[k] = lives.weight[k] * (in_study ? 1 : survival[k]);
+    // That the study has the unit's survival leaves no weight to a population in which none survives,
+    // but for the few points that represent the posterior.
+    const bool none = survival[k] == 0;
+    found.log_survival.push_back(none ? -infinity : in_study ? 0 : std::log(survival[k]));
+    weight[k] = none ? 0 : lives.weight[k] * (in_study ? 1 : survival[k]);
     mass += weight[k];
   }
   const auto failed_in = [&](std::size_t k, double life) {
