@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fleet/clickhouse_server.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 #include "support/servers.h"
@@ -237,6 +238,38 @@ TEST_F(ReadingsFleet, AViewOfPostgresHasTheNumbersOfFiles) {
   const json files = fleet(table(csv_of(rows_of(5))) + horizons);
   EXPECT_EQ(database["failures"].dump(), files["failures"].dump());
   EXPECT_EQ(database["riskiest"].dump(), files["riskiest"].dump());
+}
+
+TEST_F(ReadingsFleet, ATableOfClickhouseHasTheNumbersOfFiles) {
+  const std::string missing = ClickhouseServer::missing();
+  if (!missing.empty()) GTEST_SKIP() << "NOT TESTED with ClickHouse: " << missing;
+  const ClickhouseServer server(folder());
+  std::string rows;
+  for (const Row& each : rows_of(5))
+    rows += fmt::format("{}('{}', {}, {})", rows.empty() ? "" : ", ", each.machine, each.use,
+                        each.wear);
+  const CommandResult made = server.sql(
+      "create table readings (serial String, run Float64, depth Float64) engine = MergeTree order "
+      "by run;\ninsert into readings values " +
+      rows +
+      ";\ncreate table pumps (serial String, hours Float64, known UInt8) engine = MergeTree order "
+      "by serial;\ninsert into pumps values ('A', 400, 1), ('B', 1200.5, 0);\n");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string engine = "--engine '" + server.address() + "' --table ";
+  const json database =
+      fleet(engine + "readings --columns unit=serial use=run:h wear=depth:um" + horizons);
+  std::filesystem::remove_all(folder() / "fleet");
+  const json files = fleet(table(csv_of(rows_of(5))) + horizons);
+  EXPECT_EQ(database["failures"].dump(), files["failures"].dump());
+  EXPECT_EQ(database["riskiest"].dump(), files["riskiest"].dump());
+  // Ages, too.
+  std::filesystem::remove_all(folder() / "fleet");
+  const json ages =
+      fleet(engine + "pumps --columns unit=serial age=hours:h in_study=known" + horizons);
+  std::filesystem::remove_all(folder() / "fleet");
+  const json same = fleet(table("unit,age [h],in_study\nA,400,1\nB,1200.5,0\n") + horizons);
+  EXPECT_EQ(ages["failures"].dump(), same["failures"].dump());
+  EXPECT_EQ(ages["worst"].dump(), same["worst"].dump());
 }
 
 }  // namespace

@@ -58,6 +58,13 @@ TEST_P(Stores, KeepAReadingOnce) {
   store = open();
   EXPECT_EQ(shown(store->after(0, 100)), all);
   EXPECT_EQ(store->count(), 3U);
+  EXPECT_TRUE(store->has_unit("b"));
+  EXPECT_FALSE(store->has_unit("c"));
+  UnitEvent installed;
+  installed.unit = "c";
+  installed.kind = EventKind::installed;
+  store->add_events({installed});
+  EXPECT_TRUE(store->has_unit("c"));
   const auto first = store->after(0, 1);
   EXPECT_EQ(shown(store->after(first[0].place, 1)), "a 1 1e-300 true a \"b\" ü;");
   std::string of_b;

@@ -40,11 +40,6 @@ void refuse_clutch_options(const FleetOptions& options) {
   for (const auto& [option, reason] : reasons)
     if (options.has(option))
       throw InputError(fmt::format("{}: is for clutches; {}", option, reason));
-  for (const std::string& each : options.engines)
-    if (each.starts_with("clickhouse"))
-      throw InputError(
-          "--engine: units in service are read from files or PostgreSQL; export them from "
-          "ClickHouse: select ... into outfile 'units.parquet'");
 }
 
 int run_lives_fleet(FleetOptions options, Models models) {

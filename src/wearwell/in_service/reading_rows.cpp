@@ -24,18 +24,28 @@ ReadingQuery reading_query_of(const fleet::Engine& engine, const ReadingColumns&
   const auto name = [&](const std::string& column) {
     return "t." + fleet::identifier(dialect, column);
   };
-  std::vector<std::string> cells = {fleet::text(dialect, name(columns.unit))};
-  for (const std::string& each : columns.labels) cells.push_back(fleet::text(dialect, name(each)));
+  std::vector<std::string> cells, order, others;
+  // Names, since places in `order by` are constants in older ClickHouse.
+  const auto add = [&](const std::string& cell) {
+    const std::string alias = fmt::format("wearwell_{}", cells.size() + 1);
+    cells.push_back(fmt::format("{} as {}", cell, alias));
+    return alias;
+  };
+  order.push_back(add(fleet::text(dialect, name(columns.unit))));
+  for (const std::string& each : columns.labels)
+    others.push_back(add(fleet::text(dialect, name(each))));
   const std::size_t texts = cells.size();
-  std::vector<std::string> order = {"1"}, others;
   for (std::size_t i = 0; i < columns.numbers.size(); ++i) {
     if (columns.numbers[i].column.empty()) continue;
-    cells.push_back(fleet::real(
+    const std::string alias = add(fleet::real(
         dialect, fleet::number_cell(name(columns.numbers[i].column), columns.text_decimal)));
-    (i == axis ? order : others).push_back(fmt::format("{}", cells.size()));
+    if (i == axis) {
+      order.push_back(alias);
+    } else {
+      others.push_back(alias);
+    }
   }
   order.insert(order.end(), others.begin(), others.end());
-  for (std::size_t i = 2; i <= texts; ++i) order.push_back(fmt::format("{}", i));
   return {fmt::format("select {} from {} as t order by {}", fmt::join(cells, ", "), engine.table(),
                       fmt::join(order, ", ")),
           texts};
