@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stoppable.h"
 #include "wearwell/in_service/conditions.h"
 #include "wearwell/in_service/horizons.h"
 #include "wearwell/in_service/lives_fleet_report.h"
@@ -79,17 +82,17 @@ SetLives lives_of_sets(const prognosis::CarriedState& state, const PosteriorStud
 }
 
 // Units that the study follows by readings of their own have better forecasts.
-void refuse_followed(const prognosis::CarriedState& state, Models models, const UnitRows& rows,
+void refuse_followed(const prognosis::Tracker& tracker, const UnitRows& rows,
                      const std::string& result, const std::string& source) {
-  const auto tracker = prognosis::tracker_where_possible(state, models);
-  if (!tracker) return;
-  const auto seen = tracker->seen();
+  const auto seen = tracker.seen();
   const std::set<std::string> known(seen.begin(), seen.end());
   for (const std::string& each : rows.names)
     if (known.count(each))
       throw InputError(fmt::format(
           "{}: unit {} has readings in the study, which its age alone leaves out: wearwell life {} "
-          "--unit '{}' uses them. Give the units without readings, or rename it if it is another",
+          "--unit '{}' uses them, and so does a table of readings. Give the units without "
+          "readings, or "
+          "rename it if it is another",
           source, each, result, each));
 }
 
@@ -108,12 +111,20 @@ void refuse_too_old(const UnitRows& rows, const std::vector<prognosis::Populatio
   }
 }
 
+// Work deep in the library, on so many threads and until a stop is requested.
+void on_threads(const Monitor& monitor, const std::function<void()>& work) {
+  tbb::task_arena arena(monitor.threads > 0 ? monitor.threads : tbb::task_arena::automatic);
+  arena.execute([&] { stoppable(monitor.stop, work); });
+}
+
 }  // namespace
 
 Result fleet_of_lives(const prognosis::CarriedState& state, const std::string& result,
                       Models models, const std::vector<fleet::Engine*>& engines,
                       const LivesRequest& request, const Monitor& monitor) {
-  if (const auto tracker = tracker_of_readings(state, models, engines, request.columns))
+  const std::shared_ptr<const prognosis::Tracker> tracker =
+      prognosis::tracker_where_possible(state, models);
+  if (tracker && state.model == "formula" && hold_readings(*tracker, engines, request.columns))
     return fleet_of_readings(state, tracker, models, engines, request, monitor);
   const std::unique_ptr<const Study> read = read_study(state.source, models);
   const PosteriorStudy& study = require_posterior_study(*read);
@@ -143,9 +154,11 @@ Result fleet_of_lives(const prognosis::CarriedState& state, const std::string& r
                                       found.rows.left_out, found.rows.first_left_out.front().reason)
                         : "has no rows"));
   refuse_repeated_units(found.rows, source);
-  refuse_followed(state, models, found.rows, result, source);
-  SetLives lives =
-      lives_of_sets(state, study, result, models, request.point, found.rows.sets, source);
+  if (tracker) refuse_followed(*tracker, found.rows, result, source);
+  SetLives lives;
+  on_threads(monitor, [&] {
+    lives = lives_of_sets(state, study, result, models, request.point, found.rows.sets, source);
+  });
   refuse_too_old(found.rows, lives.each, found.columns, source);
   found.noun = lives.noun;
   found.title = study.title;
@@ -154,7 +167,9 @@ Result fleet_of_lives(const prognosis::CarriedState& state, const std::string& r
   found.longest_seen = longest_seen(state.source, study);
   found.points = lives.each.front().weight.size();
   if (found.horizons.empty()) found.horizons = usual_horizons(lives.each.front(), found.axis);
-  found.outlook = prognosis::fleet_outlook(lives.each, found.rows.units, found.horizons);
+  on_threads(monitor, [&] {
+    found.outlook = prognosis::fleet_outlook(lives.each, found.rows.units, found.horizons);
+  });
   return lives_fleet_result(found, request.skip_bad);
 }
 

@@ -16,7 +16,6 @@
 #include "wearwell/in_service/reading_rows.h"
 #include "wearwell/in_service/readings_fleet_report.h"
 #include "wearwell/prognosis/known_lives.h"
-#include "wearwell/prognosis/result_lives.h"
 #include "wearwell/prognosis/unit_tracker.h"
 #include "wearwell/study/inference_data.h"
 
@@ -179,21 +178,16 @@ void refuse_options_of_ages(const LivesRequest& request) {
 
 }  // namespace
 
-std::shared_ptr<const Tracker> tracker_of_readings(const prognosis::CarriedState& state,
-                                                   Models models,
-                                                   const std::vector<fleet::Engine*>& engines,
-                                                   const std::vector<std::string>& columns) {
-  if (state.model != "formula") return nullptr;
-  std::shared_ptr<const Tracker> tracker = prognosis::tracker_where_possible(state, models);
-  if (!tracker) return nullptr;
+bool hold_readings(const Tracker& tracker, const std::vector<fleet::Engine*>& engines,
+                   const std::vector<std::string>& columns) {
   std::vector<std::string> with, without;
   for (fleet::Engine* engine : engines)
-    (has_readings(columns, engine->columns(), *tracker) ? with : without)
+    (has_readings(columns, engine->columns(), tracker) ? with : without)
         .push_back(engine->source());
   if (!with.empty() && !without.empty())
     throw InputError(fmt::format("{} has readings, and {} has not: give tables of one kind",
                                  with.front(), without.front()));
-  return with.empty() ? nullptr : tracker;
+  return !with.empty();
 }
 
 Result fleet_of_readings(const prognosis::CarriedState& state,

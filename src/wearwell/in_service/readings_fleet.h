@@ -9,11 +9,10 @@
 
 namespace wearwell::in_service {
 
-/// The tracker of a formula study, if the tables of these engines hold readings of its units
-/// (reading_columns.h); else null. Throws InputError if some do and some do not.
-std::shared_ptr<const prognosis::Tracker> tracker_of_readings(
-    const prognosis::CarriedState& state, Models models, const std::vector<fleet::Engine*>& engines,
-    const std::vector<std::string>& columns);
+/// Whether the tables of these engines hold readings of units that this tracker follows
+/// (reading_columns.h). Throws InputError if some do and some do not.
+bool hold_readings(const prognosis::Tracker& tracker, const std::vector<fleet::Engine*>& engines,
+                   const std::vector<std::string>& columns);
 
 /// The failures to come of units in service by their readings: each unit is followed from the
 /// study's posterior as in the monitor, in one pass over the tables. Throws InputError that names
