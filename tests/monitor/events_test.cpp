@@ -125,7 +125,7 @@ TEST_F(Events, OfAUnitThatIsNotKnownAreRefused) {
   }
   EXPECT_TRUE(store_->events_after(0).empty());
   EXPECT_FALSE(store_->has_unit("unknown"));
-  EXPECT_FALSE(tally_ref().knows("unknown"));
+  EXPECT_FALSE(tally_->knows("unknown"));
   catch_up();
   EXPECT_FALSE(fleet_->unit("unknown"));
   // A reading makes it known: before it is processed, and in the same message.
@@ -194,8 +194,8 @@ TEST_F(Events, APartOfTheStudyGoesOn) {
   open();
   EXPECT_THAT(report("a", "replaced", R"("n": 1, "time": 500)").problem,
               HasSubstr("the study has the machine 'a (part 2)'"));
-  EXPECT_EQ(
-      report("a", "replaced", R"("n": 1, "time": 500, "part_name": "a (part 2)")").events, 1U);
+  EXPECT_EQ(report("a", "replaced", R"x("n": 1, "time": 500, "part_name": "a (part 2)")x").events,
+            1U);
   EXPECT_EQ(view("a").at, 40);  // where the study left it
   deliver(message("a", 1, 60, 560));
   deliver(message("a (part 2)", 1, 60, 60));
@@ -209,8 +209,7 @@ TEST_F(Events, APartOfTheStudyGoesOn) {
   EXPECT_EQ(fleet_->unit("a")->events.at(0).event.part, "a (part 2)");
   // Its readings are exported under the name of the study, where those of another unit are not.
   ExportCounts counts;
-  EXPECT_THAT(message_of<InputError>([&] {
-    readings_as_csv(*store_, tracker_, {}, counts); }),
+  EXPECT_THAT(message_of<InputError>([&] { readings_as_csv(*store_, tracker_, {}, counts); }),
               HasSubstr("two parts have the name 'a (part 2)'"));
 }
 
