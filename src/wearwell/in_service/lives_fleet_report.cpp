@@ -49,10 +49,6 @@ double shown(const LivesFindings& found, double si) {
   return from_si(found.axis, si);
 }
 
-std::string horizon_text(const LivesFindings& found, double si) {
-  return in_service::horizon_text(found.axis, si);
-}
-
 Table worst_table(const LivesFindings& found, const std::vector<std::size_t>& order) {
   const std::size_t count = std::min(worst_shown, order.size());
   const bool conditions = has_conditions(found);
@@ -62,7 +58,7 @@ Table worst_table(const LivesFindings& found, const std::vector<std::size_t>& or
               {{"Unit"}, {"Age", found.axis.text, digits(5)}}};
   if (conditions) table.columns.push_back({"Conditions"});
   for (const double each : found.horizons)
-    table.columns.push_back({"Fails within " + horizon_text(found, each), "%", digits(3)});
+    table.columns.push_back({"Fails within " + horizon_text(found.axis, each), "%", digits(3)});
   table.columns.push_back({"Remaining life, B10", found.axis.text, present::life(4)});
   table.columns.push_back({"Median", found.axis.text, present::life(4)});
   for (std::size_t i = 0; i < count; ++i) {
@@ -90,7 +86,7 @@ Table spread_table(const LivesFindings& found) {
   const std::string unit = found.axis.text;
   add(fmt::format("age [{}]", unit), found.rows.units.age, found.axis.scale);
   for (std::size_t h = 0; h < found.horizons.size(); ++h)
-    add(fmt::format("fails within {} [%]", horizon_text(found, found.horizons[h])),
+    add(fmt::format("fails within {} [%]", horizon_text(found.axis, found.horizons[h])),
         found.outlook.failing[h], 0.01);
   add(fmt::format("remaining life, B10 [{}]", unit), found.outlook.b10, found.axis.scale);
   add(fmt::format("remaining life, median [{}]", unit), found.outlook.median, found.axis.scale);
@@ -153,12 +149,12 @@ Check extrapolation_check_of(const LivesFindings& found) {
   if (old > 0)
     findings.add(Verdict::warn,
                  fmt::format("units older than the longest life in the study, {1}: {0}", old,
-                             horizon_text(found, found.longest_seen)),
+                             horizon_text(found.axis, found.longest_seen)),
                  advice);
   if (later > old)
     findings.add(
         Verdict::warn,
-        fmt::format("units that will be within {1}: {0}", later, horizon_text(found, last)),
+        fmt::format("units that will be within {1}: {0}", later, horizon_text(found.axis, last)),
         advice);
   std::size_t number = 0;
   for (const UnitColumns::Given& each : found.columns.conditions) {
@@ -228,7 +224,7 @@ std::string units_file(const LivesFindings& found, const std::vector<std::size_t
   const std::string unit = found.axis.text;
   std::vector<NumberColumn> columns = {{fmt::format("age [{}]", unit), {}}};
   for (const double each : found.horizons)
-    columns.push_back({"failing_within " + horizon_text(found, each), {}});
+    columns.push_back({"failing_within " + horizon_text(found.axis, each), {}});
   columns.push_back({fmt::format("left_b10 [{}]", unit), {}});
   columns.push_back({fmt::format("left_median [{}]", unit), {}});
   for (const std::size_t u : order) {

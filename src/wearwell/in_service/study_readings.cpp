@@ -31,7 +31,7 @@ StudyReadings::StudyReadings(const prognosis::Tracker& tracker, const Source& so
   for (const std::string& each : tracker.seen())
     units_[each].last = tracker.begin(each)->forecast().now;
   try {
-    const Table table =
+    const wearwell::Table table =
         prognosis::in_study_names(prognosis::data_table(source), tracker.columns(), source);
     const Column& names = table.column(tracker.noun());
     const prognosis::ReadingTable rows(tracker, table);
