@@ -11,6 +11,10 @@ using testing::HasSubstr;
 
 class Repairs : public Events {
  protected:
+  /// Of units that the study has: their events may come before their readings.
+  Repairs() {
+    source_.mapping.in_study = [](const std::string&) { return true; };
+  }
   /// 1 m/h, every 20 h; a repair at reading 6 takes 60 m back.
   void send_repaired() {
     report("a", "repaired", R"("n": 6, "restored": 60)");
