@@ -363,6 +363,20 @@ TEST_F(WorkbenchTest, ShowsWhatThePriorsImplyBeforeAnyData) {
   EXPECT_NEAR((*b10)["q05"], 1000 * share * std::exp(-0.5 * 1.6448536), 1);
   EXPECT_NEAR((*b10)["q95"], 1000 * share * std::exp(0.5 * 1.6448536), 4);
 
+  // A handle that is moved changes the text; the same view follows from it.
+  const json& scale = found["priors"][0];
+  ASSERT_EQ(scale["handles"].size(), 2u) << scale;
+  const json moved = done("/api/prior", {{"text", text},
+                                         {"specification", scale["specification"]},
+                                         {"meaning", scale["meaning"]},
+                                         {"handle", "location"},
+                                         {"at", 1500.4}});
+  EXPECT_EQ(moved["values"],
+            (json::parse(R"([{"path": "prior.characteristic.median", "value": "1500 h"}])")));
+  EXPECT_EQ(done("/api/priors", {{"file", "p.toml"}, {"text", moved["text"]}})["priors"][0],
+            moved["prior"]);
+  EXPECT_EQ(post("/api/prior", {{"text", text}, {"handle", "location"}, {"at", 1}}).status, 400);
+
   put("slope", "slope = { distribution = \"flat\" }");
   const json improper = done("/api/priors", {{"file", "p.toml"}, {"text", text}});
   EXPECT_TRUE(improper["quantities"].empty());

@@ -162,6 +162,10 @@ Json priors_action(Session& session, const json& wish) {
                      text_of_wish(wish, "text"), session.models);
 }
 
+Json move_prior_action(Session&, const json& wish) {
+  return moved_prior_json(text_of_wish(wish, "text"), wish);
+}
+
 Json set_action(Session&, const json& wish) {
   return {{"text", with_value(text_of_wish(wish, "text"), text_of_wish(wish, "path"),
                               text_of_wish(wish, "value"))}};
@@ -380,12 +384,13 @@ Look look_of(std::string_view path) {
 
 Action action_of(std::string_view path) {
   static constexpr std::pair<std::string_view, Action> actions[] = {
-      {"/api/open", open_file},       {"/api/table", table_action},
-      {"/api/guess", guess_action},   {"/api/check", check_action},
-      {"/api/set", set_action},       {"/api/save", save_action},
-      {"/api/fit", fit_action},       {"/api/stop", stop_action},
-      {"/api/life", life_action},     {"/api/priors", priors_action},
-      {"/api/decide", decide_action}, {"/api/compare", compare_action}};
+      {"/api/open", open_file},         {"/api/table", table_action},
+      {"/api/guess", guess_action},     {"/api/check", check_action},
+      {"/api/set", set_action},         {"/api/save", save_action},
+      {"/api/fit", fit_action},         {"/api/stop", stop_action},
+      {"/api/life", life_action},       {"/api/priors", priors_action},
+      {"/api/decide", decide_action},   {"/api/compare", compare_action},
+      {"/api/prior", move_prior_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;
   return nullptr;

@@ -5,7 +5,7 @@
   const place = {};
   const replaced = [];
   let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0, left = false;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false, isDragged = false;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -26,9 +26,9 @@
 
   function remember() { replaced.push({text: text(), name: place.name.value, saved, savedName}); }
 
-  function replace(next) {
+  function replace(next, isValue = false) {
     if (next === text()) return;
-    if (text() && (text() !== generated || saved !== null)) remember();
+    if (text() && (isValue || text() !== generated || saved !== null)) remember();
     place.text.value = next;
     changed();
   }
@@ -87,13 +87,28 @@
     compare();
   }
 
-  // Of a study that can be fitted; the last text that is asked for is shown.
+  // A prior that is dragged: text and fields follow each move, check and lives wait for its end. The whole drag is one replacement.
+  const drag = {text,
+    put(next, values, isFirst) {
+      if (next === text()) return false;
+      if (isFirst) remember();
+      [isDragged, place.text.value] = [true, next];
+      for (const {path, value} of values) Object.assign(document.getElementById(`key-${path}`) ?? {}, {value});
+      marks();
+      return true;
+    },
+    end() { isDragged = false; changed(); }};
+
+  // Of a study that can be fitted; the last text that is asked for is shown. The handle that has the focus keeps it.
   function priors() {
     const asked = text();
     if (place.check.dataset.state !== 'good') { place.implied.replaceChildren(element('p', {class: 'note'}, strings.checkBad)); return; }
     wearwell.quietly(async () => {
-      const parts = await wearwell.priors({file: place.name.value || 'study.toml', text: asked}, Math.min(420, Math.max(260, place.form.clientWidth)));
-      if (asked === text()) place.implied.replaceChildren(...parts);
+      const parts = await wearwell.priors({file: place.name.value || 'study.toml', text: asked}, Math.min(420, Math.max(260, place.form.clientWidth)), drag);
+      if (asked !== text() || isDragged) return;
+      const focus = place.implied.contains(document.activeElement) ? document.activeElement.id : '';
+      place.implied.replaceChildren(...parts);
+      if (focus) document.getElementById(focus)?.focus();
     });
   }
 
@@ -160,7 +175,7 @@
             const before = text();
             try {
               const {text: next} = await wearwell.post('/api/set', {text: before, path: key.path, value: event.target.value});
-              if (text() === before) replace(next);
+              if (text() === before) replace(next, true);
             } catch (error) {
               event.target.value = key.value;
               throw error;

@@ -25,7 +25,7 @@
     return found;
   }
 
-  // {name, log, values} -> {place: value -> 0 to 1, ticks: [{at, text}]}
+  // {name, log, values} -> {place: value -> 0 to 1, value: its inverse, ticks: [{at, text}]}
   function axisOf({log, values}, most) {
     const scaled = (value) => (log ? Math.log10(value) : value);
     let low = Infinity, high = -Infinity;
@@ -36,6 +36,7 @@
     const ticks = log ? logTicks(low, high, most) : linearTicks(low, high, most);
     return {
       place: (value) => (scaled(value) - low) / (high - low),
+      value: (part) => (log ? 10 ** (low + part * (high - low)) : low + part * (high - low)),
       ticks: ticks.map((at) => ({part: (at - low) / (high - low), text: wearwell.given(log ? Number((10 ** at).toPrecision(6)) : at)})),
     };
   }
@@ -57,8 +58,8 @@
     return {paths, legend};
   }
 
-  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, bare (a small picture without the axis up), description,
-  // read: (point) -> text, hint}
+  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, bare (a small picture without the axis up), movable (it will
+  // have handles), description, read: (point) -> text, hint}. The figure has `plane`: where things stand, for what is drawn over it.
   wearwell.scatter = (plot, width) => {
     const height = plot.bare ? 140 : Math.min(360, Math.max(240, Math.round(width * 0.55)));
     const box = {left: plot.bare ? margin.right : margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
@@ -67,7 +68,7 @@
     if (plot.bare) up.ticks = [];
     const x = (value) => box.left + across.place(value) * (box.right - box.left);
     const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);
-    const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', 'aria-label': plot.description, class: 'plot'});
+    const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: plot.movable ? 'group' : 'img', 'aria-label': plot.description, class: 'plot'});
     for (const {part, text} of across.ticks) {
       const at = box.left + part * (box.right - box.left);
       svg.append(element('line', {class: 'grid', x1: at, x2: at, y1: box.top, y2: box.bottom}),
@@ -86,6 +87,7 @@
     const mark = element('circle', {class: 'mark', r: 6, visibility: 'hidden'});
     svg.append(mark);
     svg.addEventListener('pointermove', (event) => {
+      if (event.buttons) return;
       const frame = svg.getBoundingClientRect(), ratio = width / frame.width;
       const [a, b] = [(event.clientX - frame.left) * ratio, (event.clientY - frame.top) * ratio];
       let best = -1, least = Infinity;
@@ -97,6 +99,7 @@
       readout.textContent = plot.read(plot.points[best]);
     });
     svg.addEventListener('pointerleave', () => { mark.setAttribute('visibility', 'hidden'); readout.textContent = plot.hint; });
-    return element('figure', {}, element('figcaption', {}, plot.y.name), svg, legend, readout);
+    const figure = element('figure', {}, element('figcaption', {}, plot.y.name), svg, legend, readout);
+    return Object.assign(figure, {plane: {svg, box, readout, across, log: plot.x.log}});
   };
 })();
