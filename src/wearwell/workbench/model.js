@@ -5,7 +5,7 @@
   const place = {};
   const replaced = [];
   let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0, left = false, isDragged = false;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -82,35 +82,21 @@
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0, lang: 'en'}, found.description))]));
     form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
-    if (place.priors.open) priors();
+    for (const each of place.parts) each.update();
     if (table === null && saved !== null) openItsTable();
     compare();
   }
 
-  // A prior that is dragged: text and fields follow each move, check and lives wait for its end. The whole drag is one replacement.
-  const drag = {text,
-    put(next, values, isFirst) {
-      if (next === text()) return false;
-      if (isFirst) remember();
-      [isDragged, place.text.value] = [true, next];
+  // The study, for the parts below the form: what they ask of it and how they change it.
+  const study = {text, replace: (next) => replace(next, true), remember, changed,
+    asked: () => ({file: place.name.value || 'study.toml', text: text()}),
+    isGood: () => place.check.dataset.state === 'good',
+    width: () => Math.min(420, Math.max(260, place.form.clientWidth)),
+    put(next, values) {
+      place.text.value = next;
       for (const {path, value} of values) Object.assign(document.getElementById(`key-${path}`) ?? {}, {value});
       marks();
-      return true;
-    },
-    end() { isDragged = false; changed(); }};
-
-  // Of a study that can be fitted; the last text that is asked for is shown. The handle that has the focus keeps it.
-  function priors() {
-    const asked = text();
-    if (place.check.dataset.state !== 'good') { place.implied.replaceChildren(element('p', {class: 'note'}, strings.checkBad)); return; }
-    wearwell.quietly(async () => {
-      const parts = await wearwell.priors({file: place.name.value || 'study.toml', text: asked}, Math.min(420, Math.max(260, place.form.clientWidth)), drag);
-      if (asked !== text() || isDragged) return;
-      const focus = place.implied.contains(document.activeElement) ? document.activeElement.id : '';
-      place.implied.replaceChildren(...parts);
-      if (focus) document.getElementById(focus)?.focus();
-    });
-  }
+    }};
 
   const valueOf = (path) => keys.find((each) => each.path === path)?.value;
   const itsTable = () => valueOf('data.file')?.replace(/^\.\//, '');
@@ -306,9 +292,7 @@
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
         wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
     place.form = element('div', {class: 'form'});
-    place.implied = element('div', {'aria-live': 'polite'});
-    place.priors = element('details', {id: 'priors'}, element('summary', {}, strings.priorsTitle), place.implied);
-    place.priors.addEventListener('toggle', () => { if (place.priors.open) priors(); });
+    place.parts = [wearwell.priors(study), wearwell.families(study)];
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
     place.text.addEventListener('input', changed);
@@ -321,7 +305,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, place.priors),
+        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));

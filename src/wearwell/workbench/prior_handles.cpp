@@ -135,9 +135,13 @@ double third_place(double size) {
 std::string rounded_text(double x, double place) {
   const double value = std::round(x / place) * place;
   const double magnitude = std::abs(value);
-  if (value == 0 || (magnitude >= 1e-4 && magnitude < 1e7))
-    return fmt::format("{:.{}f}", value,
-                       std::max(0, -static_cast<int>(std::round(std::log10(place)))));
+  if (value == 0 || (magnitude >= 1e-4 && magnitude < 1e7)) {
+    const int decimals = std::max(0, -static_cast<int>(std::round(std::log10(place))));
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+  }
   const double digits = std::log10(magnitude / place) + 1;
   std::string text = fmt::format("{:.{}g}", value, std::clamp(static_cast<int>(digits), 3, 15));
   for (const std::string_view more : {"e+0", "e+"}) {

@@ -47,7 +47,7 @@
   }
 
   // Handles over a picture. A move is answered before the next one is asked for; of those that come meanwhile the last counts.
-  // `edit`: {text(), put(text, values), end()} of the study.
+  // `edit`: {text(), put(text, values, isFirst), end()} of the study.
   function movable(given, figure, edit) {
     const {plane} = figure, {svg, box, across, readout} = plane;
     let prior = given, wanted = null, asked = null, busy = false, moved = false, ending = 0;
@@ -126,11 +126,40 @@
       rows: quantities.map((each) => [each.name, number(each.q05), number(each.q50), number(each.q95), unitOf(each)]), all: quantities.length});
   }
 
-  // `asked`: {file, text} of a study that can be read; `edit`: how a handle changes it.
-  wearwell.priors = async (asked, width, edit) => {
-    const found = await wearwell.post('/api/priors', asked);
-    return [found.priors.some((each) => each.handles.length) ? element('p', {class: 'note'}, strings.dragHint) : null,
-            element('div', {class: 'priors'}, ...found.priors.map((each) => picture(each, width, edit))), found.quantities.length ? table(found.quantities) : null,
-            found.obstacle ? element('p', {class: 'note'}, found.obstacle) : null].filter(Boolean);
+  // A part of the step Model: {panel, update()}. The handle that has the focus keeps it.
+  wearwell.priors = (study) => {
+    let isDragged = false;
+    const inside = element('div', {'aria-live': 'polite'}), panel = element('details', {id: 'priors'}, element('summary', {}, strings.priorsTitle), inside);
+
+    // Text and fields follow each move, check and lives wait for the end. The whole drag is one replacement.
+    const edit = {text: study.text,
+      put(next, values, isFirst) {
+        if (next === study.text()) return false;
+        if (isFirst) study.remember();
+        isDragged = true;
+        study.put(next, values);
+        return true;
+      },
+      end() { isDragged = false; study.changed(); }};
+
+    const parts = (found) => [found.priors.some((each) => each.handles.length) ? element('p', {class: 'note'}, strings.dragHint) : null,
+      element('div', {class: 'priors'}, ...found.priors.map((each) => picture(each, study.width(), edit))), found.quantities.length ? table(found.quantities) : null,
+      found.obstacle ? element('p', {class: 'note'}, found.obstacle) : null].filter(Boolean);
+
+    // Of a study that can be fitted; the last text that is asked for is shown.
+    function update() {
+      if (!panel.open) return;
+      if (!study.isGood()) { inside.replaceChildren(element('p', {class: 'note'}, strings.checkBad)); return; }
+      const asked = study.asked();
+      wearwell.quietly(async () => {
+        const found = await wearwell.post('/api/priors', asked);
+        if (asked.text !== study.text() || isDragged) return;
+        const focus = inside.contains(document.activeElement) ? document.activeElement.id : '';
+        inside.replaceChildren(...parts(found));
+        if (focus) document.getElementById(focus)?.focus();
+      });
+    }
+    panel.addEventListener('toggle', update);
+    return {panel, update};
   };
 })();
