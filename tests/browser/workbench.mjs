@@ -454,6 +454,22 @@ async function priors(browser, {name, ...options}) {
   check((await written()).join() === `${moved},0.5`, `${name}: undo of the keys leaves ${await written()}`);
   await page.click('.editing button.plain >> nth=-1');
   check(await page.inputValue('#study') === study, `${name}: undo of the drag leaves ${await written()}`);
+
+  // Families side by side; one is chosen, and undo goes back.
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await page.click('#families summary');
+  await page.waitForSelector('.family[data-family="lognormal"] .fitted', {timeout: 60000});
+  const order = await page.$$eval('.family', (all) => all.map((each) => each.textContent.match(/AIC[^0-9]*([0-9.]+)/)?.[1]).map(Number));
+  check(order.length === 9 && order.every((each, i) => !i || each >= order[i - 1]), `${name}: families are in the order ${order}`);
+  check(await page.getAttribute('.family.own', 'data-family') === 'weibull', `${name}: the family of the study is not marked`);
+  await looks(page, `${name} families`, complaints);
+  await page.locator('#families').screenshot({path: join(screenshots, `workbench-${name}-families.png`)});
+  await page.click('.family[data-family="lognormal"] button');
+  await page.waitForFunction(() => /^family *= *"lognormal"/m.test(document.getElementById('study').value), null, {timeout: 60000});
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  check(await page.getAttribute('.family [aria-pressed="true"] >> nth=0', 'aria-pressed') === 'true' && await page.getAttribute('.family.own', 'data-family') === 'lognormal', `${name}: the chosen family is not marked`);
+  await page.click('.editing button.plain >> nth=-1');
+  check(await page.inputValue('#study') === study, `${name}: undo of the family leaves another study`);
   await page.evaluate(() => { document.getElementById('study').value = ''; });
   await context.close();
   await stop();

@@ -384,6 +384,56 @@ TEST_F(WorkbenchTest, ShowsWhatThePriorsImplyBeforeAnyData) {
   EXPECT_EQ(post("/api/priors", {{"text", "model = 1"}}).status, 400);
 }
 
+TEST_F(WorkbenchTest, FamiliesStandSideBySide) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  const std::string text = done("/api/guess", named())["readings"][0]["text"];
+  const json found = done("/api/families", {{"file", "p.toml"}, {"text", text}});
+  EXPECT_EQ(found["family"], "weibull");
+  EXPECT_EQ(found["unit"], "h");
+  EXPECT_EQ(found["lives"], 15);
+  EXPECT_EQ(found["failures"], 11);
+  ASSERT_EQ(found["families"].size(), 9u);
+  double before = -INFINITY;
+  for (const json& each : found["families"]) {
+    ASSERT_TRUE(each.contains("aic")) << each;
+    EXPECT_GE(each["aic"].get<double>(), before);
+    before = each["aic"];
+    const double parameters = static_cast<double>(each["parameters"].size());
+    EXPECT_NEAR(each["aic"], 2 * parameters - 2 * each["log_likelihood"].get<double>(), 1e-9);
+    EXPECT_EQ(each["points"].size(), 11u);
+    // Each text is a study that can be fitted, with this family.
+    const json checked = done("/api/check", {{"file", "p.toml"}, {"text", each["text"]}});
+    EXPECT_FALSE(checked.contains("problem")) << checked;
+    if (each["name"] == "weibull") EXPECT_EQ(each["text"], text);
+  }
+  // In hours: the density of a life in seconds is 3600 times smaller.
+  const auto weibull = std::find_if(found["families"].begin(), found["families"].end(),
+                                    [](const json& each) { return each["name"] == "weibull"; });
+  const double scale = (*weibull)["parameters"][0]["value"],
+               shape = (*weibull)["parameters"][1]["value"];
+  double log_likelihood = 0;
+  for (const double x :
+       {212.5, 305.5, 371.5, 418.5, 466.5, 509.5, 540.5, 588.5, 633.5, 702.5, 749.5})
+    log_likelihood +=
+        std::log(shape / scale) + (shape - 1) * std::log(x / scale) - std::pow(x / scale, shape);
+  log_likelihood -= 4 * std::pow(800 / scale, shape);
+  EXPECT_NEAR((*weibull)["log_likelihood"], log_likelihood, 1e-6);
+
+  write("two.csv", "hours [h],temperature [degC]\n100,20\n200,20\n300,40\n400,40\n");
+  const std::string conditions =
+      "model = \"formula\"\n[data]\nfile = \"two.csv\"\n[data.columns]\nlife = { column = "
+      "\"hours\", unit = "
+      "\"h\" }\ntemperature = { column = \"temperature\", unit = \"degC\" "
+      "}\n[likelihood.life]\nfamily = "
+      "\"weibull\"\nscale = \"a * temperature / (300 K)\"\nshape = 2\n[prior]\na = { distribution "
+      "= "
+      "\"lognormal\", median = \"100 h\", log_sd = 1 }\n";
+  const HttpReply refused = post("/api/families", {{"file", "c.toml"}, {"text", conditions}});
+  EXPECT_EQ(refused.status, 400) << refused.body;
+  EXPECT_THAT(refused.body, HasSubstr("conditions"));
+}
+
 TEST_F(WorkbenchTest, ColoursPointsByALabelAndMarksRunOuts) {
   std::string text = "stress,cycles,status,batch\n";
   for (int i = 0; i < 40; ++i)
