@@ -405,7 +405,9 @@ TEST_F(WorkbenchTest, FamiliesStandSideBySide) {
     // Each text is a study that can be fitted, with this family.
     const json checked = done("/api/check", {{"file", "p.toml"}, {"text", each["text"]}});
     EXPECT_FALSE(checked.contains("problem")) << checked;
-    if (each["name"] == "weibull") EXPECT_EQ(each["text"], text);
+    if (each["name"] == "weibull") {
+      EXPECT_EQ(each["text"], text);
+    }
   }
   // In hours: the density of a life in seconds is 3600 times smaller.
   const auto weibull = std::find_if(found["families"].begin(), found["families"].end(),

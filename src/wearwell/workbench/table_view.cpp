@@ -17,6 +17,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/input/readable_cell.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/status_words.h"
 #include "wearwell/prognosis/unit_table.h"
@@ -31,16 +32,22 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t looked_at = 200, most_refused = 1000;
 
+std::string refusal_of(const Table& table, const Column& column, std::size_t row) {
+  try {
+    static_cast<void>(cell_value(table, column, row));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 // NaN where the cell is empty or refused; `refusal` says why.
 double number_in(const Table& table, const Column& column, std::size_t row, std::string* refusal) {
   if (column.is_number) return column.numbers[row];
   if (column.text[row].empty()) return std::numeric_limits<double>::quiet_NaN();
-  try {
-    return cell_value(table, column, row).number;
-  } catch (const InputError& error) {
-    if (refusal) *refusal = error.what();
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (const auto cell = readable_cell(table, column, row)) return cell->number;
+  if (refusal) *refusal = refusal_of(table, column, row);
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 // Whether a column of text is one of numbers in which some cells are not.
@@ -71,7 +78,7 @@ ordered_json column_json(const Table& table, const Column& column) {
       continue;
     }
     if (!column.is_number && !mostly) continue;
-    if (refused >= most_refused) continue;  // each costs an exception
+    if (refused >= most_refused) continue;  // a column of words, nearly
     const double value = number_in(table, column, row, nullptr);
     if (std::isnan(value)) {
       ++(column.is_number ? empty : refused);
