@@ -30,7 +30,7 @@
     function show() {
       const choose = (each) => { found.family = each.name; study.replace(each.text); show(); inside.querySelector('[aria-pressed="true"]').focus(); };
       inside.replaceChildren(element('p', {class: 'note'}, strings.familiesLead(wearwell.count(found.lives), wearwell.count(found.failures))),
-          element('div', {class: 'papers'}, ...found.families.map((each) => card(each, found, Math.min(360, study.width()), choose))));
+          element('div', {class: 'papers'}, ...found.families.map((each) => card(each, found, study.width() - 26, choose))));
     }
 
     function update() {

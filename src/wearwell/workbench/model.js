@@ -91,7 +91,11 @@
   const study = {text, replace: (next) => replace(next, true), remember, changed,
     asked: () => ({file: place.name.value || 'study.toml', text: text()}),
     isGood: () => place.check.dataset.state === 'good',
-    width: () => Math.min(420, Math.max(260, place.form.clientWidth)),
+    // Of one of the columns of .priors and .papers.
+    width() {
+      const whole = place.form.clientWidth || 600, gap = 18, columns = Math.max(1, Math.floor((whole + gap) / (260 + gap)));
+      return Math.min(420, Math.floor((whole - gap * (columns - 1)) / columns));
+    },
     put(next, values) {
       place.text.value = next;
       for (const {path, value} of values) Object.assign(document.getElementById(`key-${path}`) ?? {}, {value});

@@ -9,7 +9,7 @@
     const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough);
     const found = [];
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push(Number((i * step).toPrecision(12)));
-    return found;
+    return found.length < 2 && most < 12 ? linearTicks(low, high, 2 * most) : found;
   }
 
   function logTicks(low, high, most) {
