@@ -163,7 +163,7 @@ try {
       const complaints = [];
       const page = await open(context, report, complaints);
       complaints.push(...await plotFaults(page));
-      complaints.push(...await boxFaults(page));
+      if (Number(least) > 0) complaints.push(...await boxFaults(page));
       complaints.push(...await tableFaults(page, options.viewport.width >= 1280));
       if (process.env.WEARWELL_SCREENSHOTS) await picture(page, name, view);
       complaints.push(...await accessibilityFaults(page));
