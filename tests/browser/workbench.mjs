@@ -402,6 +402,82 @@ async function inGerman(browser, {name, ...options}) {
   faults.push(...complaints.map((each) => `${name}: ${each}`));
 }
 
+// Priors by their handles: with the mouse and with the keyboard. Fields and text follow, the lives at the end; undo takes a whole drag back.
+async function priors(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  writeFileSync(join(inside, 'pumps.csv'), `hours [h],status\n${hours.map((each, i) => `${each},${i < 11 ? 'failure' : 'running'}\n`).join('')}`);
+  const {address, stop} = await serve(join(inside, 'pumps.csv'));
+  const context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  const asked = {moves: 0, lives: 0};
+  page.on('request', (request) => { asked.moves += request.url().endsWith('/api/prior'); asked.lives += request.url().endsWith('/api/priors'); });
+  await page.click('#step-model');
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await page.fill('#study', (await page.inputValue('#study')).replace(/^characteristic .*$/m, 'characteristic = { distribution = "lognormal", median = "1000 h", log_sd = 0.5 }'));
+  await page.waitForFunction(() => document.getElementById('key-prior.characteristic.median')?.value === '1000 h', null, {timeout: 60000});
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await page.click('#priors summary');
+  await page.waitForSelector('#prior-characteristic-location', {timeout: 60000});
+  const lives = () => page.textContent('#table-implied tbody');
+  const median = () => page.inputValue('[id="key-prior.characteristic.median"]');
+  const written = () => page.evaluate(() => /^characteristic .*median = "([^"]*)".*log_sd = ([0-9.]*)/m.exec(document.getElementById('study').value).slice(1));
+  const before = await lives(), study = await page.inputValue('#study'), asks = {...asked};
+
+  const grip = page.locator('#prior-characteristic-location .grip');
+  await grip.scrollIntoViewIfNeeded();
+  const {x, y, width, height} = await grip.boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  for (let i = 1; i <= 30; ++i) await page.mouse.move(x + width / 2 + i, y + height / 2);
+  await page.waitForFunction(() => document.getElementById('key-prior.characteristic.median').value !== '1000 h', null, {timeout: 60000});
+  await page.mouse.up();
+  await page.waitForFunction((old) => document.querySelector('#table-implied tbody').textContent !== old, before, {timeout: 60000});
+  const moved = await median();
+  check(/^\d+ h$/.test(moved) && parseFloat(moved) > 1050, `${name}: 30 pixels to the right make the median ${moved}`);
+  check((await written()).join() === `${moved},0.5`, `${name}: the field has ${moved}, the text ${await written()}`);
+  check(asked.moves > asks.moves && asked.lives === asks.lives + 1, `${name}: ${asked.moves - asks.moves} moves, lives are computed ${asked.lives - asks.lives} times`);
+
+  await page.focus('#prior-characteristic-spread');
+  const [, spread] = await written();
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('ArrowRight');
+  await page.waitForFunction((old) => !document.getElementById('study').value.includes(`log_sd = ${old} }`), spread, {timeout: 60000});
+  await page.waitForFunction(() => { const at = /log_sd = ([0-9.]*)/.exec(document.getElementById('study').value)[1]; return document.getElementById('key-prior.characteristic.log_sd').value === at; }, null, {timeout: 60000});
+  await page.waitForTimeout(1500);  // no move follows: check and lives come then
+  check(await page.evaluate(() => document.activeElement.id) === 'prior-characteristic-spread', `${name}: the handle loses the focus`);
+  check(/^[0-9].* h$/.test(await page.getAttribute('#prior-characteristic-spread', 'aria-valuetext')), `${name}: the handle has no value in words`);
+  const [middle, wider] = await written();
+  check(middle === moved && Number(wider) > 0.5 && Number(wider) < 0.8, `${name}: three keys make the spread ${wider} and the median ${middle}`);
+  await looks(page, name, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}.png`), fullPage: true});
+  // Keys that follow each other fast are one replacement; a slow machine makes several of them.
+  for (let i = 0; i < 3 && (await written()).join() !== `${moved},0.5`; ++i) await page.click('.editing button.plain >> nth=-1');
+  check((await written()).join() === `${moved},0.5`, `${name}: undo of the keys leaves ${await written()}`);
+  await page.click('.editing button.plain >> nth=-1');
+  check(await page.inputValue('#study') === study, `${name}: undo of the drag leaves ${await written()}`);
+
+  // Families side by side; one is chosen, and undo goes back.
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await page.click('#families summary');
+  await page.waitForSelector('.family[data-family="lognormal"] .fitted', {timeout: 60000});
+  // One whose likelihood has no maximum is last.
+  const order = await page.$$eval('.family', (all) => all.map((each) => Number(each.textContent.match(/AIC[^0-9]*([0-9.]+)/)?.[1] ?? Infinity)));
+  check(order.length === 9 && order.filter(Number.isFinite).length >= 7 && order.every((each, i) => !i || each >= order[i - 1]), `${name}: families are in the order ${order}`);
+  check(await page.getAttribute('.family.own', 'data-family') === 'weibull', `${name}: the family of the study is not marked`);
+  await looks(page, `${name} families`, complaints);
+  await page.locator('#families').screenshot({path: join(screenshots, `workbench-${name}-families.png`)});
+  await page.click('.family[data-family="lognormal"] button');
+  await page.waitForFunction(() => /^family *= *"lognormal"/m.test(document.getElementById('study').value), null, {timeout: 60000});
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  check(await page.getAttribute('.family [aria-pressed="true"] >> nth=0', 'aria-pressed') === 'true' && await page.getAttribute('.family.own', 'data-family') === 'lognormal', `${name}: the chosen family is not marked`);
+  await page.click('.editing button.plain >> nth=-1');
+  check(await page.inputValue('#study') === study, `${name}: undo of the family leaves another study`);
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `${name}: ${each}`));
+}
+
 mkdirSync(screenshots, {recursive: true});
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -416,6 +492,10 @@ for (const each of [
   {name: 'german-wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
   {name: 'german-narrow-light', viewport: {width: 390, height: 844}, colorScheme: 'light'},
 ]) await inGerman(browser, each);
+for (const each of [
+  {name: 'priors-wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
+  {name: 'priors-narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
+]) await priors(browser, each);
 await errors(browser);
 await tabs(browser);
 await readings(browser);

@@ -45,6 +45,14 @@ TEST(Section, TextMayWrapAndNumbersMayNot) {
   const std::string page = page_of({lives(1)});
   EXPECT_THAT(page, HasSubstr("<td class=\"text\">pump</td>"));
   EXPECT_THAT(page, HasSubstr("<td>5.000</td>"));
+  // A name without an end breaks anywhere, a word of a language nowhere.
+  Table table = lives(2);
+  for (auto& row : table.rows)
+    for (auto& cell : row)
+      if (const auto* text = std::get_if<std::string>(&cell); text && *text == "pump")
+        cell = std::string(17, 'p');
+  EXPECT_THAT(page_of({table}),
+              HasSubstr("<td class=\"text long\">" + std::string(17, 'p') + "</td>"));
 }
 
 TEST(Section, ALongTableIsFolded) {

@@ -363,11 +363,78 @@ TEST_F(WorkbenchTest, ShowsWhatThePriorsImplyBeforeAnyData) {
   EXPECT_NEAR((*b10)["q05"], 1000 * share * std::exp(-0.5 * 1.6448536), 1);
   EXPECT_NEAR((*b10)["q95"], 1000 * share * std::exp(0.5 * 1.6448536), 4);
 
+  // A handle that is moved changes the text; the same view follows from it.
+  const json& scale = found["priors"][0];
+  ASSERT_EQ(scale["handles"].size(), 2u) << scale;
+  const json moved = done("/api/prior", {{"text", text},
+                                         {"specification", scale["specification"]},
+                                         {"meaning", scale["meaning"]},
+                                         {"handle", "location"},
+                                         {"at", 1500.4}});
+  EXPECT_EQ(moved["values"],
+            (json::parse(R"([{"path": "prior.characteristic.median", "value": "1500 h"}])")));
+  EXPECT_EQ(done("/api/priors", {{"file", "p.toml"}, {"text", moved["text"]}})["priors"][0],
+            moved["prior"]);
+  EXPECT_EQ(post("/api/prior", {{"text", text}, {"handle", "location"}, {"at", 1}}).status, 400);
+
   put("slope", "slope = { distribution = \"flat\" }");
   const json improper = done("/api/priors", {{"file", "p.toml"}, {"text", text}});
   EXPECT_TRUE(improper["quantities"].empty());
   EXPECT_THAT(improper["obstacle"].get<std::string>(), HasSubstr("slope"));
   EXPECT_EQ(post("/api/priors", {{"text", "model = 1"}}).status, 400);
+}
+
+TEST_F(WorkbenchTest, FamiliesStandSideBySide) {
+  write("pumps.csv", lives());
+  done("/api/open", {{"file", "pumps.csv"}});
+  const std::string text = done("/api/guess", named())["readings"][0]["text"];
+  const json found = done("/api/families", {{"file", "p.toml"}, {"text", text}});
+  EXPECT_EQ(found["family"], "weibull");
+  EXPECT_EQ(found["unit"], "h");
+  EXPECT_EQ(found["lives"], 15);
+  EXPECT_EQ(found["failures"], 11);
+  ASSERT_EQ(found["families"].size(), 9u);
+  double before = -INFINITY;
+  for (const json& each : found["families"]) {
+    const json checked = done("/api/check", {{"file", "p.toml"}, {"text", each["text"]}});
+    EXPECT_FALSE(checked.contains("problem")) << checked;
+    EXPECT_EQ(each["points"].size(), 11u);
+    // A third parameter may leave the likelihood without a maximum.
+    ASSERT_NE(each.contains("aic"), each.contains("problem")) << each;
+    if (!each.contains("aic")) continue;
+    EXPECT_GE(each["aic"].get<double>(), before);
+    before = each["aic"];
+    const double parameters = static_cast<double>(each["parameters"].size());
+    EXPECT_NEAR(each["aic"], 2 * parameters - 2 * each["log_likelihood"].get<double>(), 1e-9);
+    if (each["name"] == "weibull") {
+      EXPECT_EQ(each["text"], text);
+    }
+  }
+  // In hours: the density of a life in seconds is 3600 times smaller.
+  const auto weibull = std::find_if(found["families"].begin(), found["families"].end(),
+                                    [](const json& each) { return each["name"] == "weibull"; });
+  const double scale = (*weibull)["parameters"][0]["value"],
+               shape = (*weibull)["parameters"][1]["value"];
+  double log_likelihood = 0;
+  for (const double x :
+       {212.5, 305.5, 371.5, 418.5, 466.5, 509.5, 540.5, 588.5, 633.5, 702.5, 749.5})
+    log_likelihood +=
+        std::log(shape / scale) + (shape - 1) * std::log(x / scale) - std::pow(x / scale, shape);
+  log_likelihood -= 4 * std::pow(800 / scale, shape);
+  EXPECT_NEAR((*weibull)["log_likelihood"], log_likelihood, 1e-6);
+
+  write("two.csv", "hours [h],temperature [degC]\n100,20\n200,20\n300,40\n400,40\n");
+  const std::string conditions =
+      "model = \"formula\"\n[data]\nfile = \"two.csv\"\n[data.columns]\nlife = { column = "
+      "\"hours\", unit = "
+      "\"h\" }\ntemperature = { column = \"temperature\", unit = \"degC\" "
+      "}\n[likelihood.life]\nfamily = "
+      "\"weibull\"\nscale = \"a * temperature / (300 K)\"\nshape = 2\n[prior]\na = { distribution "
+      "= "
+      "\"lognormal\", median = \"100 h\", log_sd = 1 }\n";
+  const HttpReply refused = post("/api/families", {{"file", "c.toml"}, {"text", conditions}});
+  EXPECT_EQ(refused.status, 400) << refused.body;
+  EXPECT_THAT(refused.body, HasSubstr("conditions"));
 }
 
 TEST_F(WorkbenchTest, ColoursPointsByALabelAndMarksRunOuts) {

@@ -11,6 +11,7 @@
 #include "wearwell/input/cell_text.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/number_text.h"
+#include "wearwell/input/readable_cell.h"
 
 namespace wearwell {
 
@@ -73,11 +74,11 @@ double c_number(std::string_view text) {
 
 }  // namespace
 
-CellValue cell_value(const Table& table, const Column& column, std::size_t index) {
-  if (!column.doubt.empty()) throw InputError(fmt::format("{}, {}", table.source, column.doubt));
-  if (column.is_number) return {column.numbers[index]};
+std::optional<CellValue> readable_cell(const Table&, const Column& column, std::size_t index) {
+  if (!column.doubt.empty()) return {};
+  if (column.is_number) return CellValue{column.numbers[index]};
   const std::string& text = column.text[index];
-  if (is_blank(text) || is_missing_mark(text)) return {};
+  if (is_blank(text) || is_missing_mark(text)) return CellValue();
   const auto found = cell_text(text);
   CellValue value;
   if (found) value.sign = found->sign;
@@ -88,16 +89,22 @@ CellValue cell_value(const Table& table, const Column& column, std::size_t index
   const std::string_view number = found ? found->number : std::string_view(text);
   if (column.marks) {
     const auto plain = wearwell::plain_number(number, *column.marks);
-    if (!plain) refuse_cell(table, column, index);
+    if (!plain) return {};
     value.number = c_number(*plain);
     return value;
   }
   const bool foreign_unit = found && !found->unit.empty();  // the table has no such unit
   const auto [rest, failure] =
       std::from_chars(number.data(), number.data() + number.size(), value.number);
-  if (failure != std::errc{} || rest != number.data() + number.size() || foreign_unit)
-    refuse_cell(table, column, index);
+  if (failure != std::errc{} || rest != number.data() + number.size() || foreign_unit) return {};
   return value;
+}
+
+CellValue cell_value(const Table& table, const Column& column, std::size_t index) {
+  if (!column.doubt.empty()) throw InputError(fmt::format("{}, {}", table.source, column.doubt));
+  const auto value = readable_cell(table, column, index);
+  if (!value) refuse_cell(table, column, index);
+  return *value;
 }
 
 double cell_number(const Table& table, const Column& column, std::size_t index) {

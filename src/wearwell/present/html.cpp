@@ -46,6 +46,19 @@ std::string cell(const std::string& text) {
                      escape(text.substr(line + 1)));
 }
 
+// Words of a language fit into a column; names of files may have no end.
+bool has_long_word(std::string_view text) {
+  constexpr std::size_t longest = 16;
+  std::size_t letters = 0;
+  for (const char each : text) {
+    const bool ends = each == ' ' || each == '\n' || each == '-';
+    const bool follows = (static_cast<unsigned char>(each) & 0xc0) == 0x80;  // in UTF-8
+    letters = ends ? 0 : letters + (follows ? 0 : 1);
+    if (letters > longest) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string escape(const std::string& text) {
@@ -127,24 +140,27 @@ std::string table(const Table& table) {
       "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">\n"
       "<table{1}><caption>{0}</caption>\n<thead><tr>",
       escape(table.caption), table.words ? " class=\"words\"" : "");
-  const auto kind = [&](std::size_t column) {
-    return column < table.text.size() && table.text[column] ? " class=\"text\"" : "";
+  const auto kind = [&](std::size_t column, std::string_view text) {
+    const bool is_text = column < table.text.size() && table.text[column];
+    return !is_text ? "" : has_long_word(text) ? " class=\"text long\"" : " class=\"text\"";
   };
   for (std::size_t c = 0; c < table.heading.size(); ++c) {
-    out += fmt::format("<th scope=\"col\"{}>{}</th>", kind(c), named(table.heading[c]));
+    out += fmt::format("<th scope=\"col\"{}>{}</th>", kind(c, table.heading[c]),
+                       named(table.heading[c]));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     out += "<tr>";
     for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
-      const std::string text = cell(table.rows[r][c]);
+      const std::string& given = table.rows[r][c];
+      const std::string text = cell(given);
       if (c == 0) {
-        out += fmt::format("<th scope=\"row\"{}>{}</th>", kind(c), text);
+        out += fmt::format("<th scope=\"row\"{}>{}</th>", kind(c, given), text);
       } else if (c == 1 && r < table.badges.size()) {
         out += fmt::format("<td><span class=\"badge {}\">{}</span></td>", escape(table.badges[r]),
                            text);
       } else {
-        out += fmt::format("<td{}>{}</td>", kind(c), text);
+        out += fmt::format("<td{}>{}</td>", kind(c, given), text);
       }
     }
     out += "</tr>\n";

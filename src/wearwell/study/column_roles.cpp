@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 
 #include "wearwell/base/error.h"
@@ -16,6 +16,7 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/study/column_values.h"
 #include "wearwell/study/heading_words.h"
+#include "wearwell/study/table_scope.h"
 
 // Longer than others: one pass over the columns, each role with its questions and its reasons.
 namespace wearwell {
@@ -61,17 +62,12 @@ bool has_cell(const Table& table, const Column& column) {
 
 // Whether a present value is as asked; the first one decides, as tables can have millions of rows.
 bool has_value(const Table& table, const Column& column, const std::function<bool(double)>& is) {
-  std::unordered_set<std::string_view> words;  // a refusal is slow: see numbers_of
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    if (!column.is_number && words.contains(column.text[row])) continue;
-    try {
-      const double value = cell_number(table, column, row);
-      if (std::isfinite(value) && is(value)) return true;
-    } catch (const InputError&) {
-      words.insert(column.text[row]);
-    }
-  }
-  return false;
+  if (!column.doubt.empty()) return false;
+  const std::shared_ptr<const std::vector<double>> read =
+      column.is_number ? nullptr : shared_numbers(table, column);
+  const std::vector<double>& values = column.is_number ? column.numbers : *read;
+  return std::any_of(values.begin(), values.end(),
+                     [&](double value) { return std::isfinite(value) && is(value); });
 }
 
 // Whether a heading has a small m where M would be a million: "mcycles" may mean millions, or not.

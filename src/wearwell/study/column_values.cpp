@@ -2,32 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <string_view>
-#include <unordered_set>
 
-#include "wearwell/base/error.h"
-#include "wearwell/input/columns.h"
+#include "wearwell/study/table_scope.h"
 
 namespace wearwell {
 
 std::vector<double> numbers_of(const Table& table, const Column& column) {
-  std::vector<double> numbers;
-  numbers.reserve(table.rows);
-  // A refusal takes a thousand times as long as a number: that of each word is remembered.
-  std::unordered_set<std::string_view> words;
-  for (std::size_t i = 0; i < table.rows; ++i) {
-    double value = NAN;
-    if (column.is_number || !words.contains(column.text[i])) {
-      try {
-        value = cell_number(table, column, i);
-      } catch (const InputError&) {
-        words.insert(column.text[i]);
-      }
-    }
-    numbers.push_back(value);
-  }
-  return numbers;
+  return *shared_numbers(table, column);
 }
 
 std::vector<double> values_of(const Table& table, const Column& column) {
@@ -37,13 +18,7 @@ std::vector<double> values_of(const Table& table, const Column& column) {
 }
 
 std::vector<std::string> kinds_of(const Table& table, const Column& column) {
-  std::vector<std::string> kinds;
-  std::set<std::string> seen;
-  for (std::size_t i = 0; i < table.rows; ++i) {
-    const std::string word = cell_word(column, i);
-    if (!word.empty() && seen.insert(word).second) kinds.push_back(word);
-  }
-  return kinds;
+  return *shared_kinds(table, column);
 }
 
 bool has_open_ends(const Column& column) {

@@ -7,12 +7,14 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/study/role_words.h"
+#include "wearwell/study/table_scope.h"
 
 namespace wearwell {
 
 std::vector<GuessedStudy> guessed_studies(
     Models models, const Table& table, const std::string& file, const TableChoices& choices,
     const std::string& preset, const std::vector<std::pair<std::string, StudyGuess>>& more) {
+  const TableScope once(table);
   std::vector<GuessedStudy> found;
   const auto add = [&](std::string_view name, StudyGuess guess) {
     if (!guess || (!preset.empty() && name != preset)) return;

@@ -17,26 +17,6 @@ namespace {
 constexpr double shown_tail = 0.005, wide = 100;
 constexpr int curve_points = 120;
 
-PriorPicture picture_of(const Parameter& parameter, const std::string& meaning) {
-  PriorPicture picture{parameter.name, meaning, parameter.unit.text, parameter.prior.proper};
-  if (!picture.proper) return picture;
-  const auto at = [&](double p) { return quantile(parameter.prior, p); };
-  picture.q05 = from_si(parameter.unit, at(0.05));
-  picture.q50 = from_si(parameter.unit, at(0.5));
-  picture.q95 = from_si(parameter.unit, at(0.95));
-  const double low = at(shown_tail), high = at(1 - shown_tail);
-  picture.log = low > 0 && parameter.unit.offset == 0 && high > wide * low;
-  for (int i = 0; i <= curve_points; ++i) {
-    const double share = static_cast<double>(i) / curve_points;
-    const double si = picture.log ? low * std::pow(high / low, share) : std::lerp(low, high, share);
-    const bool inside = parameter.prior.lower <= si && si <= parameter.prior.upper;
-    const double density = inside ? std::exp(log_density(parameter.prior, si).value) : 0;
-    picture.curve.x.push_back(from_si(parameter.unit, si));
-    picture.curve.y.push_back(density * (picture.log ? si : parameter.unit.scale));
-  }
-  return picture;
-}
-
 // One stratum of probability for each draw and parameter.
 WeightedDraws draws_of(const std::vector<Parameter>& parameters) {
   WeightedDraws draws;
@@ -58,13 +38,33 @@ WeightedDraws draws_of(const std::vector<Parameter>& parameters) {
 
 }  // namespace
 
+PriorPicture prior_picture(const Parameter& parameter, const std::string& meaning) {
+  PriorPicture picture{parameter.name, meaning, parameter.unit.text, parameter.prior.proper};
+  if (!picture.proper) return picture;
+  const auto at = [&](double p) { return quantile(parameter.prior, p); };
+  picture.q05 = from_si(parameter.unit, at(0.05));
+  picture.q50 = from_si(parameter.unit, at(0.5));
+  picture.q95 = from_si(parameter.unit, at(0.95));
+  const double low = at(shown_tail), high = at(1 - shown_tail);
+  picture.log = low > 0 && parameter.unit.offset == 0 && high > wide * low;
+  for (int i = 0; i <= curve_points; ++i) {
+    const double share = static_cast<double>(i) / curve_points;
+    const double si = picture.log ? low * std::pow(high / low, share) : std::lerp(low, high, share);
+    const bool inside = parameter.prior.lower <= si && si <= parameter.prior.upper;
+    const double density = inside ? std::exp(log_density(parameter.prior, si).value) : 0;
+    picture.curve.x.push_back(from_si(parameter.unit, si));
+    picture.curve.y.push_back(density * (picture.log ? si : parameter.unit.scale));
+  }
+  return picture;
+}
+
 PriorView prior_view(const PosteriorStudy& study) {
   PriorView view;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const Parameter& each = study.parameters[i];
     if (each.of_model) continue;
     view.priors.push_back(
-        picture_of(each, i < study.meanings.size() ? study.meanings[i] : std::string()));
+        prior_picture(each, i < study.meanings.size() ? study.meanings[i] : std::string()));
     if (!each.prior.proper && view.obstacle.empty())
       view.obstacle = fmt::format(
           "The prior of {} is improper: before any data it implies no life.", each.name);

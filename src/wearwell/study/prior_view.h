@@ -26,6 +26,7 @@ struct PriorView {
   std::string obstacle;  ///< why there are no quantities, as a sentence
 };
 inline constexpr int prior_draws = 1000;
+PriorPicture prior_picture(const Parameter& parameter, const std::string& meaning);
 PriorView prior_view(const PosteriorStudy& study);
 
 }  // namespace wearwell

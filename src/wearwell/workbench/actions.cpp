@@ -16,6 +16,7 @@
 #include "wearwell/input/text_file.h"
 #include "wearwell/input/workbook.h"
 #include "wearwell/workbench/comparison_view.h"
+#include "wearwell/workbench/families_view.h"
 #include "wearwell/workbench/fit_run.h"
 #include "wearwell/workbench/folder_files.h"
 #include "wearwell/workbench/guess_view.h"
@@ -160,6 +161,15 @@ Json check_action(Session& session, const json& wish) {
 Json priors_action(Session& session, const json& wish) {
   return priors_json(path_in(session.folder, wish.value("file", "study.toml")),
                      text_of_wish(wish, "text"), session.models);
+}
+
+Json move_prior_action(Session&, const json& wish) {
+  return moved_prior_json(text_of_wish(wish, "text"), wish);
+}
+
+Json families_action(Session& session, const json& wish) {
+  return families_json(path_in(session.folder, wish.value("file", "study.toml")),
+                       text_of_wish(wish, "text"));
 }
 
 Json set_action(Session&, const json& wish) {
@@ -380,12 +390,13 @@ Look look_of(std::string_view path) {
 
 Action action_of(std::string_view path) {
   static constexpr std::pair<std::string_view, Action> actions[] = {
-      {"/api/open", open_file},       {"/api/table", table_action},
-      {"/api/guess", guess_action},   {"/api/check", check_action},
-      {"/api/set", set_action},       {"/api/save", save_action},
-      {"/api/fit", fit_action},       {"/api/stop", stop_action},
-      {"/api/life", life_action},     {"/api/priors", priors_action},
-      {"/api/decide", decide_action}, {"/api/compare", compare_action}};
+      {"/api/open", open_file},          {"/api/table", table_action},
+      {"/api/guess", guess_action},      {"/api/check", check_action},
+      {"/api/set", set_action},          {"/api/save", save_action},
+      {"/api/fit", fit_action},          {"/api/stop", stop_action},
+      {"/api/life", life_action},        {"/api/priors", priors_action},
+      {"/api/decide", decide_action},    {"/api/compare", compare_action},
+      {"/api/prior", move_prior_action}, {"/api/families", families_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;
   return nullptr;

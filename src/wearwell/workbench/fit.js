@@ -51,7 +51,7 @@
     const frame = element('iframe', {title: strings.report, sandbox: 'allow-scripts allow-downloads allow-popups'});
     const details = element('details', {}, element('summary', {}, strings.report), frame);
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
-    place.result.replaceChildren(element('h3', {}, found.title),
+    place.result.replaceChildren(element('h3', {lang: 'en'}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
         ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks),
         element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),

@@ -26,9 +26,9 @@
 
   function remember() { replaced.push({text: text(), name: place.name.value, saved, savedName}); }
 
-  function replace(next) {
+  function replace(next, isValue = false) {
     if (next === text()) return;
-    if (text() && (text() !== generated || saved !== null)) remember();
+    if (text() && (isValue || text() !== generated || saved !== null)) remember();
     place.text.value = next;
     changed();
   }
@@ -82,20 +82,25 @@
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0, lang: 'en'}, found.description))]));
     form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
-    if (place.priors.open) priors();
+    for (const each of place.parts) each.update();
     if (table === null && saved !== null) openItsTable();
     compare();
   }
 
-  // Of a study that can be fitted; the last text that is asked for is shown.
-  function priors() {
-    const asked = text();
-    if (place.check.dataset.state !== 'good') { place.implied.replaceChildren(element('p', {class: 'note'}, strings.checkBad)); return; }
-    wearwell.quietly(async () => {
-      const parts = await wearwell.priors({file: place.name.value || 'study.toml', text: asked}, Math.min(420, Math.max(260, place.form.clientWidth)));
-      if (asked === text()) place.implied.replaceChildren(...parts);
-    });
-  }
+  // The study, for the parts below the form: what they ask of it and how they change it.
+  const study = {text, replace: (next) => replace(next, true), remember, changed,
+    asked: () => ({file: place.name.value || 'study.toml', text: text()}),
+    isGood: () => place.check.dataset.state === 'good',
+    // Of one of the columns of .priors and .papers.
+    width() {
+      const whole = place.form.clientWidth || 600, gap = 18, columns = Math.max(1, Math.floor((whole + gap) / (260 + gap)));
+      return Math.min(420, Math.floor((whole - gap * (columns - 1)) / columns));
+    },
+    put(next, values) {
+      place.text.value = next;
+      for (const {path, value} of values) Object.assign(document.getElementById(`key-${path}`) ?? {}, {value});
+      marks();
+    }};
 
   const valueOf = (path) => keys.find((each) => each.path === path)?.value;
   const itsTable = () => valueOf('data.file')?.replace(/^\.\//, '');
@@ -160,7 +165,7 @@
             const before = text();
             try {
               const {text: next} = await wearwell.post('/api/set', {text: before, path: key.path, value: event.target.value});
-              if (text() === before) replace(next);
+              if (text() === before) replace(next, true);
             } catch (error) {
               event.target.value = key.value;
               throw error;
@@ -291,9 +296,7 @@
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
         wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
     place.form = element('div', {class: 'form'});
-    place.implied = element('div', {'aria-live': 'polite'});
-    place.priors = element('details', {id: 'priors'}, element('summary', {}, strings.priorsTitle), place.implied);
-    place.priors.addEventListener('toggle', () => { if (place.priors.open) priors(); });
+    place.parts = [wearwell.priors(study), wearwell.families(study)];
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
     place.text.addEventListener('input', changed);
@@ -306,7 +309,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, place.priors),
+        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));

@@ -19,6 +19,7 @@ ServedPage workbench_page() {
                       {of::workbench_scatter_js(), of::workbench_scatter_js_sha256()},
                       {of::workbench_data_js(), of::workbench_data_js_sha256()},
                       {of::workbench_priors_js(), of::workbench_priors_js_sha256()},
+                      {of::workbench_families_js(), of::workbench_families_js_sha256()},
                       {of::workbench_model_js(), of::workbench_model_js_sha256()},
                       {of::workbench_fit_js(), of::workbench_fit_js_sha256()},
                       {of::workbench_compare_js(), of::workbench_compare_js_sha256()},

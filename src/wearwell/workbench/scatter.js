@@ -9,7 +9,7 @@
     const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough);
     const found = [];
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push(Number((i * step).toPrecision(12)));
-    return found;
+    return found.length < 2 && most < 12 ? linearTicks(low, high, 2 * most) : found;
   }
 
   function logTicks(low, high, most) {
@@ -25,24 +25,29 @@
     return found;
   }
 
-  // {name, log, values} -> {place: value -> 0 to 1, ticks: [{at, text}]}
-  function axisOf({log, values}, most) {
+  // {name, log, values, ticks: their own, if any} -> {place: value -> 0 to 1, value: its inverse, ticks: [{at, text}]}
+  function axisOf({log, values, ticks: given}, most) {
     const scaled = (value) => (log ? Math.log10(value) : value);
     let low = Infinity, high = -Infinity;
     for (const each of values) { const at = scaled(each); low = Math.min(low, at); high = Math.max(high, at); }
     if (!(low <= high)) [low, high] = [0, 1];
     const room = high > low ? 0.04 * (high - low) : Math.abs(low) || 1;
     [low, high] = [low - room, high + room];
+    const part = (at) => (at - low) / (high - low);
+    if (given) return {place: (value) => part(scaled(value)), ticks: given.map(({at, text}) => ({part: part(at), text})).filter((each) => each.part >= 0 && each.part <= 1)};
     const ticks = log ? logTicks(low, high, most) : linearTicks(low, high, most);
     return {
-      place: (value) => (scaled(value) - low) / (high - low),
-      ticks: ticks.map((at) => ({part: (at - low) / (high - low), text: wearwell.given(log ? Number((10 ** at).toPrecision(6)) : at)})),
+      place: (value) => part(scaled(value)),
+      value: (part) => (log ? 10 ** (low + part * (high - low)) : low + part * (high - low)),
+      ticks: ticks.map((at) => ({part: part(at), text: wearwell.given(log ? Number((10 ** at).toPrecision(6)) : at)})),
     };
   }
 
   // Dots are lines without length, with round ends; a run-out is an arrow: its life would have been longer.
   const dots = (places) => places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
   const arrows = (places, up) => places.map(([a, b]) => (up ? `M${a.toFixed(1)} ${(b + 4).toFixed(1)}v-12m-4 5l4 -5l4 5` : `M${(a - 4).toFixed(1)} ${b.toFixed(1)}h12m-5 -4l5 4l-5 4`)).join('');
+
+  const curve = (places) => `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`;
 
   // One path for each label, and a legend of them.
   function marks(plot, places) {
@@ -57,17 +62,18 @@
     return {paths, legend};
   }
 
-  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log}, line, lifeUp, bare (a small picture without the axis up), description,
-  // read: (point) -> text, hint}
+  // {points: [[x, y, row, label]], labels: [{text, runout}], others, x: {name, log}, y: {name, log, ticks}, line, curve (a line over the points), lifeUp, bare (a small picture without the axis up), movable (it will
+  // have handles), description, read: (point) -> text, hint}. The figure has `plane`: where things stand, for what is drawn over it.
   wearwell.scatter = (plot, width) => {
     const height = plot.bare ? 140 : Math.min(360, Math.max(240, Math.round(width * 0.55)));
     const box = {left: plot.bare ? margin.right : margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom};
-    const across = axisOf({...plot.x, values: plot.points.map((each) => each[0])}, Math.max(3, Math.floor((box.right - box.left) / 80)));
-    const up = axisOf({...plot.y, values: plot.points.map((each) => each[1])}, 5);
+    const all = [...plot.points, ...(plot.curve ?? [])];
+    const across = axisOf({...plot.x, values: all.map((each) => each[0])}, Math.max(3, Math.floor((box.right - box.left) / 80)));
+    const up = axisOf({...plot.y, values: all.map((each) => each[1])}, 5);
     if (plot.bare) up.ticks = [];
     const x = (value) => box.left + across.place(value) * (box.right - box.left);
     const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);
-    const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', 'aria-label': plot.description, class: 'plot'});
+    const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: plot.movable ? 'group' : 'img', 'aria-label': plot.description, class: 'plot'});
     for (const {part, text} of across.ticks) {
       const at = box.left + part * (box.right - box.left);
       svg.append(element('line', {class: 'grid', x1: at, x2: at, y1: box.top, y2: box.bottom}),
@@ -79,13 +85,15 @@
                  element('text', {x: box.left - 8, y: at + 4, 'text-anchor': 'end'}, text));
     }
     const places = plot.points.map(([a, b]) => [x(a), y(b)]);
-    const {paths, legend} = plot.line ? {paths: [element('path', {class: 'curve', d: `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`})], legend: null} : marks(plot, places);
+    const {paths, legend} = plot.line ? {paths: [element('path', {class: 'curve', d: curve(places)})], legend: null} : marks(plot, places);
     if (places.length) svg.append(...paths);
+    if (plot.curve?.length) svg.append(element('path', {class: 'fitted', d: curve(plot.curve.map(([a, b]) => [x(a), y(b)]))}));
     svg.append(element('text', {class: 'name', x: (box.left + box.right) / 2, y: height - 6, 'text-anchor': 'middle'}, plot.x.name));
     const readout = element('p', {class: 'readout'}, plot.hint);
     const mark = element('circle', {class: 'mark', r: 6, visibility: 'hidden'});
     svg.append(mark);
     svg.addEventListener('pointermove', (event) => {
+      if (event.buttons) return;
       const frame = svg.getBoundingClientRect(), ratio = width / frame.width;
       const [a, b] = [(event.clientX - frame.left) * ratio, (event.clientY - frame.top) * ratio];
       let best = -1, least = Infinity;
@@ -97,6 +105,7 @@
       readout.textContent = plot.read(plot.points[best]);
     });
     svg.addEventListener('pointerleave', () => { mark.setAttribute('visibility', 'hidden'); readout.textContent = plot.hint; });
-    return element('figure', {}, element('figcaption', {}, plot.y.name), svg, legend, readout);
+    const figure = element('figure', {}, element('figcaption', {}, plot.y.name), svg, legend, readout);
+    return Object.assign(figure, {plane: {svg, box, readout, across, log: plot.x.log}});
   };
 })();

@@ -43,7 +43,13 @@ wearwell.languages.de = {
   undo: 'Letzte Ersetzung zurücknehmen', checkGood: 'Die Studie kann angepasst werden', checkBad: 'Die Studie kann noch nicht angepasst werden', goTo: (line) => `Zu Zeile ${line}`,
   description: 'Was angepasst wird',
 
-  priorsTitle: 'A-priori-Verteilungen als Kurven, und was sie vor allen Daten bedeuten', improper: 'keine Dichte (uneigentlich)', implied: 'Vor allen Daten: 5 bis 95 % der Ziehungen aus den A-priori-Verteilungen',
+  priorsTitle: 'A-priori-Verteilungen als Kurven, und was sie vor allen Daten bedeuten', dragHint: 'Ziehen Sie an einem Griff, oder wählen Sie ihn aus und drücken Sie die Pfeiltasten. Werte, Studie und Lebensdauern folgen.',
+  handles: {location: 'Median', spread: '95-%-Quantil', lower: 'untere Grenze', upper: 'obere Grenze'},
+  improper: 'keine Dichte (uneigentlich)', implied: 'Vor allen Daten: 5 bis 95 % der Ziehungen aus den A-priori-Verteilungen',
+  familiesTitle: 'Verteilungsfamilien im Wahrscheinlichkeitsnetz',
+  familiesLead: (lives, failures) => `Jede Familie ist an ${lives} Lebensdauern (${failures} Ausfälle) nach Maximum-Likelihood angepasst, ohne A-priori-Verteilungen. Zwischen Familien, deren AIC sich um weniger als etwa 2 unterscheidet, entscheiden die Daten nicht.`,
+  paperOf: (paper) => `Anteil ausgefallen, Netz: ${paper}`, paperDescription: (family, paper) => `Lebensdauern und die angepasste Verteilung ${family} im Wahrscheinlichkeitsnetz ${paper}`,
+  aic: (value, behind) => `AIC: ${value} (+${behind})`, logLikelihood: (value) => `Log-Likelihood ${value}`, noMaximum: 'kein Maximum der Likelihood', chooseFamily: (family) => `${family} wählen`,
   quantity: 'Größe', unit: 'Einheit', never: 'nie', priorRange: (low, high, middle, unit) => `${low} bis ${high} (90 %), Median ${middle} ${unit}`,
 
   fitTitle: 'Anpassung', fit: 'Speichern und anpassen', stop: 'Abbrechen', noStudy: 'Es gibt noch keine Studie: Öffnen Sie eine Tabelle und wählen Sie, wie sie gelesen wird.',

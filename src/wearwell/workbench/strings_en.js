@@ -44,7 +44,13 @@ wearwell.languages.en = {
   undo: 'Undo last replacement', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
   description: 'What will be fitted',
 
-  priorsTitle: 'Priors as curves, and what they imply before any data', improper: 'no density (improper)', implied: 'Before any data, 5 to 95 % of the draws of the priors',
+  priorsTitle: 'Priors as curves, and what they imply before any data', dragHint: 'Drag a handle, or focus it and press the arrow keys. Values, study and lives follow.',
+  handles: {location: 'median', spread: '95 % quantile', lower: 'lower bound', upper: 'upper bound'},
+  improper: 'no density (improper)', implied: 'Before any data, 5 to 95 % of the draws of the priors',
+  familiesTitle: 'Families of distributions on probability paper',
+  familiesLead: (lives, failures) => `Each family is fitted to ${lives} lives (${failures} failures) by maximum likelihood, without priors. Of families whose AIC differs by less than about 2 the data prefer none.`,
+  paperOf: (paper) => `share failed, ${paper} paper`, paperDescription: (family, paper) => `Lives and the fitted ${family} distribution on ${paper} probability paper`,
+  aic: (value, behind) => `AIC ${value} (+${behind})`, logLikelihood: (value) => `log-likelihood ${value}`, noMaximum: 'no maximum of the likelihood', chooseFamily: (family) => `Choose ${family}`,
   quantity: 'Quantity', unit: 'Unit', never: 'never', priorRange: (low, high, middle, unit) => `${low} to ${high} (90 %), median ${middle} ${unit}`,
 
   fitTitle: 'Fit', fit: 'Save and fit', stop: 'Stop', noStudy: 'There is no study yet: open a table and choose how to read it.',

@@ -89,6 +89,12 @@ bool is_quoted(std::string_view text, const Place& place) {
   return place.begin < text.size() && (text[place.begin] == '"' || text[place.begin] == '\'');
 }
 
+// A text without its quotes, anything else as it is written.
+std::string shown_value(const std::string& text, const TomlReader::Present& key) {
+  const Place place = place_of(text, key);
+  return is_quoted(text, place) ? key.text : text.substr(place.begin, place.end - place.begin);
+}
+
 // A text in quotes; over several lines if it has them and the marks that stand there allow it.
 std::string quoted_value(const std::string& mark, const std::string& value) {
   const bool is_long = mark == "'''" || mark == "\"\"\"";
@@ -128,13 +134,10 @@ ordered_json form_json(const TomlReader& root, const std::string& text, Models m
   ordered_json keys = ordered_json::array();
   for (const TomlReader::Present& each : root.present()) {
     if (each.is_table) continue;
-    const Place place = place_of(text, each);
-    const bool quoted = is_quoted(text, place);
-    ordered_json key = {
-        {"path", printable(each.path)},
-        {"value", quoted ? each.text : text.substr(place.begin, place.end - place.begin)},
-        {"text", quoted},
-        {"line", each.line}};
+    ordered_json key = {{"path", printable(each.path)},
+                        {"value", shown_value(text, each)},
+                        {"text", is_quoted(text, place_of(text, each))},
+                        {"line", each.line}};
     const auto found = std::find_if(known.begin(), known.end(), [&](const StudyKey& one) {
       return matches_key(one.path, each.path);
     });
@@ -180,6 +183,12 @@ ordered_json checked_study(const std::filesystem::path& file, const std::string&
     add_position(message, file.filename().string(), json);
   }
   return json;
+}
+
+std::string value_of(const std::string& text, const std::string& path) {
+  for (const TomlReader::Present& each : TomlReader::parse({"the study", text}).present())
+    if (!each.is_table && printable(each.path) == path) return shown_value(text, each);
+  throw InputError(fmt::format("the study has no key {}", printable(shortened(path))));
 }
 
 std::string with_value(const std::string& text, const std::string& path, const std::string& value) {

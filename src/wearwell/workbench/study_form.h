@@ -15,6 +15,9 @@ namespace wearwell::workbench {
 nlohmann::ordered_json checked_study(const std::filesystem::path& file, const std::string& text,
                                      Models models);
 
+/// The value of a key as the form shows it. Throws InputError if the study has no such key.
+std::string value_of(const std::string& text, const std::string& path);
+
 /// The text with another value of a key, everything else as it was. `value` is TOML; of a key whose
 /// value is a text it is the text itself. Throws InputError if the study has no such key, or if the
 /// value changes other keys.

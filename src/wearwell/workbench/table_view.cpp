@@ -3,17 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <map>
+#include <numeric>
 #include <set>
-#include <tuple>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/input/readable_cell.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/status_words.h"
 #include "wearwell/prognosis/unit_table.h"
@@ -28,16 +32,22 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t looked_at = 200, most_refused = 1000;
 
+std::string refusal_of(const Table& table, const Column& column, std::size_t row) {
+  try {
+    static_cast<void>(cell_value(table, column, row));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 // NaN where the cell is empty or refused; `refusal` says why.
 double number_in(const Table& table, const Column& column, std::size_t row, std::string* refusal) {
   if (column.is_number) return column.numbers[row];
   if (column.text[row].empty()) return std::numeric_limits<double>::quiet_NaN();
-  try {
-    return cell_value(table, column, row).number;
-  } catch (const InputError& error) {
-    if (refusal) *refusal = error.what();
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (const auto cell = readable_cell(table, column, row)) return cell->number;
+  if (refusal) *refusal = refusal_of(table, column, row);
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 // Whether a column of text is one of numbers in which some cells are not.
@@ -68,7 +78,7 @@ ordered_json column_json(const Table& table, const Column& column) {
       continue;
     }
     if (!column.is_number && !mostly) continue;
-    if (refused >= most_refused) continue;  // each costs an exception
+    if (refused >= most_refused) continue;  // a column of words, nearly
     const double value = number_in(table, column, row, nullptr);
     if (std::isnan(value)) {
       ++(column.is_number ? empty : refused);
@@ -99,26 +109,60 @@ struct Labels {
   std::vector<std::size_t> of_row;  // empty without a column
 };
 
+// The index of each row's value among the different ones, in the order of their first rows.
+struct Different {
+  std::vector<std::size_t> of_row, first_row, count;
+
+  template <class Value, class At>
+  void read(std::size_t rows, const At& value_at) {
+    std::unordered_map<Value, std::size_t> index;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto [found, is_new] = index.try_emplace(value_at(row), first_row.size());
+      if (is_new) {
+        first_row.push_back(row);
+        count.push_back(0);
+      }
+      ++count[found->second];
+      of_row.push_back(found->second);
+    }
+  }
+};
+
+Different different_in(const Table& table, const Column& column) {
+  Different found;
+  // An empty cell is a value of its own: NaN is not equal to itself.
+  if (column.is_number)
+    found.read<std::uint64_t>(table.rows, [&](std::size_t row) {
+      const double x = column.numbers[row];
+      return std::bit_cast<std::uint64_t>(std::isnan(x) ? std::nan("") : x == 0 ? 0.0 : x);
+    });
+  else
+    found.read<std::string_view>(
+        table.rows, [&](std::size_t row) { return std::string_view(column.text[row]); });
+  return found;
+}
+
 Labels labels_in(const Table& table, const Column* column) {
   constexpr std::size_t most = 8;
   Labels labels;
   if (!column) return labels;
-  std::map<std::string, std::size_t> count;
-  for (std::size_t row = 0; row < table.rows; ++row) ++count[prognosis::cell_text(column, row)];
-  std::vector<std::pair<std::string, std::size_t>> by_count(count.begin(), count.end());
-  std::stable_sort(by_count.begin(), by_count.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  if (by_count.size() > most) by_count.resize(most);
-  std::sort(by_count.begin(), by_count.end());
-  std::map<std::string, std::size_t> index;
-  for (const auto& [name, _] : by_count) {
-    index[name] = labels.names.size();
+  const Different different = different_in(table, *column);
+  std::vector<std::size_t> chosen(different.count.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
+    return different.count[a] > different.count[b];
+  });
+  if (chosen.size() > most) chosen.resize(most);
+  std::vector<std::pair<std::string, std::size_t>> named;
+  for (const std::size_t each : chosen)
+    named.emplace_back(prognosis::cell_text(column, different.first_row[each]), each);
+  std::sort(named.begin(), named.end());
+  std::vector<std::size_t> label(different.count.size(), named.size());
+  for (const auto& [name, each] : named) {
+    label[each] = labels.names.size();
     labels.names.push_back(name);
   }
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    const auto found = index.find(prognosis::cell_text(column, row));
-    labels.of_row.push_back(found == index.end() ? labels.names.size() : found->second);
-  }
+  for (const std::size_t each : different.of_row) labels.of_row.push_back(label[each]);
   return labels;
 }
 
@@ -205,7 +249,7 @@ ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t coun
 
 ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis& y,
                        std::optional<std::size_t> by) {
-  constexpr double across = 160, up = 90;
+  constexpr std::size_t across = 160, up = 90;
   const Table& table = open.table;
   const PlotAxis* const axes[] = {&x, &y};
   std::vector<double> values[2];
@@ -237,16 +281,21 @@ ordered_json plot_json(const OpenTable& open, const PlotAxis& x, const PlotAxis&
       }
     }
   }
-  const auto cell = [&](int a, std::size_t row, double cells) {
-    const double width = high[a] - low[a];
-    return width > 0 ? std::floor((placed(a, row) - low[a]) / width * cells) : 0;
+  const auto cell = [&](int a, std::size_t row, std::size_t cells) {
+    // Halves, so that the width is finite.
+    const double width = 0.5 * high[a] - 0.5 * low[a];
+    const double part = width > 0 ? (0.5 * placed(a, row) - 0.5 * low[a]) / width : 0;
+    return static_cast<std::size_t>(part * static_cast<double>(cells));
   };
   const Labels labels = labels_in(table, by ? &column_at(table, *by) : nullptr);
   ordered_json points = ordered_json::array();
-  std::set<std::tuple<double, double, std::size_t>> taken;
+  std::vector<bool> taken((labels.names.size() + 1) * (across + 1) * (up + 1));
   for (const std::size_t row : kept) {
     const std::size_t label = labels.of_row.empty() ? 0 : labels.of_row[row];
-    if (!taken.emplace(cell(0, row, across), cell(1, row, up), label).second) continue;
+    const std::size_t place =
+        (label * (across + 1) + cell(0, row, across)) * (up + 1) + cell(1, row, up);
+    if (taken[place]) continue;
+    taken[place] = true;
     points.push_back({values[0][row], values[1][row], row + 1});
     if (by) points.back().push_back(label);
   }
