@@ -640,7 +640,7 @@ std::string kinds_of(const StudyKey& key, const Asked& asked) {
   if (table.ends_with("columns")) return "heading, or `{ column, unit }`";
   if (key.path.starts_with("prior.") && !key.path.starts_with("prior.*"))
     return "law with its keys";
-  if (key.path.starts_with("predict.") &&
+  if ((key.path.starts_with("predict.") || key.path.starts_with("fixes.")) &&
       (key.path.ends_with(".*.*") || key.path.ends_with(".*.distribution")))
     return "as in `[prior]`";
   const bool of_unknown = key.path.starts_with("prior.*") || key.path.ends_with("half_width.*");
