@@ -577,6 +577,23 @@ phase_ends = ["500 h"]
 MTBF_2 = { distribution = "default" }
 )toml"},
       {"repairable", R"toml(model = "repairable"
+process = "phases"
+[data]
+file = "delayed_fixes.csv"
+[data.columns]
+unit = "system"
+age = "test time"
+event = "event"
+mode = "mode"
+[fixes]
+none = ["A", "BD2", "BD3", "BD4", "BD5", "BD6", "BD7", "BD8", "BD9", "BD10", "BD11", "BD12", "BD13",
+  "BD14", "BD15", "BD16"]
+during = ["BC17", "BC18", "BC19", "BC20", "BC21", "BC22", "BC23", "BC24", "BC25", "BC26", "BC27",
+  "BC28"]
+[fixes.effectiveness]
+BD1 = { distribution = "beta", alpha = 7, beta = 3 }
+)toml"},
+      {"repairable", R"toml(model = "repairable"
 process = "renewal"
 [data]
 file = "valve_seats.csv"
@@ -623,7 +640,7 @@ std::string kinds_of(const StudyKey& key, const Asked& asked) {
   if (table.ends_with("columns")) return "heading, or `{ column, unit }`";
   if (key.path.starts_with("prior.") && !key.path.starts_with("prior.*"))
     return "law with its keys";
-  if (key.path.starts_with("predict.") &&
+  if ((key.path.starts_with("predict.") || key.path.starts_with("fixes.")) &&
       (key.path.ends_with(".*.*") || key.path.ends_with(".*.distribution")))
     return "as in `[prior]`";
   const bool of_unknown = key.path.starts_with("prior.*") || key.path.ends_with("half_width.*");

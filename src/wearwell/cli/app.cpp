@@ -21,6 +21,7 @@
 #include "wearwell/cli/open.h"
 #include "wearwell/cli/plan/plan_commands.h"
 #include "wearwell/cli/report.h"
+#include "wearwell/cli/returns.h"
 #include "wearwell/cli/select.h"
 #include "wearwell/cli/update.h"
 
@@ -34,8 +35,8 @@ void group_commands(CLI::App& app) {
       {"fit", "A study"},        {"report", "A study"},    {"life", "Its result"},
       {"decide", "Its result"},  {"update", "Its result"}, {"backtest", "Its result"},
       {"compare", "Its result"}, {"export", "Its result"}, {"plan", "Its result"},
-      {"monitor", "Many units"}, {"fleet", "Many units"},  {"select", "Other"},
-      {"help", "Other"},         {"version", "Other"}};
+      {"monitor", "Many units"}, {"fleet", "Many units"},  {"returns", "Many units"},
+      {"select", "Other"},       {"help", "Other"},        {"version", "Other"}};
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_group().empty()) continue;
     const auto group = groups.find(command->get_name());
@@ -66,6 +67,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   bearing::add_bearing_command(*app);
   clutch::add_clutch_commands(*app, exit_code);
   add_fleet_command(*app, models, exit_code);
+  add_returns_command(*app, exit_code);
   fatigue::add_fatigue_command(*app, exit_code);
   formula_model::add_export_command(*app, exit_code);
   add_select_command(*app, exit_code);

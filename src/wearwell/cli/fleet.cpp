@@ -48,7 +48,8 @@ int run_lives_fleet(FleetOptions options, Models models) {
   options.read_only |= postgres;  // it creates nothing anyway
   const prognosis::CarriedState state = prognosis::read_state(options.result);
   ResultFolder folder(options.output);
-  const auto engines = engines_of(options, in_service::unit_name_column(options.columns), folder);
+  const auto engines = engines_of(options, in_service::unit_name_column(options.columns),
+                                  folder.path().parent_path());
   std::vector<fleet::Engine*> all;
   for (const auto& each : engines) all.push_back(each.get());
   return show_fleet(options, folder, [&](const Monitor& monitor) {

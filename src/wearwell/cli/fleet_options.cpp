@@ -42,7 +42,7 @@ bool FleetOptions::has(const std::string& option) const {
 
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
                                                        const std::string& unit,
-                                                       const ResultFolder& folder) {
+                                                       const std::filesystem::path& spill) {
   std::vector<std::unique_ptr<fleet::Engine>> engines;
   for (const std::string& name : options.engines) {
     refuse_mixed(options, name);
@@ -50,7 +50,7 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
       engines.push_back(fleet::duckdb_engine({.files = options.files,
                                               .unit = unit,
                                               .state = options.state,
-                                              .spill = folder.path().parent_path(),
+                                              .spill = spill,
                                               .threads = options.threads,
                                               .memory = options.memory,
                                               .skip_bad = options.skip_bad,

@@ -29,11 +29,11 @@ struct FleetOptions {
   bool has(const std::string& option) const;
 };
 
-/// The databases, or DuckDB over the files; `unit` is the column that names units. Throws
-/// InputError.
+/// The databases, or DuckDB over the files; `unit` is the column that names units, `spill` the folder of DuckDB's temporary
+/// files. Throws InputError.
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
                                                        const std::string& unit,
-                                                       const ResultFolder& folder);
+                                                       const std::filesystem::path& spill);
 
 /// Runs `find` with a line of progress, writes its result and prints it; returns the exit code.
 int show_fleet(const FleetOptions& options, ResultFolder& folder,

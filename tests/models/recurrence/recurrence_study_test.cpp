@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/math/distributions/gamma.hpp>
 #include <cmath>
 
@@ -185,6 +186,86 @@ TEST_F(RecurrenceStudyTest, ClassicalEstimatesOfPhases) {
   EXPECT_NEAR(phase["exact"]["upper"].get<double>(), 150 / quantile(gamma_distribution<>(3), 0.05),
               1e-6);
   EXPECT_FALSE(classical.contains("unbiased"));
+}
+
+// A growth test of one unit with modes; `fixes` follows the columns.
+class GrowthTestStudyTest : public RecurrenceStudyTest {
+ protected:
+  std::unique_ptr<const Study> read_modes(const std::string& rows, const std::string& fixes,
+                                          const std::string& process = "power_law") {
+    write("d.csv", "unit,age [h],event,mode\n" + rows);
+    write("study.toml", "model = \"repairable\"\nprocess = \"" + process +
+                            "\"\n[data]\nfile = \"d.csv\"\n[data.columns]\nunit = \"unit\"\nage = "
+                            "\"age\"\nevent = \"event\"\nmode = \"mode\"\n" +
+                            fixes);
+    return read_study(source_of(folder() / "study.toml"), all_models());
+  }
+  std::string refusal_of(const std::string& rows, const std::string& fixes,
+                         const std::string& process = "power_law") {
+    return message_of<InputError>([&] { read_modes(rows, fixes, process); });
+  }
+  const std::string rows = "a,10,failure,seal\na,30,failure,pump\na,70,failure,seal\na,100,end,\n";
+  const std::string good = "[fixes]\nnone = \"pump\"\n[fixes.effectiveness]\nseal = 0.7\n";
+};
+
+// The example has the published estimates, beside the posterior, in summary.json and in the text.
+TEST_F(GrowthTestStudyTest, ExampleHasThePublishedProjection) {
+  const Result result =
+      read_study(source_of(PROJECT_SOURCE_DIR "/examples/repairable/delayed_fixes.toml"),
+                 all_models())
+          ->run({.sampler = {}, .report = false}, {});
+  const auto& projection = result.body["repairable"]["projection"];
+  EXPECT_NEAR(projection["beta"]["crow"].get<double>(), 0.7472, 1e-4);
+  EXPECT_NEAR(projection["demonstrated"]["crow"].get<double>(), 7.84708, 1e-5);
+  EXPECT_NEAR(projection["projected"]["crow"].get<double>(), 11.29418, 1e-5);
+  EXPECT_NEAR(projection["growth_potential"]["crow"].get<double>(), 14.92852, 1e-5);
+  EXPECT_NEAR(projection["projected"]["q05"].get<double>(), 9.0615, 0.1);
+  EXPECT_EQ(projection["projected"]["unit"], "h");
+  EXPECT_EQ(projection["failures"]["delayed"], 32);
+  EXPECT_EQ(projection["modes"].size(), 29U);
+  const auto& groups = result.posterior->quantities;
+  const auto after = std::find_if(groups.begin(), groups.end(), [](const auto& each) {
+    return each.at == "after the delayed fixes";
+  });
+  ASSERT_NE(after, groups.end());
+  EXPECT_NEAR(after->best().q50, projection["projected"]["q50"].get<double>(), 1e-9);
+}
+
+TEST_F(GrowthTestStudyTest, UnitsOfAgesAndDistributionsOfFactorsAreRead) {
+  const Result hours = read_modes(rows, good)->run({.sampler = {}, .report = false}, {});
+  const Result spread =
+      read_modes(rows,
+                 "[fixes]\nnone = \"pump\"\n[fixes.effectiveness]\nseal = { distribution = "
+                 "\"beta\", alpha = 7, beta = 3 }\n")
+          ->run({.sampler = {}, .report = false}, {});
+  const auto& mode = spread.body["repairable"]["projection"]["modes"][0];
+  EXPECT_EQ(mode["stated"], "beta");
+  EXPECT_NEAR(mode["effectiveness"].get<double>(), 0.7, 1e-3);
+  EXPECT_FALSE(hours.body["repairable"]["projection"]["projected"].contains("crow"));
+  EXPECT_GT(hours.body["repairable"]["projection"]["projected"]["q50"].get<double>(), 20);
+}
+
+TEST_F(GrowthTestStudyTest, Refusals) {
+  const std::string factors = "[fixes.effectiveness]\nseal = 0.7\n";
+  EXPECT_THAT(refusal_of(rows, ""), HasSubstr("the study has no [fixes]"));
+  EXPECT_THAT(refusal_of(rows, "[fixes]\n" + factors),
+              HasSubstr("does not name mode 'pump' (1 failure, the first at 30 h)"));
+  EXPECT_THAT(refusal_of(rows, "[fixes]\nnone = [\"pump\", \"valve\"]\n" + factors),
+              HasSubstr("names mode 'valve', but no failure has this mode"));
+  EXPECT_THAT(refusal_of(rows, "[fixes]\nnone = [\"pump\", \"seal\"]\n" + factors),
+              HasSubstr("names mode 'seal', which is in fixes.none"));
+  EXPECT_THAT(refusal_of(rows, "[fixes]\nnone = \"pump\"\n[fixes.effectiveness]\nseal = 70\n"),
+              HasSubstr("seal: is 70; the effectiveness of a fix is between 0"));
+  EXPECT_THAT(refusal_of(rows, "[fixes]\nnone = [\"pump\", \"seal\"]\n"),
+              HasSubstr("effectiveness"));
+  EXPECT_THAT(refusal_of(rows, good, "renewal"), HasSubstr("process"));
+  EXPECT_THAT(refusal_of("a,10,failure,\na,100,end,\n", good), HasSubstr("row 1, column 'mode'"));
+  EXPECT_THAT(refusal_of("a,10,failure,seal\na,100,end,pump\n", good),
+              HasSubstr("'pump' is a failure mode in the row of an end of observation"));
+  EXPECT_THAT(refusal_of(rows + "b,20,failure,seal\nb,90,end,\n", good),
+              HasSubstr("unit 'a' is 100 h and that of unit 'b' is 90 h"));
+  EXPECT_THAT(refusal("power_law", "[fixes]\nnone = \"pump\"\n" + factors),
+              HasSubstr("data.columns.mode"));
 }
 
 TEST_F(RecurrenceStudyTest, Refusals) {

@@ -38,7 +38,8 @@ int run_clutch_fleet(const FleetOptions& options) {
   ResultFolder folder(options.output);
   const bool first = options.engines.front() == "duckdb" &&
                      (options.state.empty() || !std::filesystem::exists(options.state));
-  const auto engines = engines_of(options, unit_column(options.columns), folder);
+  const auto engines =
+      engines_of(options, unit_column(options.columns), folder.path().parent_path());
   std::vector<fleet::Engine*> all;
   for (const auto& each : engines) all.push_back(each.get());
   return show_fleet(options, folder, [&](const Monitor& monitor) {

@@ -201,6 +201,21 @@ Table each_failure(const TomlReader& section, const EventWords& words, Table tab
   return with_counts(columns, std::move(table));
 }
 
+// The mode of a failure. An end of observation has none: a word there can be a failure that is not counted.
+void read_mode(const Table& table, const std::optional<ColumnChoice>& mode, std::size_t row,
+               bool failed, UnitHistory& unit) {
+  if (!mode) return;
+  const Column& column = table.column(mode->column);
+  if (failed) {
+    unit.modes.push_back(label_word(table, column, row));
+  } else if (const std::string word = cell_word(column, row); !word.empty()) {
+    throw InputError(
+        fmt::format("{}: '{}' is a failure mode in the row of an end of observation; leave the "
+                    "cell empty, or, if the unit failed then, write failure as the event",
+                    place(table, mode->column, row), word));
+  }
+}
+
 std::vector<double> read_starts(const TomlReader& columns, const Table& table,
                                 const std::string& si, std::optional<ColumnChoice>& start) {
   start = read_column(columns, "start", si, table);
@@ -283,6 +298,7 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
   if (!unit_column)
     columns.fail("unit", "is missing: the column that names the unit of each event");
   const ColumnChoice age = read_age(columns, table, data.si);
+  const auto mode = read_word_column(columns, "mode", table);
   std::optional<ColumnChoice> start;
   const std::vector<double> starts = read_starts(columns, table, data.si, start);
   if (const auto rounding = section.quantity("rounding", data.si)) {
@@ -303,6 +319,7 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
       throw InputError(fmt::format("{}: the start of unit '{}' differs from that in its first row",
                                    place(table, start->column, i), name));
     const bool failed = read_event(table, words, i);
+    read_mode(table, mode, i, failed, unit);
     if (failed && state.ended && ages[i] == state.last) {
       add_failure_at_end(table, age, state, i, data);
       continue;

@@ -17,6 +17,7 @@ struct UnitHistory {
   double start = 0, end = 0;
   std::vector<double> failures = {};  ///< ascending
   bool ends_at_failure = false;       ///< failure truncated: the last failure ended the observation
+  std::vector<std::string> modes = {};  ///< of the failures, in a table with failure modes
 };
 
 /// From one event of a unit, or from the start of its observation, to the next event: one row of the table. Ages in SI.
@@ -48,7 +49,7 @@ std::optional<bool> is_failure_word(const std::string& word, std::optional<int> 
 /// Reads [data]: one row an event of a unit, with its age, and whether it is a failure or the end of observation. Throws
 /// InputError that names file, row and column: a negative age, an age below that of the row before, rows after the end, a
 /// second end, a unit without an end (unless data.end = "last failure"), two failures at one age (unless data.rounding is
-/// stated), a failure at age 0.
+/// stated), a failure at age 0, a failure without its mode where a column has modes.
 RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source);
 
 }  // namespace wearwell::recurrence

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/models/recurrence/projection_report.h"
 #include "wearwell/study/posterior_summary.h"
 
 namespace wearwell::recurrence {
@@ -140,6 +141,7 @@ void read_predictions(const TomlReader& root, Asked& asked, PosteriorStudy& stud
     add_next_failure(asked, study, mtbf, {data.longest(), 0});
     asked.rows.push_back({unit, "from a repair on", {{0, 0}}});
   }
+  if (asked.growth_test) ask_projection(asked, *asked.growth_test, unit, study);
   if (!predict) return;
   asked.ahead = predict->quantities("next", data.si);
   for (const Quantity& ahead : asked.ahead) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/models/recurrence/mean_cumulative.h"
+#include "wearwell/models/recurrence/projection_report.h"
 #include "wearwell/models/recurrence/recurrence_classical.h"
 #include "wearwell/models/recurrence/trend_tests.h"
 #include "wearwell/present/plain.h"
@@ -326,6 +327,7 @@ PresetAddition recurrence_addition(const Asked& asked, const Fit& fit) {
             gaps),
         2, 4);
   added.body["repairable"] = std::move(json);
+  if (asked.growth_test) add_projection(asked, *asked.growth_test, added);
   if (asked.classical) add_classical(asked, fit, added);
   return added;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wearwell/models/recurrence/forecast.h"
+#include "wearwell/models/recurrence/growth_test.h"
 #include "wearwell/models/recurrence/process.h"
 #include "wearwell/study/classical_table.h"
 #include "wearwell/study/life_levels.h"
@@ -28,6 +29,7 @@ struct Asked {
   std::vector<double> ages;               ///< at which one unit is asked about [SI]
   std::optional<LifeLevels> levels = {};  ///< predict.level and sides; empty: intervals hold 90 %
   std::optional<ClassicalLevel> classical = {};
+  std::optional<GrowthTest> growth_test = {};  ///< with delayed fixes to project
   std::vector<Parameter> parameters = {};
   DensityUnit density = {};
 

@@ -188,6 +188,7 @@ void read_recurrence_study(const TomlReader& root, const Source& source, Posteri
   asked.data = read_recurrence_data(root, source);
   const RecurrenceData& data = asked.data;
   asked.process = read_process(root, data);
+  asked.growth_test = read_growth_test(root, data, asked.process);
   if (study.stages)
     root.required_table("update").fail("stages", "is not possible for model \"repairable\"");
   read_parameters(root, asked, study);
