@@ -112,6 +112,20 @@ TEST(PopulationLives, WhereTheyAreAlikeHaveTheQuantilesOfOne) {
   }
 }
 
+// Of 400 populations whose B2 is uniform over 1 to 2: the 5 % quantile with the standard error of so many draws.
+TEST(LongestWarranty, OfPopulationsStatesTheErrorOfTheirNumber) {
+  std::vector<WeightedLives> each;
+  for (int k = 0; k < 400; ++k) {
+    const double b2 = 1 + (k + 0.5) / 400, eta = b2 / std::sqrt(-std::log1p(-0.02));
+    each.push_back(represented_lives([&](double p) { return eta * std::sqrt(-std::log1p(-p)); }));
+  }
+  const Warranty warranty =
+      longest_warranty(PopulationLives(std::move(each), std::vector<double>(400, 1)), 0.02);
+  EXPECT_EQ(warranty.populations, 400U);
+  EXPECT_NEAR(warranty.sure, 1.05, 2e-3);
+  EXPECT_NEAR(warranty.error.value(), std::sqrt(0.05 * 0.95 / 400) / 1.05, 1e-3);
+}
+
 // Where some never fail the quantiles beyond the others are infinite.
 TEST(PopulationLives, OfWhichSomeNeverFail) {
   const WeightedLives ends(std::vector<double>{1, 2, 3}, std::vector<double>{1, 1, 1});
@@ -141,6 +155,34 @@ TEST(CheapestMoment, OfANewUnitIsTheFleetsAge) {
   // ... and one that has come to some age, what is left of it; beyond that age, now.
   EXPECT_NEAR(cheapest_moment(lives.beyond(200), costs, fleet.rate).after, fleet.age - 200, 5);
   EXPECT_EQ(cheapest_moment(lives.beyond(700), costs, fleet.rate).after, 0);
+}
+
+// Without ageing the cost falls ever more slowly: at failure, not at a moment far in the tail.
+TEST(CheapestMoment, IsAtFailureWhereTheCostIsFlat) {
+  for (const double shape : {0.8, 1.0}) {
+    const WeightedLives lives =
+        represented_lives([&](double p) { return 1000 * std::pow(-std::log1p(-p), 1 / shape); });
+    const Costs costs{20, 1, 0};
+    const double rate = cheapest_age(lives, costs).rate;
+    EXPECT_EQ(cheapest_moment(lives, costs, rate).after, never) << shape;
+    EXPECT_EQ(cheapest_moment(lives.beyond(300), costs, rate).after, never) << shape;
+  }
+}
+
+TEST(NowOrAtFailure, IsTheCheaperOfBoth) {
+  const WeightedLives lives = weibull_lives(2.5, 1000);
+  const Costs costs{5, 1, 0};
+  const double rate = cheapest_age(lives, costs).rate;
+  const UnitReplacement old = now_or_at_failure(lives.beyond(700), costs, rate);
+  EXPECT_EQ(old.after, 0);
+  EXPECT_EQ(old.cost, 1);
+  EXPECT_EQ(old.failing, 0);
+  EXPECT_GT(old.waiting, 1);
+  // A life of 1e6 more: what it is expected to run is worth more than the failure.
+  const UnitReplacement long_lived = now_or_at_failure(weibull_lives(1, 1e6), costs, rate);
+  EXPECT_EQ(long_lived.after, never);
+  EXPECT_NEAR(long_lived.cost / (5 - rate * 1e6), 1, 0.01);
+  EXPECT_NEAR(long_lived.failing, 1, 1e-9);
 }
 
 TEST(CheapestMoment, IsTheLeastOfAll) {

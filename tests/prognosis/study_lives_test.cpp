@@ -118,6 +118,31 @@ TEST_F(StudyLives, WarrantyIsTheQuantileOfTheMixtureAndOfPopulations) {
   EXPECT_NEAR(warranty.sure, 1045 * b2, 10 * b2);  // of the fifth of a hundred
 }
 
+// A unit that has outlived the age of least cost comes, as far as is known, of the population that lives long: it runs to
+// failure or is replaced now, not at some age far in the tail. A younger one has its moment.
+TEST_F(StudyLives, AUnitPastTheOptimumIsReplacedNowOrAtFailure) {
+  const PosteriorStudy study = weibull_study({"part"});
+  const double h = 3600;
+  for (const double longest : {1500.0, 1e6}) {
+    KnownLives lives =
+        lives_of_study(study, points({{1000 * h, 3}, {longest * h, 3}}), "s", true, "");
+    add_units_in_service(lives, ages("unit,age [h]\nyoung,10\nold,1600\n"));
+    Question question;
+    question.costs = {10, 1, 0};
+    const Decisions decisions = decide(lives, question);
+    ASSERT_LT(decisions.age->age, 1600 * h);
+    for (const UnitDecision& each : decisions.units) {
+      const bool old = each.unit->name == "old";
+      EXPECT_EQ(each.past_optimum, old);
+      if (old) {
+        EXPECT_EQ(each.best.after, longest > 2000 ? INFINITY : 0.0) << longest;
+      } else if (longest < 2000) {
+        EXPECT_TRUE(each.best.after > 0 && std::isfinite(each.best.after));
+      }
+    }
+  }
+}
+
 TEST_F(StudyLives, NamesWhatIsWrong) {
   const PosteriorStudy study = weibull_study({"supplier A", "supplier B"});
   const WeightedDraws draws = points({{1000 * 3600.0, 2}});

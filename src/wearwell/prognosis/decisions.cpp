@@ -15,13 +15,16 @@ namespace {
 // The unit has more likely than not reached its threshold: there is no reason to wait.
 constexpr double too_late = 0.5;
 
-UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
+UnitDecision decided(const KnownUnit& unit, const Costs& costs, const AgeReplacement& age) {
   UnitDecision decision;
   decision.unit = &unit;
+  decision.past_optimum = unit.by_age && !age.beyond_known && unit.now >= age.age;
   if (unit.passed >= too_late || unit.remaining.points().empty()) {
     decision.best.now = decision.best.cost = costs.replacement;
+  } else if (decision.past_optimum) {
+    decision.best = now_or_at_failure(unit.remaining, costs, age.rate);
   } else {
-    decision.best = cheapest_moment(unit.remaining, costs, rate);
+    decision.best = cheapest_moment(unit.remaining, costs, age.rate);
   }
   if (!unit.remaining.points().empty()) {
     decision.q05 = unit.remaining.quantile(0.05);
@@ -89,7 +92,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
   Decisions decisions;
   decisions.age = cheapest_age(lives.fresh, question.costs);
   decisions.reference = decisions.age->rate;
-  if (question.claims) decisions.warranty = longest_warranty(lives.fresh, *question.claims);
+  if (question.claims) decisions.warranty = longest_warranty(lives, *question.claims);
   if (question.hidden || question.inspected) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!each.points().empty() && !std::isfinite(each.points().back()))
@@ -106,7 +109,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
     decisions.inspection = cheapest_interval(lives.fresh, question.costs);
   }
   for (const KnownUnit& each : lives.units)
-    decisions.units.push_back(decided(each, question.costs, decisions.reference));
+    decisions.units.push_back(decided(each, question.costs, *decisions.age));
   std::stable_sort(decisions.units.begin(), decisions.units.end(),
                    [](const UnitDecision& a, const UnitDecision& b) {
                      if (a.best.after != b.best.after) return a.best.after < b.best.after;

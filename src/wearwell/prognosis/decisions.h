@@ -30,6 +30,9 @@ struct Question {
 struct UnitDecision {
   const KnownUnit* unit = nullptr;
   UnitReplacement best;
+  /// Known by its age alone, it is as old as the age replacement of least cost or older: it is replaced now, or at
+  /// failure.
+  bool past_optimum = false;
   double q05 = 0, q50 = 0, q95 = 0;  ///< remaining useful life, SI
 };
 

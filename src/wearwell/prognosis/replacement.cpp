@@ -179,12 +179,24 @@ UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& cos
     best.after = 0;
     best.cost = best.now;
   }
-  if (best.waiting <= best.cost + 1e-12 * std::abs(best.cost) && infinite_share(remaining) == 0) {
+  const double flat = (no_saving - 1) * costs.replacement;
+  if (best.after > 0 && best.waiting <= best.cost + flat && infinite_share(remaining) == 0) {
     best.after = never;
     best.cost = best.waiting;
   }
   best.failing = remaining.cdf(best.after);
   if (best.after == 0) best.failing = 0;
+  return best;
+}
+
+UnitReplacement now_or_at_failure(const WeightedLives& remaining, const Costs& costs, double rate) {
+  UnitReplacement best;
+  best.now = costs.replacement;
+  best.waiting = moment_cost(remaining, costs, rate, never);
+  const bool waits = best.waiting < best.now;
+  best.after = waits ? never : 0;
+  best.cost = waits ? best.waiting : best.now;
+  best.failing = waits ? remaining.cdf(never) : 0;
   return best;
 }
 

@@ -66,8 +66,13 @@ struct UnitReplacement {
 
 /// The time of least cost, given the fleet's cost per further unit of the axis: a unit continues as
 /// long as its own risk costs less, h(t) (c_f - c_p) < rate (Bergman, Journal of Applied
-/// Probability 15 (1978) 106). `remaining` is of a unit that has not failed.
+/// Probability 15 (1978) 106). `remaining` is of a unit that has not failed. A moment that
+/// saves less than 0.1 % of a replacement against replacement now, or else at failure, is not named.
 UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& costs, double rate);
+
+/// The cheaper of now and at failure, for a unit that is past the age of least cost and known by its age alone. Later
+/// moments gain on these only by survivors of populations whose lives are long, far in the tail.
+UnitReplacement now_or_at_failure(const WeightedLives& remaining, const Costs& costs, double rate);
 
 /// The same cost at a given time.
 double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after);

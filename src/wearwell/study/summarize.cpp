@@ -68,6 +68,7 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
   }
   if (q.mean_tail && q.mean_tail->longest)
     q.mean_tail->longest = from_si(unit, *q.mean_tail->longest);
+  refuse_endless_mean(q);
   return q;
 }
 
@@ -100,6 +101,7 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
     known.visit([&](double, double value, double) { is_share &= value >= 0 && value <= 1; });
     if (const auto highest = share_of_highest(known); highest && !is_share)
       result.mean_tail = MeanTail{*highest, {}, {}};
+    refuse_endless_mean(result);
   }
   return result;
 }
