@@ -270,5 +270,33 @@ TEST_F(MeanTailTest, MeansOfDerivedQuantities) {
   EXPECT_EQ(check_of(result).verdict, Verdict::warn);
 }
 
+// Hours, as the lives are; and an indicator has a probability but no quantiles.
+TEST_F(MeanTailTest, QuantitiesWithoutAUnitAndIndicators) {
+  write("lives.csv", six_lives);
+  const PosteriorSummary result =
+      run(weibull_study("[predict.quantities]\n"
+                        "scale = \"eta\"\n"
+                        "square = \"eta^2\"\n"
+                        "wears_out = \"where(beta > 1.5, 1, 0)\"\n"));
+  const auto unit = [&](const std::string& name) {
+    for (const QuantitySummary& each : result.quantities)
+      if (each.name == name) return each.unit;
+    return std::string("none");
+  };
+  EXPECT_EQ(unit("scale"), "h");
+  EXPECT_EQ(unit("square"), "s^2");
+  EXPECT_GT(named(result, "scale").q50, 100);
+  EXPECT_LT(named(result, "scale").q50, 10'000);
+  const WeightedDraws& nodes = result.fit->exact->nodes;
+  double above = 0;
+  for (Eigen::Index i = 0; i < nodes.values.rows(); ++i)
+    above += nodes.values(i, 1) > 1.5 ? nodes.weights[i] : 0;
+  const QuantityQuantiles& indicator = named(result, "wears_out");
+  EXPECT_TRUE(std::isnan(indicator.q05) && std::isnan(indicator.q50) && std::isnan(indicator.q95));
+  EXPECT_NEAR(indicator.mean.value(), above, 0.01);
+  EXPECT_NEAR(named(result, "scale").mean.value() * 3600, nodes.weights.dot(nodes.values.col(0)),
+              5e3);
+}
+
 }  // namespace
 }  // namespace wearwell
