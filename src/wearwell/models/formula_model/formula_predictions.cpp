@@ -208,7 +208,8 @@ class Predictions {
   Unit unit_of_quantity(const formula::Powers& powers) const {
     if (powers.empty()) return {"1", 1, 0};
     for (const Measured& each : model_->measured)
-      if (each.form->positive && each.powers == powers && each.unit.offset == 0) return each.unit;
+      if (each.form && each.form->positive && each.powers == powers && each.unit.offset == 0)
+        return each.unit;
     return {formula::description(powers), 1, 0};
   }
 
