@@ -169,20 +169,42 @@ TEST(CheapestMoment, IsAtFailureWhereTheCostIsFlat) {
   }
 }
 
-TEST(NowOrAtFailure, IsTheCheaperOfBoth) {
+TEST(ReplacementByAge, IsTheFleetsAgeAndThenTheCheaperOfNowAndAtFailure) {
   const WeightedLives lives = weibull_lives(2.5, 1000);
   const Costs costs{5, 1, 0};
-  const double rate = cheapest_age(lives, costs).rate;
-  const UnitReplacement old = now_or_at_failure(lives.beyond(700), costs, rate);
-  EXPECT_EQ(old.after, 0);
-  EXPECT_EQ(old.cost, 1);
-  EXPECT_EQ(old.failing, 0);
-  EXPECT_GT(old.waiting, 1);
-  // A life of 1e6 more: what it is expected to run is worth more than the failure.
-  const UnitReplacement long_lived = now_or_at_failure(weibull_lives(1, 1e6), costs, rate);
-  EXPECT_EQ(long_lived.after, never);
-  EXPECT_NEAR(long_lived.cost / (5 - rate * 1e6), 1, 0.01);
-  EXPECT_NEAR(long_lived.failing, 1, 1e-9);
+  const AgeReplacement fleet = cheapest_age(lives, costs);
+  const auto of = [&](double now) {
+    return replacement_by_age(lives, lives.beyond(now), costs, now, fleet.age);
+  };
+  EXPECT_NEAR(of(200).after, fleet.age - 200, 1e-9);
+  EXPECT_NEAR(of(200).cost, moment_cost(lives.beyond(200), costs, fleet.rate, fleet.age - 200),
+              1e-9);
+  EXPECT_NEAR(of(200).failing, 1 - std::exp(std::pow(0.2, 2.5) - std::pow(fleet.age / 1000, 2.5)),
+              1e-3);
+  EXPECT_EQ(of(700).after, 0);
+  EXPECT_EQ(of(700).cost, 1);
+  EXPECT_EQ(of(700).failing, 0);
+  EXPECT_GT(of(700).waiting, 1);
+}
+
+// Two populations: one wears out, one fails ever more rarely with age and outlives it. Beyond the age of least cost the
+// survivors are of the second, whose fleet runs to failure: waiting costs c_f - c_f E[remaining]/E[life] < c_p.
+TEST(ReplacementByAge, IsAtFailureWhereSurvivorsDoNotAge) {
+  const auto weibull = [](double shape, double scale) {
+    return represented_lives(
+        [=](double p) { return scale * std::pow(-std::log1p(-p), 1 / shape); });
+  };
+  const PopulationLives fresh({weibull(4, 1000), weibull(0.5, 5000)}, {1, 1});
+  const Costs costs{20, 1, 0};
+  const double now = 3000;
+  const WeightedLives left = weibull(0.5, 5000).beyond(now);
+  const UnitReplacement best =
+      replacement_by_age(fresh, {{{}, left}, {0, 1}}, costs, now, cheapest_age(fresh, costs).age);
+  EXPECT_EQ(best.after, never);
+  const double root =
+      std::sqrt(now / 5000);  // E[N - now | N > now] = 2 eta (1 + root), E[N] = 2 eta
+  EXPECT_NEAR(best.waiting, 20 - 20 * (1 + root), 0.2);
+  EXPECT_NEAR(best.failing, 1, 1e-9);
 }
 
 TEST(CheapestMoment, IsTheLeastOfAll) {

@@ -30,8 +30,7 @@ struct Question {
 struct UnitDecision {
   const KnownUnit* unit = nullptr;
   UnitReplacement best;
-  /// Known by its age alone, it is as old as the age replacement of least cost or older: it is replaced now, or at
-  /// failure.
+  /// Known by its age alone, it is as old as the age of least cost or older.
   bool past_optimum = false;
   double q05 = 0, q50 = 0, q95 = 0;  ///< remaining useful life, SI
 };

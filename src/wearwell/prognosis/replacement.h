@@ -70,9 +70,13 @@ struct UnitReplacement {
 /// saves less than 0.1 % of a replacement against replacement now, or else at failure, is not named.
 UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& costs, double rate);
 
-/// The cheaper of now and at failure, for a unit that is past the age of least cost and known by its age alone. Later
-/// moments gain on these only by survivors of populations whose lives are long, far in the tail.
-UnitReplacement now_or_at_failure(const WeightedLives& remaining, const Costs& costs, double rate);
+/// The time of replacement of a unit of which nothing but its age `now` is known, in each population: at the fleet's age
+/// of least cost; if it is older, now or at failure, whichever costs less. Costs are compared, in each population, with
+/// a fleet that replaces at this age or at failure, whichever is cheaper there: with the average rate of all, long lives
+/// far in the tail of the posterior would decide. `remaining` has the weights of the populations given the survival to
+/// `now`; lives of weight 0 may be empty.
+UnitReplacement replacement_by_age(const PopulationLives& fresh, const PopulationLives& remaining,
+                                   const Costs& costs, double now, double best_age);
 
 /// The same cost at a given time.
 double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after);
