@@ -173,5 +173,57 @@ TEST_F(Decide, OfMeasuredLives) {
               HasSubstr("--claims: 200 % must lie between 0 and 100 %"));
 }
 
+// Six lives of which three ended: the bound of a warranty is that of the B-life that fit reports, whatever [predict] asks.
+TEST_F(Decide, TheWarrantyIsTheBLifeOfTheFit) {
+  write("lives.csv",
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,runout\n900,runout\n"
+        "900,runout\n");
+  const auto fitted = [&](const std::string& name, const std::string& predict) {
+    write(name + ".toml", R"toml(
+model = "formula"
+[data]
+file = "lives.csv"
+[data.columns]
+life = "life"
+status = "status"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { distribution = "lognormal", median = "1000 h", log_sd = 2 }
+beta = { distribution = "lognormal", median = 1.5, log_sd = 0.7 }
+[predict]
+)toml" + predict);
+    const CommandResult run = run_wearwell("fit " + (folder() / (name + ".toml")).string() +
+                                           " --method exact --draws 100 --quiet --no-report -o " +
+                                           (folder() / name).string());
+    EXPECT_LE(run.exit_code, 1) << run.err;
+  };
+  fitted("asked", "b_lives = [2, 10]\nlevel = 0.95\n");
+  fitted("other", "b_lives = [50]\ncredible_level = 0.8\nsides = \"both\"\nmean_life = true\n");
+  std::ifstream file(folder() / "asked" / "summary.json");
+  const json summary = json::parse(file);
+  const auto warranty = [&](const std::string& name, const std::string& share) {
+    const CommandResult run = run_wearwell("decide " + (folder() / name).string() + costs +
+                                           " --claims '" + share + "' --json");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return json::parse(run.out)["warranty"];
+  };
+  for (const auto& [share, b_life] : {std::pair("2 %", "B2 life"), std::pair("10 %", "B10 life")}) {
+    json fit;
+    for (const json& each : summary["quantities"])
+      if (each["name"] == b_life) fit = each;
+    ASSERT_TRUE(fit.is_object()) << b_life;
+    const double bound = fit["bound"], next = fit["predictive"];
+    for (const char* name : {"asked", "other"}) {
+      const json decided = warranty(name, share);
+      EXPECT_NEAR(decided["sure"].get<double>() / bound, 1, 1e-3) << name << b_life;
+      EXPECT_NEAR(decided["length"].get<double>() / next, 1, 1e-3) << name << b_life;
+      EXPECT_FALSE(decided.contains("populations"));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -112,6 +112,20 @@ TEST(PopulationLives, WhereTheyAreAlikeHaveTheQuantilesOfOne) {
   }
 }
 
+// Of 400 populations whose B2 is uniform over 1 to 2: the 5 % quantile with the standard error of so many draws.
+TEST(LongestWarranty, OfPopulationsStatesTheErrorOfTheirNumber) {
+  std::vector<WeightedLives> each;
+  for (int k = 0; k < 400; ++k) {
+    const double b2 = 1 + (k + 0.5) / 400, eta = b2 / std::sqrt(-std::log1p(-0.02));
+    each.push_back(represented_lives([&](double p) { return eta * std::sqrt(-std::log1p(-p)); }));
+  }
+  const Warranty warranty =
+      longest_warranty(PopulationLives(std::move(each), std::vector<double>(400, 1)), 0.02);
+  EXPECT_EQ(warranty.populations, 400U);
+  EXPECT_NEAR(warranty.sure, 1.05, 2e-3);
+  EXPECT_NEAR(warranty.error.value(), std::sqrt(0.05 * 0.95 / 400) / 1.05, 1e-3);
+}
+
 // Where some never fail the quantiles beyond the others are infinite.
 TEST(PopulationLives, OfWhichSomeNeverFail) {
   const WeightedLives ends(std::vector<double>{1, 2, 3}, std::vector<double>{1, 1, 1});
@@ -141,6 +155,56 @@ TEST(CheapestMoment, OfANewUnitIsTheFleetsAge) {
   // ... and one that has come to some age, what is left of it; beyond that age, now.
   EXPECT_NEAR(cheapest_moment(lives.beyond(200), costs, fleet.rate).after, fleet.age - 200, 5);
   EXPECT_EQ(cheapest_moment(lives.beyond(700), costs, fleet.rate).after, 0);
+}
+
+// Without ageing the cost falls ever more slowly: at failure, not at a moment far in the tail.
+TEST(CheapestMoment, IsAtFailureWhereTheCostIsFlat) {
+  for (const double shape : {0.8, 1.0}) {
+    const WeightedLives lives =
+        represented_lives([&](double p) { return 1000 * std::pow(-std::log1p(-p), 1 / shape); });
+    const Costs costs{20, 1, 0};
+    const double rate = cheapest_age(lives, costs).rate;
+    EXPECT_EQ(cheapest_moment(lives, costs, rate).after, never) << shape;
+    EXPECT_EQ(cheapest_moment(lives.beyond(300), costs, rate).after, never) << shape;
+  }
+}
+
+TEST(ReplacementByAge, IsTheFleetsAgeAndThenTheCheaperOfNowAndAtFailure) {
+  const WeightedLives lives = weibull_lives(2.5, 1000);
+  const Costs costs{5, 1, 0};
+  const AgeReplacement fleet = cheapest_age(lives, costs);
+  const auto of = [&](double now) {
+    return replacement_by_age(lives, lives.beyond(now), costs, now, fleet.age);
+  };
+  EXPECT_NEAR(of(200).after, fleet.age - 200, 1e-9);
+  EXPECT_NEAR(of(200).cost, moment_cost(lives.beyond(200), costs, fleet.rate, fleet.age - 200),
+              1e-9);
+  EXPECT_NEAR(of(200).failing, 1 - std::exp(std::pow(0.2, 2.5) - std::pow(fleet.age / 1000, 2.5)),
+              1e-3);
+  EXPECT_EQ(of(700).after, 0);
+  EXPECT_EQ(of(700).cost, 1);
+  EXPECT_EQ(of(700).failing, 0);
+  EXPECT_GT(of(700).waiting, 1);
+}
+
+// Two populations: one wears out, one fails ever more rarely with age and outlives it. Beyond the age of least cost the
+// survivors are of the second, whose fleet runs to failure: waiting costs c_f - c_f E[remaining]/E[life] < c_p.
+TEST(ReplacementByAge, IsAtFailureWhereSurvivorsDoNotAge) {
+  const auto weibull = [](double shape, double scale) {
+    return represented_lives(
+        [=](double p) { return scale * std::pow(-std::log1p(-p), 1 / shape); });
+  };
+  const PopulationLives fresh({weibull(4, 1000), weibull(0.5, 5000)}, {1, 1});
+  const Costs costs{20, 1, 0};
+  const double now = 3000;
+  const WeightedLives left = weibull(0.5, 5000).beyond(now);
+  const UnitReplacement best =
+      replacement_by_age(fresh, {{{}, left}, {0, 1}}, costs, now, cheapest_age(fresh, costs).age);
+  EXPECT_EQ(best.after, never);
+  const double root =
+      std::sqrt(now / 5000);  // E[N - now | N > now] = 2 eta (1 + root), E[N] = 2 eta
+  EXPECT_NEAR(best.waiting, 20 - 20 * (1 + root), 0.2);
+  EXPECT_NEAR(best.failing, 1, 1e-9);
 }
 
 TEST(CheapestMoment, IsTheLeastOfAll) {

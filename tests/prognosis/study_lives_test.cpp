@@ -118,6 +118,32 @@ TEST_F(StudyLives, WarrantyIsTheQuantileOfTheMixtureAndOfPopulations) {
   EXPECT_NEAR(warranty.sure, 1045 * b2, 10 * b2);  // of the fifth of a hundred
 }
 
+// Units whose age alone is known: at the fleet's age; where they are past it, at once, or at failure if the survivors are
+// of a population of long lives; never at an age far in the tail.
+TEST_F(StudyLives, UnitsInServiceAreReplacedAtTheFleetsAgeOrNow) {
+  const PosteriorStudy study = weibull_study({"part"});
+  const double h = 3600;
+  for (const double longest : {1500.0, 1e6}) {
+    KnownLives lives =
+        lives_of_study(study, points({{1000 * h, 3}, {longest * h, 3}}), "s", true, "");
+    add_units_in_service(lives, ages("unit,age [h]\nyoung,10\nold,1600\n"));
+    Question question;
+    question.costs = {10, 1, 0};
+    const Decisions decisions = decide(lives, question);
+    ASSERT_LT(decisions.age->age, 1600 * h);
+    for (const UnitDecision& each : decisions.units) {
+      const bool old = each.unit->name == "old";
+      EXPECT_EQ(each.past_optimum, old);
+      if (!old) {
+        EXPECT_NEAR(each.best.after, decisions.age->age - 10 * h, 1) << longest;
+      } else {
+        // At 1600 h one of the lives of 1e6 h is as good as new.
+        EXPECT_EQ(each.best.after, longest > 1e5 ? INFINITY : 0.0);
+      }
+    }
+  }
+}
+
 TEST_F(StudyLives, NamesWhatIsWrong) {
   const PosteriorStudy study = weibull_study({"supplier A", "supplier B"});
   const WeightedDraws draws = points({{1000 * 3600.0, 2}});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/prognosis/plural.h"
@@ -15,13 +16,28 @@ namespace {
 // The unit has more likely than not reached its threshold: there is no reason to wait.
 constexpr double too_late = 0.5;
 
-UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
+// The lives that remain to a unit in service, with the weights of populations given its survival.
+PopulationLives remaining_of(const KnownUnit& unit, const std::vector<double>& populations) {
+  InPopulations in = unit.in_populations().value();
+  std::vector<double> weight;
+  for (std::size_t k = 0; k < populations.size(); ++k)
+    weight.push_back(populations[k] * std::exp(in.log_likelihood[k]));
+  return {std::move(in.remaining), std::move(weight)};
+}
+
+UnitDecision decided(const KnownUnit& unit, const KnownLives& lives, const Costs& costs,
+                     const AgeReplacement& age) {
   UnitDecision decision;
   decision.unit = &unit;
+  const bool by_age = unit.by_age && !age.beyond_known;
+  decision.past_optimum = by_age && unit.now >= age.age;
   if (unit.passed >= too_late || unit.remaining.points().empty()) {
     decision.best.now = decision.best.cost = costs.replacement;
+  } else if (by_age) {
+    decision.best = replacement_by_age(lives.fresh, remaining_of(unit, lives.populations), costs,
+                                       unit.now, age.age);
   } else {
-    decision.best = cheapest_moment(unit.remaining, costs, rate);
+    decision.best = cheapest_moment(unit.remaining, costs, age.rate);
   }
   if (!unit.remaining.points().empty()) {
     decision.q05 = unit.remaining.quantile(0.05);
@@ -89,7 +105,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
   Decisions decisions;
   decisions.age = cheapest_age(lives.fresh, question.costs);
   decisions.reference = decisions.age->rate;
-  if (question.claims) decisions.warranty = longest_warranty(lives.fresh, *question.claims);
+  if (question.claims) decisions.warranty = longest_warranty(lives, *question.claims);
   if (question.hidden || question.inspected) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!each.points().empty() && !std::isfinite(each.points().back()))
@@ -106,7 +122,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
     decisions.inspection = cheapest_interval(lives.fresh, question.costs);
   }
   for (const KnownUnit& each : lives.units)
-    decisions.units.push_back(decided(each, question.costs, decisions.reference));
+    decisions.units.push_back(decided(each, lives, question.costs, *decisions.age));
   std::stable_sort(decisions.units.begin(), decisions.units.end(),
                    [](const UnitDecision& a, const UnitDecision& b) {
                      if (a.best.after != b.best.after) return a.best.after < b.best.after;

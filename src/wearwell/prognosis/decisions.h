@@ -30,6 +30,8 @@ struct Question {
 struct UnitDecision {
   const KnownUnit* unit = nullptr;
   UnitReplacement best;
+  /// Known by its age alone, it is as old as the age of least cost or older.
+  bool past_optimum = false;
   double q05 = 0, q50 = 0, q95 = 0;  ///< remaining useful life, SI
 };
 

@@ -10,17 +10,13 @@
 #include "wearwell/present/text_table.h"
 #include "wearwell/prognosis/decisions_tables.h"
 #include "wearwell/prognosis/plural.h"
+#include "wearwell/prognosis/warranty_text.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::prognosis {
 namespace {
 
 using present::Table;
-
-std::string percent(double share) {
-  if (share > 0 && share < 0.0001) return "< 0.01 %";
-  return fmt::format("{:.3g} %", 100 * share);
-}
 
 std::string costs_text(const DecisionsReport& report) {
   const Shown shown{report};
@@ -56,27 +52,27 @@ std::string answer(const DecisionsReport& report) {
                   plain_quantity(shown.rate(age.rate), shown.rate_unit()));
   if (age.at_failure > 0)
     text += fmt::format(", {} less than replacement at failure only",
-                        percent(1 - age.rate / age.at_failure));
+                        share_text(1 - age.rate / age.at_failure));
   return text + ".";
 }
 
-std::string warranty_text(const DecisionsReport& report) {
-  const Shown shown{report};
-  const Warranty& warranty = *report.decisions.warranty;
-  const std::string share = percent(warranty.share);
-  if (!std::isfinite(warranty.length))
-    return fmt::format("A warranty of any length has claims for less than {} of new {}.", share,
-                       plural(report.lives.noun));
-  const auto length = [&](double si) {
-    return std::isfinite(si) ? shown.age(si) : std::string("any length");
-  };
-  std::string text = fmt::format("A warranty of {} has claims for {} of new {} on average",
-                                 length(warranty.length), share, plural(report.lives.noun));
-  if (report.lives.fresh.lives.size() > 1)
-    text += fmt::format("; {} has at most that share with probability 95 %", length(warranty.sure));
-  return text + fmt::format(". At {} each, claims cost {} for each unit sold.",
-                            shown.money(report.question.costs.failure),
-                            shown.money(warranty.share * report.question.costs.failure));
+// Units that are known by their age alone, and as old as the age of least cost.
+std::string past_optimum_text(const DecisionsReport& report) {
+  std::size_t past = 0, waiting = 0;
+  for (const UnitDecision& each : report.decisions.units) {
+    past += each.past_optimum;
+    waiting += each.past_optimum && each.best.after > 0;
+  }
+  if (past == 0) return "";
+  const std::string named =
+      past == 1 ? "1 " + report.lives.noun : fmt::format("{} {}", past, plural(report.lives.noun));
+  std::string text =
+      fmt::format("{} {} past the age of least cost, {}: ", named, past == 1 ? "is" : "are",
+                  Shown{report}.age(report.decisions.age->age));
+  if (waiting == 0) return text + "replace now.";
+  if (waiting == past) return text + "replacement at failure costs least.";
+  return text + fmt::format("for {}, replacement at failure costs least; replace the other{} now.",
+                            waiting, past - waiting == 1 ? "" : "s");
 }
 
 std::string worth_text(const DecisionsReport& report) {
@@ -93,7 +89,7 @@ std::string worth_text(const DecisionsReport& report) {
       plain_number(
           from_si(asked.reading_unit,
                   asked.outcomes[asked.outcomes.size() - 1 - asked.outcomes.size() / 20].reading)),
-      asked.reading_unit.text, percent(worth.replaced), report.lives.noun);
+      asked.reading_unit.text, share_text(worth.replaced), report.lives.noun);
 }
 
 std::vector<std::string> cells(const Table& table, const std::vector<present::Cell>& row) {
@@ -193,8 +189,9 @@ std::string decisions_text(const DecisionsReport& report) {
                      wrapped(printable(answer(report)), 0, 2) + table_text(policies_table(report));
   if (report.decisions.warranty) text += "\n" + wrapped(printable(warranty_text(report)), 0, 2);
   if (!report.decisions.units.empty()) {
-    Table units = units_table(report);
-    text += table_text(units);
+    text += table_text(units_table(report));
+    if (const std::string past = past_optimum_text(report); !past.empty())
+      text += wrapped(printable(past), 2, 2);
   }
   if (!report.decisions.months.empty())
     text += table_text(months_table(report)) + wrapped(printable(how_counted(report)), 2, 2);
@@ -221,6 +218,8 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
     units.add(
         present::Prose{"Replace after: the time of least cost, given the long-run cost of use in "
                        "the fleet. Waiting saves: compared with replacement now."});
+    if (const std::string past = past_optimum_text(report); !past.empty())
+      units.add(present::Prose{past, true});
     if (report.worth) units.add(present::Prose{worth_text(report)});
     units.add(units_table(report));
     sections.push_back(units);
@@ -269,10 +268,14 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                           {"inspections", best.inspections},
                           {"failing", best.failing}};
   }
-  if (decisions.warranty)
-    json["warranty"] = {{"share", decisions.warranty->share},
-                        {"length", finite(shown.at(decisions.warranty->length))},
-                        {"sure", finite(shown.at(decisions.warranty->sure))}};
+  if (decisions.warranty) {
+    const Warranty& warranty = *decisions.warranty;
+    json["warranty"] = {{"share", warranty.share},
+                        {"length", finite(shown.at(warranty.length))},
+                        {"sure", finite(shown.at(warranty.sure))}};
+    if (warranty.populations > 0) json["warranty"]["populations"] = warranty.populations;
+    if (warranty.error) json["warranty"]["error"] = *warranty.error;
+  }
   Json units = Json::array();
   for (const UnitDecision& each : decisions.units)
     units.push_back({{"unit", each.unit->name},
@@ -281,6 +284,7 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                      {"q50", finite(shown.at(each.q50))},
                      {"q95", finite(shown.at(each.q95))},
                      {"passed", each.unit->passed},
+                     {"past_optimum", each.past_optimum},
                      {"decision", advice(each).empty() ? "later" : advice(each)},
                      {"replace_after", finite(shown.at(each.best.after))},
                      {"failing", each.best.failing},

@@ -14,6 +14,14 @@
 
 namespace wearwell::prognosis {
 
+/// A B-life, SI: the life by which a share of new units has failed.
+struct FittedBLife {
+  double predictive =
+      0;  ///< by which this share is expected to have failed, averaged over the posterior
+  double bound = 0;                            ///< the lower bound of the life by which it has
+  std::optional<double> numerical_error = {};  ///< of both, relative (study/numerical_error.h)
+};
+
 /// A running unit.
 struct KnownUnit {
   std::string name;
@@ -22,6 +30,7 @@ struct KnownUnit {
   WeightedLives remaining;  ///< from now on, given that it has not, SI
   /// The same by population, evaluated when units are counted; empty if there is only the mixture.
   std::function<std::optional<InPopulations>()> in_populations = {};
+  bool by_age = false;  ///< nothing but its age is known of it
 };
 
 /// The lives that decisions rest on: of a new unit, and of running ones.
@@ -35,6 +44,9 @@ struct KnownLives {
   std::vector<KnownUnit> units;
   std::vector<double> populations =
       {};  ///< weights of populations that units may share; empty: not distinguished
+  /// A B-life over the whole posterior, with its lower bound at a level (fitted_b_life.h), if a study measures
+  /// lives; else, or where it is none, `fresh` has the populations that are known.
+  std::function<std::optional<FittedBLife>(double share, double level)> b_life = {};
 };
 
 /// Lives from a table: a column `life`, with its unit in the heading ("life [h]"), and optionally

@@ -179,12 +179,40 @@ UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& cos
     best.after = 0;
     best.cost = best.now;
   }
-  if (best.waiting <= best.cost + 1e-12 * std::abs(best.cost) && infinite_share(remaining) == 0) {
+  const double flat = (no_saving - 1) * costs.replacement;
+  if (best.after > 0 && best.waiting <= best.cost + flat && infinite_share(remaining) == 0) {
     best.after = never;
     best.cost = best.waiting;
   }
   best.failing = remaining.cdf(best.after);
   if (best.after == 0) best.failing = 0;
+  return best;
+}
+
+UnitReplacement replacement_by_age(const PopulationLives& fresh, const PopulationLives& remaining,
+                                   const Costs& costs, double now, double best_age) {
+  std::vector<double> rates;
+  for (const WeightedLives& each : fresh.lives) {
+    const PopulationLives one(each);
+    rates.push_back(std::min(cost_rate(one, costs, best_age), cost_rate(one, costs, never)));
+  }
+  const auto cost = [&](double after) {
+    double sum = 0, mass = 0;
+    for (std::size_t k = 0; k < rates.size(); ++k) {
+      if (!(remaining.weight[k] > 0) || remaining.lives[k].points().empty()) continue;
+      sum += remaining.weight[k] * moment_cost(remaining.lives[k], costs, rates[k], after);
+      mass += remaining.weight[k];
+    }
+    return sum / mass;
+  };
+  UnitReplacement best;
+  best.now = costs.replacement;
+  best.waiting = cost(never);
+  best.after = now < best_age ? best_age - now : best.waiting < best.now ? never : 0;
+  best.cost = best.after == 0             ? best.now
+              : std::isfinite(best.after) ? cost(best.after)
+                                          : best.waiting;
+  best.failing = best.after == 0 ? 0 : 1 - remaining.survival(best.after);
   return best;
 }
 

@@ -66,8 +66,17 @@ struct UnitReplacement {
 
 /// The time of least cost, given the fleet's cost per further unit of the axis: a unit continues as
 /// long as its own risk costs less, h(t) (c_f - c_p) < rate (Bergman, Journal of Applied
-/// Probability 15 (1978) 106). `remaining` is of a unit that has not failed.
+/// Probability 15 (1978) 106). `remaining` is of a unit that has not failed. A moment that
+/// saves less than 0.1 % of a replacement against replacement now, or else at failure, is not named.
 UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& costs, double rate);
+
+/// The time of replacement of a unit of which nothing but its age `now` is known, in each population: at the fleet's age
+/// of least cost; if it is older, now or at failure, whichever costs less. Costs are compared, in each population, with
+/// a fleet that replaces at this age or at failure, whichever is cheaper there: with the average rate of all, long lives
+/// far in the tail of the posterior would decide. `remaining` has the weights of the populations given the survival to
+/// `now`; lives of weight 0 may be empty.
+UnitReplacement replacement_by_age(const PopulationLives& fresh, const PopulationLives& remaining,
+                                   const Costs& costs, double now, double best_age);
 
 /// The same cost at a given time.
 double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after);

@@ -4,6 +4,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/prognosis/fitted_b_life.h"
 #include "wearwell/prognosis/study_lives.h"
 #include "wearwell/study/inference_data.h"
 
@@ -33,6 +34,10 @@ ResultLives lives_of_result(const CarriedState& state, Models models, const std:
   const std::unique_ptr<const Study> study = read_study(state.source, models);
   result.lives =
       lives_of_study(require_posterior_study(*study), state.posterior, title, state.trusted, point);
+  const auto own = std::make_shared<const CarriedState>(state);
+  result.lives.b_life = [=](double share, double level) {
+    return fitted_b_life(*own, models, title, point, share, level);
+  };
   return result;
 }
 

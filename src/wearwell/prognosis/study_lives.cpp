@@ -57,6 +57,7 @@ WeightedLives remaining_at(const WeightedLives& fresh, double age) {
 // The remaining lives of a unit in each population, and their mixture.
 KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, bool counted) {
   KnownUnit unit{std::move(name), age, 0, {}};
+  unit.by_age = true;
   InPopulations in;
   std::vector<double> share;
   for (std::size_t k = 0; k < lives.populations.size(); ++k) {

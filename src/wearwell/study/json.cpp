@@ -4,6 +4,7 @@
 
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/mean_tail.h"
 
 namespace wearwell {
 namespace {
@@ -74,6 +75,7 @@ Json to_json(const QuantityQuantiles& q, bool is_life) {
     if (q.mean_tail->beyond)
       json["mean_tail"].update(
           {{"observed_to", *q.mean_tail->longest}, {"beyond", *q.mean_tail->beyond}});
+    if (is_endless_mean(q)) json["mean_tail"]["not_finite"] = reason_of_endless_mean(q);
   }
   if (q.numerical_error) json["numerical_error"] = *q.numerical_error;
   if (is_undetermined(q)) json["undetermined"] = true;

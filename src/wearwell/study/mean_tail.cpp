@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
 
@@ -25,10 +27,8 @@ std::string mean_name(const QuantitySummary& mean) {
   return fmt::format("the {} of {}{}{}", mean.name, mean.of, mean.at.empty() ? "" : " ", mean.at);
 }
 
-// An infinite mean says so itself.
 bool is_carried(const QuantityQuantiles& q) {
-  return q.mean_tail->highest > most_of_highest &&
-         std::isfinite(q.predictive ? *q.predictive : q.mean.value_or(0));
+  return q.mean_tail->highest > most_of_highest && !is_endless_mean(q);
 }
 
 bool rests_beyond(const MeanTail& tail) {
@@ -45,11 +45,19 @@ std::string highest_text(const QuantitySummary& mean, const MeanTail& tail) {
                      share_text(tail.highest), mean_name(mean));
 }
 
+std::string endless_text(const QuantitySummary& mean) {
+  return fmt::format("the posterior mean of {} is {}: {}", mean_name(mean), not_finite_text,
+                     reason_of_endless_mean(mean.best()));
+}
+
 constexpr const char* advice_beyond =
     "This mean rests on the upper tail of the distribution, not on data. Read the median (B50), or "
     "test until more items fail.";
 constexpr const char* advice_highest =
     "This average changes with the tails of the priors and need not be finite. Read the quantiles.";
+constexpr const char* advice_endless =
+    "The tails of the priors decide on this average, not the data. Read the quantiles, or state "
+    "what is known of the shape of the distribution in its prior.";
 
 std::string capitalized(std::string text) {
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
@@ -88,15 +96,34 @@ double share_of_highest(const CellMixture& value) {
   return mean > 0 ? highest / mean : highest_part;
 }
 
+bool is_endless_mean(const QuantityQuantiles& q) {
+  return q.mean_tail && std::isinf(q.predictive ? *q.predictive : q.mean.value_or(0));
+}
+
+void refuse_endless_mean(QuantityQuantiles& q) {
+  if (!q.mean_tail || !(q.mean_tail->highest > most_of_finite)) return;
+  for (std::optional<double>* each : {&q.predictive, &q.mean})
+    if (*each && std::isfinite(**each)) *each = std::copysign(infinity, **each);
+}
+
+std::string reason_of_endless_mean(const QuantityQuantiles& q) {
+  if (!is_endless_mean(q)) return "";
+  return q.mean_tail->highest >= 1
+             ? "it is infinite at a part of the posterior"
+             : fmt::format("the highest 1 % of the posterior carries {} of its sum",
+                           share_text(q.mean_tail->highest));
+}
+
 std::vector<std::string> mean_tail_remarks(const std::vector<QuantitySummary>& quantities,
                                            bool bounds) {
-  std::vector<std::string> beyond, carried;
+  std::vector<std::string> beyond, carried, endless;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.mean_tail || q.predictive.has_value() != bounds) continue;
     if (rests_beyond(*q.mean_tail)) beyond.push_back(beyond_text(each, *q.mean_tail));
     if (is_carried(q))
       carried.push_back(highest_text(each, *q.mean_tail) + (bounds ? " (next one)" : ""));
+    if (is_endless_mean(q)) endless.push_back(endless_text(each) + (bounds ? " (next one)" : ""));
   }
   std::vector<std::string> remarks;
   const auto add = [&](const std::vector<std::string>& means, const char* advice) {
@@ -105,6 +132,7 @@ std::vector<std::string> mean_tail_remarks(const std::vector<QuantitySummary>& q
   };
   add(beyond, advice_beyond);
   add(carried, advice_highest);
+  add(endless, advice_endless);
   return remarks;
 }
 
@@ -115,7 +143,11 @@ std::optional<Check> mean_life_check(const std::vector<QuantitySummary>& quantit
   for (const QuantitySummary& each : quantities) {
     const std::optional<MeanTail>& tail = each.best().mean_tail;
     // A mean of a derived quantity is an aside: it counts only where it is doubtful.
-    if (!tail || (!each.best().predictive && !is_carried(each.best()))) continue;
+    if (!tail) continue;
+    // An infinite value of a derived quantity states itself.
+    const bool endless =
+        is_endless_mean(each.best()) && (each.best().predictive || tail->highest < 1);
+    if (!each.best().predictive && !endless && !is_carried(each.best())) continue;
     any = true;
     observed |= tail->beyond.has_value();
     most = std::max(most, tail->beyond.value_or(0));
@@ -124,6 +156,7 @@ std::optional<Check> mean_life_check(const std::vector<QuantitySummary>& quantit
     if (rests_beyond(*tail)) findings.add(Verdict::warn, beyond_text(each, *tail), advice_beyond);
     if (is_carried(each.best()))
       findings.add(Verdict::warn, highest_text(each, *tail), advice_highest);
+    if (endless) findings.add(Verdict::warn, endless_text(each), advice_endless);
   }
   if (!any) return {};
   const std::string carried =

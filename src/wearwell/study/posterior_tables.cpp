@@ -1,6 +1,7 @@
 #include "wearwell/study/posterior_tables.h"
 
 #include "wearwell/study/bound_words.h"
+#include "wearwell/study/mean_tail.h"
 #include "wearwell/study/never_reached.h"
 
 #include <fmt/format.h>
@@ -182,7 +183,10 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
     for (const std::optional<double>& bound : {q.bound, q.upper_bound})
       if (bounded && bound) table.rows.back().push_back(value(*bound));
     table.rows.back().resize(before + named.size());
-    if (means) table.rows.back().push_back(q.mean ? value(*q.mean) : Cell());
+    if (means)
+      table.rows.back().push_back(!q.mean              ? Cell()
+                                  : is_endless_mean(q) ? Cell(not_finite_text)
+                                                       : value(*q.mean));
   }
   add_numerical_errors(table, quantities, false);
   return table;
@@ -206,7 +210,8 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
     std::vector<Cell>& row = table.rows.back();
     for (const std::optional<double>& bound : {q.bound, q.upper_bound})
       if (bound) row.push_back(value(*bound));
-    for (const double x : {q.q05, q.q50, q.q95, *q.predictive}) row.push_back(value(x));
+    for (const double x : {q.q05, q.q50, q.q95}) row.push_back(value(x));
+    row.push_back(is_endless_mean(q) ? Cell(not_finite_text) : value(*q.predictive));
   }
   add_numerical_errors(table, quantities, true);
   return table;

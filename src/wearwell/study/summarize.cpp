@@ -68,7 +68,22 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
   }
   if (q.mean_tail && q.mean_tail->longest)
     q.mean_tail->longest = from_si(unit, *q.mean_tail->longest);
+  refuse_endless_mean(q);
   return q;
+}
+
+// Whether a pure number is 0 at some points of the posterior and 1 at all others: it has a probability, but no quantiles.
+bool is_indicator(const QuantityRequest& request, const WeightedDraws& draws) {
+  if (request.unit.text != "1" && request.unit.text != "%") return false;
+  const double least = QuantityDistribution::least_weight(draws);
+  bool any = false, none = false;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    if (!(draws.cell_weight(i) > least)) continue;
+    const double value = request.value(request.driver(draws.values.row(i).data()));
+    if (value != 0 && value != 1) return false;
+    (value == 1 ? any : none) = true;
+  }
+  return any && none;
 }
 
 QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
@@ -100,6 +115,8 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
     known.visit([&](double, double value, double) { is_share &= value >= 0 && value <= 1; });
     if (const auto highest = share_of_highest(known); highest && !is_share)
       result.mean_tail = MeanTail{*highest, {}, {}};
+    refuse_endless_mean(result);
+    if (is_indicator(request, draws)) result.q05 = result.q50 = result.q95 = std::nan("");
   }
   return result;
 }

@@ -199,7 +199,10 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
                                            : shown_value(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
-    if (means) rows.back().push_back(q.mean ? shown_value(*q.mean) : "-");
+    if (means)
+      rows.back().push_back(!q.mean              ? "-"
+                            : is_endless_mean(q) ? not_finite_text
+                                                 : shown_value(*q.mean));
   }
   if (rows.size() == 1) return "";
   return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +
@@ -239,8 +242,9 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
                                   : printable_heading(shown(each.name), each.unit))});
     for (const std::optional<double>& bound : {q.bound, q.upper_bound})
       if (bound) rows.back().push_back(share_life(each, *bound, digits));
-    for (const double x : {q.q05, q.q50, q.q95, *q.predictive})
-      rows.back().push_back(share_life(each, x, digits));
+    for (const double x : {q.q05, q.q50, q.q95}) rows.back().push_back(share_life(each, x, digits));
+    rows.back().push_back(is_endless_mean(q) ? not_finite_text
+                                             : share_life(each, *q.predictive, digits));
   }
   if (rows.empty()) return "";
   const std::string never = never_reached(quantities);

@@ -10,6 +10,7 @@
 
 #include "models/formula_model/formula_models.h"
 #include "support/scratch.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/study/posterior_result.h"
 #include "wearwell/study/run_study.h"
 #include "wearwell/study/terminal.h"
@@ -51,6 +52,7 @@ TEST(ShareOfHighest, OfDistributionsWithClosedForms) {
         << s;
   // The limit is that of a standard deviation of the logarithm of 1.5.
   EXPECT_NEAR(most_of_highest, normal_cdf_of(1.5 - z99), 0.01);
+  EXPECT_NEAR(most_of_finite, normal_cdf_of(2.3 - z99), 0.02);
   const auto above = [](const double* z) { return normal_cdf_of(-z[0]); };
   EXPECT_NEAR(share([&](const double* z) { return 1 - above(z); }), 0.01 * (2 - 0.01), 1e-4);
   EXPECT_NEAR(share([&](const double* z) { return -std::log(above(z)); }),
@@ -143,19 +145,25 @@ TEST_F(MeanTailTest, ShareBeyondTheLongestLifeIsThatOfTheNodes) {
   EXPECT_NEAR(*remaining->beyond, beyond_of_survivors / left, 5e-3);
 }
 
-// A slope near 0.3 and few failures: the average is one of few points of the posterior, and terminal, page and JSON say so.
-TEST_F(MeanTailTest, AMeanOfTheTailIsSaid) {
+// A slope near 0.3 and few failures: the average is one of few points of the posterior. Terminal, page and JSON say so, and
+// give no number for it; quantiles stay.
+TEST_F(MeanTailTest, AMeanOfTheTailIsNotFinite) {
   write("lives.csv",
         "life [h],status\n0.2,failure\n9,failure\n700,failure\n1000,runout\n1000,runout\n"
         "1000,runout\n");
   const PosteriorSummary result = run(weibull_study("mean_life = true\n", "0.4"));
   const MeanTail tail = named(result, "mean life").mean_tail.value();
   EXPECT_GT(*tail.beyond, 0.9);
-  EXPECT_GT(tail.highest, 0.5);
+  EXPECT_GT(tail.highest, most_of_finite);
+  const QuantityQuantiles& mean = named(result, "mean life");
+  EXPECT_EQ(mean.predictive, INFINITY);
+  EXPECT_TRUE(std::isfinite(mean.q50) && std::isfinite(mean.q95) && std::isfinite(*mean.bound));
   EXPECT_EQ(check_of(result).verdict, Verdict::warn);
-  const std::string beyond =
-                        " of the mean life of unit comes from lives beyond 1000 h, as far as the",
-                    highest = "The highest 1 % of the posterior carries ";
+  const std::string
+      beyond = " of the mean life of unit comes from lives beyond 1000 h, as far as the",
+      highest =
+          "The posterior mean of the mean life of unit is not finite: the highest 1 % of "
+          "the posterior carries ";
   EXPECT_THAT(check_of(result).detail, HasSubstr(beyond));
   const std::vector<std::string> remarks = mean_tail_remarks(result.quantities, true);
   ASSERT_EQ(remarks.size(), 2u);
@@ -169,7 +177,9 @@ TEST_F(MeanTailTest, AMeanOfTheTailIsSaid) {
     }
     return out;
   };
-  EXPECT_THAT(one_line(terminal_summary(result, {})), HasSubstr("mean life of unit comes from"));
+  const std::string terminal = one_line(terminal_summary(result, {}));
+  EXPECT_THAT(terminal, HasSubstr("mean life of unit comes from"));
+  EXPECT_THAT(terminal, HasSubstr(fmt::format("{} not finite", plain_number(mean.q95))));
   const Result shown = posterior_result(result);
   EXPECT_THAT(report_html(shown.header, shown.sections), HasSubstr("mean life of unit comes from"));
   const auto json = summary_json(shown);
@@ -178,6 +188,10 @@ TEST_F(MeanTailTest, AMeanOfTheTailIsSaid) {
                                   [](const auto& q) { return q.at("name") == "mean life"; });
   ASSERT_NE(found, quantities.end());
   EXPECT_EQ(found->at("mean_tail").at("highest"), tail.highest);
+  EXPECT_TRUE(found->at("predictive").is_null());
+  EXPECT_EQ(found->at("q50"), mean.q50);
+  EXPECT_THAT(found->at("mean_tail").at("not_finite").get<std::string>(),
+              HasSubstr("the highest 1 % of the posterior carries"));
   EXPECT_EQ(found->at("mean_tail").at("observed_to"), 1000);
   EXPECT_EQ(found->at("mean_tail").at("beyond"), *tail.beyond);
   EXPECT_TRUE(found->at("draws").contains("mean_tail"));
@@ -252,8 +266,36 @@ TEST_F(MeanTailTest, MeansOfDerivedQuantities) {
   EXPECT_FALSE(named(result, "late").mean_tail);
   const std::vector<std::string> remarks = mean_tail_remarks(result.quantities, false);
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_THAT(remarks[0], HasSubstr("of the posterior mean of wild"));
+  EXPECT_THAT(remarks[0], HasSubstr("posterior mean of wild"));
   EXPECT_EQ(check_of(result).verdict, Verdict::warn);
+}
+
+// Hours, as the lives are; and an indicator has a probability but no quantiles.
+TEST_F(MeanTailTest, QuantitiesWithoutAUnitAndIndicators) {
+  write("lives.csv", six_lives);
+  const PosteriorSummary result =
+      run(weibull_study("[predict.quantities]\n"
+                        "scale = \"eta\"\n"
+                        "square = \"eta^2\"\n"
+                        "wears_out = \"where(beta > 1.5, 1, 0)\"\n"));
+  const auto unit = [&](const std::string& name) {
+    for (const QuantitySummary& each : result.quantities)
+      if (each.name == name) return each.unit;
+    return std::string("none");
+  };
+  EXPECT_EQ(unit("scale"), "h");
+  EXPECT_NE(unit("square"), "h");
+  EXPECT_GT(named(result, "scale").q50, 100);
+  EXPECT_LT(named(result, "scale").q50, 10'000);
+  const WeightedDraws& nodes = result.fit->exact->nodes;
+  double above = 0;
+  for (Eigen::Index i = 0; i < nodes.values.rows(); ++i)
+    above += nodes.values(i, 1) > 1.5 ? nodes.weights[i] : 0;
+  const QuantityQuantiles& indicator = named(result, "wears_out");
+  EXPECT_TRUE(std::isnan(indicator.q05) && std::isnan(indicator.q50) && std::isnan(indicator.q95));
+  EXPECT_NEAR(indicator.mean.value(), above, 0.01);
+  EXPECT_NEAR(named(result, "scale").mean.value() * 3600, nodes.weights.dot(nodes.values.col(0)),
+              5e3);
 }
 
 }  // namespace

@@ -204,6 +204,15 @@ class Predictions {
 
   // ---- Functions of the parameters.
 
+  // Where the study states none: that of a measured column of the same dimension, or of a number in SI.
+  Unit unit_of_quantity(const formula::Powers& powers) const {
+    if (powers.empty()) return {"1", 1, 0};
+    for (const Measured& each : model_->measured)
+      if (each.form && each.form->positive && each.powers == powers && each.unit.offset == 0)
+        return each.unit;
+    return {formula::description(powers), 1, 0};
+  }
+
   void read_quantities() {
     const auto table = predict_.table("quantities");
     if (!table) return;
@@ -222,7 +231,7 @@ class Predictions {
       const auto program = std::make_shared<const formula::Program>(
           compile_at(*table, name, model_->written, wanted, model_->symbols));
       const formula::Powers& powers = program->outputs()[0].powers;
-      Unit shown{powers.empty() ? "1" : formula::description(powers), 1, 0};
+      Unit shown = unit_of_quantity(powers);
       if (unit) {
         try {
           const formula::AnyUnit own = formula::read_any_unit(*unit);

@@ -5,6 +5,7 @@
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/mean_beyond.h"
+#include "wearwell/prob/mean_residual_life.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -270,6 +271,10 @@ double LifeAtPoint::failing_within(double age, double use) const {
 }
 
 double LifeAtPoint::mean_beyond(double from) const {
+  if (single() && risks_.front().life.plain()) {
+    const auto closed = mean_residual_life(risks_.front().life.families.front(), from, slots(0));
+    if (closed) return *closed;
+  }
   if (failing() < 1 - 1e-12) return infinity;
   // Of those that are not dead on arrival; these count as lives of 0.
   const double works = 1 - dead_share();

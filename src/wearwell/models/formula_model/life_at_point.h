@@ -69,7 +69,8 @@ class LifeAtPoint {
   double failing_within(double age, double use) const;
   /// The share of that mean that comes from lives beyond `life`: E[N - from; N > life]/E[N - from], given N > from.
   double share_of_mean_beyond(double from, double life) const;
-  /// The mean life of survivors of `from`, from there on (math/mean_beyond.h); of positive lives.
+  /// The mean life of survivors of `from`, from there on, of positive lives: in closed form (prob/mean_residual_life.h)
+  /// or as an integral (math/mean_beyond.h).
   double mean_beyond(double from) const;
   /// The probability that an item outlives one of `other`: the integral of this survival function
   /// over the other's distribution, within 1e-8 and the 2e-10 of its tails. One that never fails is outlived by none.
