@@ -16,13 +16,16 @@ put <- function(case, what, best, loss, quantity, with, solved) {
   g <- numDeriv::grad(quantity, best$par)
   at <- quantity(best$par); se <- sqrt(drop(g %*% v %*% g))
   fall <- function(q, from) {
-    r <- climb(from[-solved], function(others) {
-      x <- append(others, NA, solved - 1)
-      x <- with(x, q)
+    loss_at <- function(others) {
+      x <- with(append(others, NA, solved - 1), q)
       if (anyNA(x)) return(1e10)
       value <- loss(x)
       if (is.finite(value)) value else 1e10
-    })
+    }
+    # A profile can have several branches: the highest of some searches counts.
+    starts <- c(list(from), lapply(c(-1, 1), function(by) best$par + by * sqrt(diag(v)) * rep_len(c(1, -1, 1), length(best$par))))
+    searches <- lapply(starts, function(start) climb(start[-solved], loss_at))
+    r <- searches[[which.min(sapply(searches, `[[`, "value"))]]
     list(root = sqrt(2 * max(0, r$value - best$value)), x = append(r$par, 0, solved - 1))
   }
   end <- function(side) {  # outward in steps, then by bisection of secants
@@ -70,10 +73,11 @@ best <- climb(c(-2.2, log(670), log(0.7), log(24000), log(3.3)), mixture)
 names <- c("w", "eta[early]", "beta[early]", "eta[late]", "beta[late]")
 for (i in 1:5) do.call(put, c(list("controllers", names[i], best, mixture), parameter(i)))
 share <- function(x, t) plogis(x[1]) * pweibull(t, exp(x[3]), exp(x[2])) + plogis(-x[1]) * pweibull(t, exp(x[5]), exp(x[4]))
-late_of <- function(x, t, failed) {
-  u <- (failed - plogis(x[1]) * pweibull(t, exp(x[3]), exp(x[2]))) / plogis(-x[1])
-  replace(x, 4, if (u > 0 && u < 1) log(t) - log(-log1p(-u)) / exp(x[5]) else NA)
+weight_of <- function(x, t, failed) {
+  early <- pweibull(t, exp(x[3]), exp(x[2])); late <- pweibull(t, exp(x[5]), exp(x[4]))
+  w <- (failed - late) / (early - late)
+  replace(x, 1, if (is.finite(w) && w > 0 && w < 1) qlogis(w) else NA)
 }
 put("controllers", "log B10", best, mixture, function(x) uniroot(function(l) share(x, exp(l)) - 0.1, log(c(1, 1e6)), tol = 1e-13)$root,
-    function(x, q) late_of(x, exp(q), 0.1), 4)
-put("controllers", "survival to 10000", best, mixture, function(x) log(-log1p(-share(x, 10000))), function(x, q) late_of(x, 10000, -expm1(-exp(q))), 4)
+    function(x, q) weight_of(x, exp(q), 0.1), 1)
+put("controllers", "survival to 10000", best, mixture, function(x) log(-log1p(-share(x, 10000))), function(x, q) weight_of(x, 10000, -expm1(-exp(q))), 1)

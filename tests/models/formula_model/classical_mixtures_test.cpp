@@ -73,7 +73,7 @@ void expect_bounds(const Json& found, const std::string& name, const std::string
     const std::size_t low = decreasing ? 1 : 0;
     const auto expect = [&](const Json& value, std::size_t column) {
       if (row[column] == "NA") {
-        EXPECT_TRUE(value.is_null()) << name << " " << what;
+        EXPECT_TRUE(std::isnan(value.get<double>())) << name << " " << what;
         return;
       }
       const double number = converted(std::stod(row[column]));
@@ -174,7 +174,7 @@ TEST_F(ClassicalMixturesTest, SharesAtTheirBound) {
   const Json& ml = near.at("maximum_likelihood");
   ASSERT_FALSE(ml.contains("problem")) << ml.dump();
   const Json& ratio = named(ml.at("parameters"), "p").at("likelihood_ratio");
-  EXPECT_TRUE(ratio.at("upper").is_null());
+  EXPECT_TRUE(std::isnan(ratio.at("upper").get<double>()));
   EXPECT_THAT(ratio.at("upper_open").get<std::string>(), HasSubstr("to the bound 1 of a share"));
   EXPECT_THAT(near.at("notes"), Contains(HasSubstr("p: the likelihood-ratio interval has no end")));
 }
