@@ -627,5 +627,6 @@ def test_parameters_and_default_priors_are_those_of_the_r_package():
     with open(os.path.join(source, "tests", "golden", "life_families.json")) as file:
         expected = json.load(file)
     for family, of in expected.items():
-        study = tomllib.loads(made(ww.life, pumps, "hours", event="failed", family=family, units={"hours": "h"}).toml)
+        study = tomllib.loads(made(ww.life, pumps, "hours", event="failed", family=family, standard=of["likelihood"].get("standard"),
+                                   units={"hours": "h"}).toml)
         assert study["likelihood"]["hours"] == of["likelihood"] and study["prior"] == of["prior"], family

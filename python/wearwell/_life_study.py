@@ -6,31 +6,11 @@ from . import _toml
 from ._columns import Columns, modes_of, status_of
 from ._errors import InputError
 from ._fit_options import fits
+from ._life_families import families, family_keys, population_names, population_table, refuse_beside, share_keys, threshold_keys
 from ._preset_study import classical_key, level_of_bounds
-from ._proposed import Priors, half_normal, lognormal, normal, quantity_text, rounded_up, spread, spread_log_sd
+from ._proposed import Priors, half_normal, lognormal, normal, quantity_text, rounded_up
 from ._study import Study
 
-_slope = ("slope", {"distribution": "lognormal", "median": 1.5, "log_sd": 0.7}, "below 1 early failures, 1 random failures, above wear-out")
-_of_spread = "life scatters as under the default of weibull"
-
-
-def _spread_of(name, scale=spread, log_sd=spread_log_sd):
-    return name, {"distribution": "lognormal", "median": round(scale, 2), "log_sd": log_sd}, _of_spread
-
-
-# Of a family: the name of what the formula gives, its parameters in [likelihood] of that name, and the parameters of its shape.
-# Their defaults have the same spread of ln life: its standard deviation is 1.81/shape of a log-logistic and about
-# 1/sqrt(shape) of a gamma life.
-_families = {
-    "weibull": ("characteristic", {"scale": "{}", "shape": "slope"}, [_slope]),
-    "exponential": ("mean_life", {"mean": "{}"}, []),
-    "lognormal": ("median_life", {"median": "{}", "log_sd": "sigma"}, [_spread_of("sigma")]),
-    "loglogistic": ("median_life", {"scale": "{}", "shape": "shape"}, [_spread_of("shape", 1.8138 / spread)]),
-    "frechet": ("characteristic", {"scale": "{}", "shape": "slope"}, [_spread_of("slope", 1.2825 / spread)]),
-    "gamma": ("mean_life", {"scale": "{}/shape", "shape": "shape"}, [_spread_of("shape", 1.8, 1.2)]),
-    "inverse-gaussian": ("mean_life", {"mean": "{}", "shape": "{}/variation^2"}, [_spread_of("variation")]),
-    "birnbaum-saunders": ("median_life", {"scale": "{}", "shape": "alpha"}, [_spread_of("alpha")]),
-}
 _harsh = "the harshest tested"
 _stresses = ("arrhenius", "eyring", "inverse power")
 
@@ -107,25 +87,26 @@ def _lives(columns, life):
     return {"lower": columns.entry(lower), "upper": columns.entry(upper)}, "life", ends, units[0]
 
 
-def _shape(shape, by, unit, mode):
+def _shape(shape, by, unit, mode, populations):
     """"shared" or "separate", the default where it is None."""
     if shape not in (None, "shared", "separate"):
-        raise InputError(f"shape is {shape!r}; it is 'shared', one for all groups or failure modes, or 'separate'")
-    if shape == "separate" and by is None and mode is None:
-        raise InputError("shape='separate' needs by or mode: the column of the groups or failure modes that differ")
+        raise InputError(f"shape is {shape!r}; it is 'shared', one for all groups, failure modes or subpopulations, or 'separate'")
+    if shape == "separate" and by is None and mode is None and not populations:
+        raise InputError("shape='separate' needs by or mode: the column of the groups or failure modes that differ; or subpopulations")
     given = [name for name, value in (("by", by), ("unit", unit), ("mode", mode)) if value is not None]
     if len(given) > 1:
         why = {"by unit": "each group has its own scale, which then has no random effect",
                "by mode": "each failure mode has its own scale, for all groups", "unit mode": "failure modes have no random effects"}
         raise InputError(f"{given[0]} and {given[1]}: {why[' '.join(given[:2])]}; leave one out")
-    return shape or ("shared" if mode is None else "separate")
+    return shape or ("shared" if mode is None and not populations else "separate")
 
 
 @fits
-def life(data, life, *, event=None, entry=None, count=None, family="weibull", by=None, unit=None, mode=None, shape=None, stress=None,
-         given=None, units=None, priors=None, b=(1, 10, 50), confidence=0.9, classical=False, predict=None, unused=None, title=None, seed=None,
+def life(data, life, *, event=None, entry=None, count=None, family="weibull", standard=None, threshold=False, share_defective=False,
+         share_dead_on_arrival=False, subpopulations=None, by=None, unit=None, mode=None, shape=None, stress=None, given=None, units=None,
+         priors=None, b=(1, 10, 50), confidence=0.9, classical=False, predict=None, unused=None, title=None, seed=None,
          method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
-    """Fit a distribution of life to a table: censored, truncated, by group, under stress.
+    """Fit a distribution of life to a table: censored, truncated, by group, under stress, of several subpopulations.
 
     Parameters
     ----------
@@ -142,8 +123,22 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         Column of the age at which observation began (left truncation).
     count : str, optional
         Column of the number of equal items in a row.
-    family : {"weibull", "exponential", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian", "birnbaum-saunders"}
+    family : {"weibull", "exponential", "lognormal", "loglogistic", "frechet", "gamma", "inverse-gaussian", "birnbaum-saunders", \
+            "generalized-gamma", "exponentiated-weibull", "log10-normal", "log-location-scale"}
         Distribution of the lives.
+    standard : {"smallest extreme value", "normal", "logistic", "largest extreme value"}, optional
+        Of family "log-location-scale", and needed there: the distribution of the standardized logarithm.
+    threshold : bool, str, float or pint quantity
+        Life before which no part fails (three-parameter Weibull, shifted lognormal): True for a parameter with a prior, or a known
+        one. It is the same for all groups, modes, subpopulations and stresses; scales count from it on.
+    share_defective : bool or float
+        Share of the parts that can fail at all (limited failure population, cure model): True for a parameter with a prior, or a
+        known share. Lives that fewer parts reach are infinite.
+    share_dead_on_arrival : bool or float
+        Share of the parts that are dead at life 0; a life of 0 is such a part.
+    subpopulations : {2, 3, 4} or sequence of str, optional
+        Number of subpopulations of which a part is one, unknown which (mixture), or their names in the order of their median lives;
+        two are "early" and "late". Each has its own scale, and a share; the last has the rest.
     by : str, optional
         Column of groups, such as suppliers. Each group has its own scale.
     unit : str, optional
@@ -154,7 +149,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         first (competing risks). "A|B" is one of the two, "unknown" any. Without ``event`` a word such as "censored" in this
         column marks what still ran; ``{"column": "cause", "runout": 0}`` names another one.
     shape : {"shared", "separate"}, optional
-        Whether all groups or modes have one shape, or each has its own. By default groups share it, and modes do not.
+        Whether all groups, modes or subpopulations have one shape, or each has its own. By default groups share it, and modes and
+        subpopulations do not.
     stress : dict of str to str, optional
         By column "arrhenius" or "eyring" (temperatures, whose unit must be stated) or "inverse power" (voltage, load,
         humidity): how a life shortens. Groups share the effect of a stress.
@@ -171,7 +167,9 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
         largest life (with stress the middle one) rounded up to 1, 2 or 5 times a power of ten. If few parts failed, the
         median is what the time on test per failure gives with slope 1.5, and log_sd grows with its distance from the
         largest life. ``slope`` of weibull:
-        lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life.
+        lognormal, median 1.5, log_sd 0.7; shapes of other families have the same spread of the logarithm of life, ``lambda`` is
+        normal, 0, sd 1.5, and ``exponent`` lognormal, median 1, log_sd 0.7. ``threshold``: half-normal, scale the smallest life
+        rounded up. ``share_defective``, ``share_dead_on_arrival`` and ``share_NAME`` of each subpopulation but the last: uniform.
         ``energy``: normal, 0.7 eV, sd 0.3 eV; ``NAME_power``: normal, 5, sd 5. ``SCALE_scatter`` of ln life between units,
         such as ``characteristic_scatter``: half-normal, scale 1.
     b : float or sequence of float
@@ -219,13 +217,23 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     >>> fit = ww.life(parts, "hours", mode="cause", family="exponential", units={"hours": "h"}, method="exact", report=False)
     >>> list(fit.parameters.index)
     ['mean_life[seal]', 'mean_life[wear]']
+
+    Few parts can fail at all: the share that can, and how early they do:
+
+    >>> boards = {"hours": [12, 40, 95, 180, 420, 2000], "failed": [1, 1, 1, 1, 1, 0], "count": [1, 1, 1, 1, 1, 95]}
+    >>> fit = ww.life(boards, "hours", event="failed", count="count", share_defective=True, units={"hours": "h"}, method="exact", report=False)
+    >>> fit.parameters["q50"].index.tolist()
+    ['characteristic', 'slope', 'share_defective']
     """
-    if family not in _families:
-        raise InputError(f"family is {family!r}; it is {', '.join(_families)}. wearwell.Study has further ones, with priors that you state")
-    shape = _shape(shape, by, unit, mode)
-    scale, slots, shapes = _families[family]
+    of_family = family_keys(family, standard)
+    populations = population_names(subpopulations)
+    shares = (("share_defective", share_defective), ("share_dead_on_arrival", share_dead_on_arrival))
+    refuse_beside(shares, populations, (("by", by), ("unit", unit), ("mode", mode)))
+    shape = _shape(shape, by, unit, mode, populations)
+    scale, slots, shapes = families[family]
     base = "life_ref" if stress else scale
-    names = {"life", "life_ref", "energy", "mode", scale, f"{base}_scatter", *(each[0] for each in shapes)}
+    names = {"life", "life_ref", "energy", "mode", "subpopulation", "threshold", *(each[0] for each in shares), scale, f"{base}_scatter",
+             *(each[0] for each in shapes)}
     columns = Columns(data, units, names - {"life"})
     rows, measured, values, of = _lives(columns, life)
     if not len(values) and isinstance(life, str) and (cells := [each for each in columns.words(columns.heading(life, "life")) if each]):
@@ -254,7 +262,7 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     known.add(base, lognormal(rounded_up(size), of, log_sd), f"{why}; about the {of_what if size == least else 'life with slope 1.5'}, rounded up")
     if unit:
         known.add(f"{base}_scatter", half_normal(1.0), "most units are within a factor of ten")
-    index = f"[{columns.name(by)}]" if by else "[mode]" if mode is not None else ""
+    index = f"[{columns.name(by)}]" if by else "[mode]" if mode is not None else "[subpopulation]" if populations else ""
     formula, constants = base + index, {}
     for heading, model in stress.items():
         model = "inverse power" if model == "inverse-power" else model
@@ -268,6 +276,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     for name, default, reason in shapes:
         known.add(name, default, reason)
         slots = {slot: text.replace(name, name + own) for slot, text in slots.items()}
+    further = {**threshold_keys(threshold, values[values > 0][0], of, known, constants), **share_keys(shares, known)}
+    of_populations = population_table(populations, known) if populations else {}
     known.require_used()
     unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
     columns.warn_of_idle(unused, counts=count is None, units=unit is None, instead="by" if by else "mode" if mode is not None else "")
@@ -277,17 +287,21 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", by
     place = scale if stress else formula
     parts = [_toml.table("", {"title": title or f"Life: {life if isinstance(life, str) else ' to '.join(life)}", "model": "formula"}),
              _toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}), _toml.table("data.columns", rows)]
+    if constants:
+        parts.append(_toml.table("constants", constants, {key: _harsh for key in constants if key.endswith("_ref")}))
     if stress:
-        parts += [_toml.table("constants", constants, {key: _harsh for key in constants if key != "boltzmann"}),
-                  _toml.table("formula", {scale: formula})]
+        parts.append(_toml.table("formula", {scale: formula}))
     if unit:
         parts.append(_toml.table(f"random_effects.{columns.name(unit)}", {base: {"distribution": "lognormal", "log_sd": f"{base}_scatter"}}))
     if mode is not None:
         parts.append(_toml.table("failure_modes", {"column": "mode", **modes}))
-    parts += [_toml.table(f"likelihood.{measured}", {"family": family, **{slot: text.replace("{}", place) for slot, text in slots.items()}}),
+    if populations:
+        parts.append(_toml.table("subpopulations", of_populations))
+    parts += [_toml.table(f"likelihood.{measured}", {**of_family, **{slot: text.replace("{}", place) for slot, text in slots.items()}, **further}),
               _toml.table("prior", known.laws, known.comments), _toml.table("predict", asked)]
     table, only = columns.table(unused)
     study = Study._made("\n".join(parts), {"data": (table, columns.data, only)}, {
         "data.columns.status": "event", "data.columns.mode": "mode", "failure_modes": "mode", f"data.columns.{measured}": "life", "predict.b_lives": "b", "predict.credible_level": "confidence",
-        "predict.given": "given", "predict.classical": "classical"})
+        "predict.given": "given", "predict.classical": "classical", "subpopulations.names": "subpopulations", "constants.threshold": "threshold",
+        **{f"likelihood.{measured}.{key}": key for key in further}})
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

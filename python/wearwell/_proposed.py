@@ -49,6 +49,8 @@ def normal(mean, sd, unit=""):
 
 def _flat(default):
     """The flat prior of a parameter: of its unit, above 0 where the default is."""
+    if default["distribution"] == "uniform":
+        return dict(default)
     size = default.get("median", default.get("scale", default.get("mean")))
     unit = size.split(" ", 1)[1] if isinstance(size, str) else "1"
     lower = {} if default["distribution"] == "normal" else {"lower": f"0 {unit}" if unit != "1" else 0}

@@ -4,12 +4,15 @@ from . import _toml
 from ._data import headings_of, no_column, table_of
 from ._errors import InputError
 from ._fit_options import fits
-from ._life_study import _families
+from ._life_families import families
 from ._preset_study import quantities
 from ._proposed import Priors, factor_27, lognormal, rounded_up
 from ._study import Study
 
 _slope = ("slope", {"distribution": "lognormal", "median": 1.2, "log_sd": 0.5}, "below 1 early failures, above wear-out")
+
+# Each under its own name, without a further argument.
+_families = {name: each for name, each in families.items() if name != "log-location-scale"}
 
 
 def _is_date(value):

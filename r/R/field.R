@@ -92,9 +92,8 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
                        planned_sales = NULL, survival_to = NULL, priors = NULL, predict = NULL, title = "Warranty returns", fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_returns")
   require_options("ww_returns", ..., own = names(formals(ww_returns)))
-  if (!is_path(family) || !family %in% names(life_families)) {
-    stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
-  }
+  families <- setdiff(names(life_families), "log-location-scale")  # each under its own name, without a further argument
+  if (!is_path(family) || !family %in% families) stop_input("family is ", shown_value(family), "; it is one of ", words(families))
   require_columns(data, "data")
   data <- with_text_dates(as.data.frame(data, check.names = FALSE, stringsAsFactors = FALSE))
   for (name in c("sold", "quantity", "returned")) {

@@ -17,7 +17,28 @@ life_families <- list(
   `inverse-gaussian` = list(location = "mean_life", slots = list(mean = "{}", shape = "{}/variation^2"), shapes = list(variation = of_spread())),
   `birnbaum-saunders` = list(location = "median_life", slots = list(scale = "{}", shape = "alpha"), shapes = list(alpha = of_spread())),
   `generalized-gamma` = list(location = "scale", slots = list(scale = "{}", sigma = "sigma", lambda = "lambda"),
-                             shapes = list(sigma = of_spread(), lambda = list(distribution = "normal", mean = 0, sd = 1.5))))
+                             shapes = list(sigma = of_spread(), lambda = list(distribution = "normal", mean = 0, sd = 1.5))),
+  `exponentiated-weibull` = list(location = "scale", slots = list(scale = "{}", shape = "slope", exponent = "exponent"),
+                                 shapes = list(slope = list(distribution = "lognormal", median = 1.5, log_sd = 0.7),
+                                               exponent = list(distribution = "lognormal", median = 1, log_sd = 0.7))),
+  `log10-normal` = list(location = "median_life", slots = list(median = "{}", log10_sd = "log10_sd"),
+                        shapes = list(log10_sd = of_spread(spread / 2.302585))),
+  `log-location-scale` = list(location = "scale", slots = list(scale = "{}", sigma = "sigma"), shapes = list(sigma = of_spread())))
+
+# Distributions of the standardized logarithm of a log-location-scale family.
+standards <- c("smallest extreme value", "normal", "logistic", "largest extreme value")
+
+require_family <- function(family, standard) {
+  if (!is_path(family) || !family %in% names(life_families)) {
+    stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
+  }
+  if (family != "log-location-scale" && !is.null(standard)) {
+    stop_input("standard is ", shown_value(standard), " and family is ", shown_value(family), "; standard is of family = \"log-location-scale\"")
+  }
+  if (family == "log-location-scale" && !isTRUE(standard %in% standards)) {
+    stop_input("standard is ", shown_value(standard), "; the distribution of the standardized logarithm is one of ", words(standards))
+  }
+}
 
 # Earlier names of parameters.
 called_before <- list(eta = c("characteristic", "life_ref"), characteristic = "life_ref", median_life = "life_ref", mean_life = "life_ref", shape = c("slope", "alpha"), median = c("median_life", "life_ref"), mean = c("mean_life", "life_ref"), exponent = "power",
@@ -47,11 +68,11 @@ life_size <- function(study, modes = NULL, stresses = character()) {
 }
 
 # [likelihood] of a family: `middle` is an expression of its location, `index` "[group]" if shapes differ.
-life_slots <- function(family, middle, index = "") {
+life_slots <- function(family, middle, index = "", standard = NULL) {
   own <- life_families[[family]]
   slots <- lapply(own$slots, function(text) {
     for (name in names(own$shapes)) text <- sub(paste0("\\b", name, "\\b"), paste0(name, index), text)
     sub("{}", middle, text, fixed = TRUE)
   })
-  c(list(family = family), slots)
+  c(list(family = family), if (!is.null(standard)) list(standard = standard), slots)
 }

@@ -27,15 +27,16 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
   with_call(fit, call)
 }
 
-ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, count = NULL, weights = NULL,
+ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL, threshold = FALSE, share_defective = FALSE, share_dead_on_arrival = FALSE,
+                            subpopulations = NULL, by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, count = NULL, weights = NULL,
                             unit = NULL, given = NULL, classical = FALSE, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "classical", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "standard", "threshold", "share_defective", "share_dead_on_arrival", "subpopulations", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "classical", "predict", "title",
                                           "unused", "fit"))
-  if (!is_path(family) || !family %in% names(life_families)) {
-    stop_input("family is ", shown_value(family), "; it is one of ", words(names(life_families)))
-  }
+  require_family(family, standard)
+  populations <- population_names(subpopulations)
+  shares <- list(share_defective = share_defective, share_dead_on_arrival = share_dead_on_arrival)
   if (!is.null(unit)) stop_input("unit: in a formula, random effects of a label are (1 | label)")
   if (length(x) != 3) stop_input("the formula has no left side: Surv(hours, event) ~ 1")
   if (is.null(data)) data <- data_of_formula(x)
@@ -48,7 +49,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
     if (!is.null(weights)) stop_input("count and weights are one: leave weights out")
     weights <- count
   }
-  reader <- list(x = x, location = location, by = by, mode = mode, stress = stress, units = units, weights = weights, unused = unused)
+  reader <- list(x = x, location = location, by = by, mode = mode, stress = stress, units = units, weights = weights, unused = unused,
+                 dead = is_asked(share_dead_on_arrival, "share_dead_on_arrival"))
   read <- read_lives(reader, columns)
   study <- read$columns
   lives <- read$lives
@@ -56,21 +58,28 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", by = NULL, mode 
   effect <- read$random
   by <- read$by
   modes <- read$modes
-  index <- if (!is.null(c(by$name, modes$name))) paste0("[", c(by$name, modes$name), "]") else ""
+  refuse_beside(shares, populations, by, modes, effect)
+  index <- c(by$name, modes$name, if (length(populations)) "subpopulation")
+  index <- if (is.null(index)) "" else paste0("[", index, "]")
   middle <- paste0(location, index)
   if (length(effects$terms)) middle <- paste0(middle, " * exp(", paste(effects$terms, collapse = " + "), ")")
-  likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes)) index else "")
+  likelihood <- life_slots(family, middle, if (has_own_shapes(shape, by, modes, populations)) index else "", standard)
   size <- life_size(study, modes, stress_columns(effects, stress))
   proposed <- life_priors(family, size$median, lives$unit, size$log_sd, location)
-  proposed <- c(proposed, effects$priors, effect$priors)
+  further <- further_of_lives(threshold, shares, populations, study, lives$unit)
+  likelihood <- c(likelihood, further$slots)
+  proposed <- c(proposed, effects$priors, effect$priors, further$priors)
   given <- lives_given(given, effects$conditions, by)
   text <- study_text(
-    title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study, constants = effects$constants,
+    title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study,
+    constants = c(effects$constants, further$constants), populations = further$table,
     likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
     predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9),
                                    if (one_truth(classical, "classical")) list(classical = TRUE))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
-  known <- simulator_of(family, parameters, lives, study, effects, effect, by)
+  known <- simulator_of(if (is.null(standard)) family else standard, parameters, lives, study, effects, effect, by)
+  known$populations <- further
+  if (isTRUE(threshold)) known$units$threshold <- lives$unit
   known$modes <- !is.null(modes)
   reader$used <- read$used
   reader$made <- names(study)
@@ -87,7 +96,7 @@ read_lives <- function(reader, columns, fitted = FALSE) {
   random <- random_of(sides$random, reader$location, effects, columns, "the formula")
   if (!is.null(by) && length(random)) stop_input("by gives each level of ", words(by), " its own ", reader$location, ", which then has no random effects: write ~ ",
                                                  words(by), " + (1 | ...)")
-  study <- life_columns(lives, reader$weights, columns)
+  study <- life_columns(lives, reader$weights, columns, isTRUE(reader$dead))
   for (condition in effects$conditions) study[[condition$name]] <- study_column(condition$values, condition$unit)
   if (!is.null(by)) {
     by <- condition_of(one_text(by, "by"), columns, names(study), "by", fitted)
@@ -126,11 +135,13 @@ modes_of <- function(mode, columns, taken) {
   list(name = name, source = each$heading, column = study_column(values, ""), table = table[c("column", setdiff(names(table), "column"))])
 }
 
-# Whether groups or failure modes have shapes of their own: by default modes do.
-has_own_shapes <- function(shape, by, modes) {
-  if (is.null(shape)) return(!is.null(modes))
-  if (!isTRUE(shape %in% c("shared", "separate"))) stop_input("shape is ", shown_value(shape), "; it is 'shared', one for all groups or failure modes, or 'separate'")
-  if (shape == "separate" && is.null(by) && is.null(modes)) stop_input("shape = 'separate' needs by or mode: the column of the groups or failure modes that differ")
+# Whether groups, failure modes or subpopulations have shapes of their own: by default the latter two do.
+has_own_shapes <- function(shape, by, modes, populations) {
+  if (is.null(shape)) return(!is.null(modes) || length(populations) > 0)
+  if (!isTRUE(shape %in% c("shared", "separate"))) stop_input("shape is ", shown_value(shape), "; it is 'shared', one for all groups, failure modes or subpopulations, or 'separate'")
+  if (shape == "separate" && is.null(by) && is.null(modes) && !length(populations)) {
+    stop_input("shape = 'separate' needs by or mode: the column of the groups or failure modes that differ; or subpopulations")
+  }
   shape == "separate"
 }
 
@@ -164,15 +175,18 @@ without_dot <- function(side, columns, used) {
   do.call(substitute, list(side, list(. = sum)))
 }
 
-life_columns <- function(lives, weights, columns) {
+# `dead`: a life of 0 is a part that is dead on arrival.
+life_columns <- function(lives, weights, columns, dead = FALSE) {
   study <- lives$columns
   row <- paste0(table_name(columns), ", row ")
   for (name in c("life", "entry", "lower", "upper")) {
     values <- study[[name]]$values
     if (name %in% c("life", "entry") && anyNA(values)) stop_input(row, which(is.na(values))[1], ": the ", name, " is missing")
     if (any(is.infinite(values))) stop_input(row, which(is.infinite(values))[1], ": the ", name, " is ", values[is.infinite(values)][1])
-    if (name == "life" && any(values <= 0)) {
-      stop_input(row, which(values <= 0)[1], ": the life is ", number_text(values[values <= 0][1]), "; lives are above 0")
+    low <- if (dead) values < 0 else values <= 0
+    if (name == "life" && any(low)) {
+      stop_input(row, which(low)[1], ": the life is ", number_text(values[low][1]), "; lives are above 0",
+                 if (values[low][1] == 0) "; with share_dead_on_arrival = TRUE a life of 0 is a part that is dead on arrival")
     }
   }
   if (!is.null(weights)) {
@@ -241,6 +255,7 @@ predict_of <- function(own, proposed) {
 
 # A prior of no knowledge of the parameter of a default: of its unit, above 0 where the default is.
 flat_of <- function(default) {
+  if (default$distribution == "uniform") return(default)
   size <- c(default$median, default$scale, default$mean)[[1]]
   unit <- if (is.character(size)) sub("^[^ ]+ ", "", size) else "1"
   ww_flat(unit, lower = if (default$distribution != "normal") if (unit == "1") 0 else paste("0", unit))
@@ -261,7 +276,7 @@ checked_priors <- function(own, known) {
 }
 
 # A study file of a formula model. `columns`: study_column() by name. The data frame has the same names.
-study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL, modes = NULL) {
+study_text <- function(title, columns, constants, likelihood, priors, own_priors, random, predict, formula = NULL, modes = NULL, populations = NULL) {
   if (identical(own_priors, "flat")) own_priors <- lapply(priors, flat_of)
   own_priors <- checked_priors(own_priors, names(priors))
   proposed <- priors[setdiff(names(priors), names(own_priors))]
@@ -270,6 +285,7 @@ study_text <- function(title, columns, constants, likelihood, priors, own_priors
   parts <- c(toml_table("", list(title = title, model = "formula")), toml_table("data", data), columns_table(columns),
              if (length(constants)) toml_table("constants", constants), if (length(formula)) toml_table("formula", formula))
   if (length(modes)) parts <- c(parts, toml_table("failure_modes", modes))
+  if (length(populations)) parts <- c(parts, toml_table("subpopulations", populations))
   for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
   parts <- c(parts, toml_table("prior", c(proposed, own_priors), stats::setNames(rep("default", length(proposed)), names(proposed))))
   for (label in names(random$entries)) parts <- c(parts, toml_table(paste0("random_effects.", toml_key(label)), random$entries[[label]]))
@@ -333,6 +349,8 @@ words_of_caller <- function(message) {
   message <- gsub("write \\[failure_modes\\] runout = (\"[^\"]*\")", "write mode = list(column = ..., runout = \\1)", message)
   message <- gsub("\\bprior\\.([A-Za-z0-9_]+)", "priors: \\1", message, perl = TRUE)
   message <- gsub("^data[.]columns[.]", "column ", message)
+  message <- sub("^(likelihood[.]life|constants)[.](threshold|share_[a-z_]+):", "\\2:", message)
+  message <- sub("^subpopulations[.]names:", "subpopulations:", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
   message <- gsub("needs predict\\.([a-z_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)
   message <- gsub("\\bpredict\\.next\\b", "ahead", message, perl = TRUE)

@@ -39,7 +39,10 @@ new_lives_at <- function(draw, lives) {
   }
   modes <- if (isTRUE(lives$modes)) levels_among(names(draw), parameters[[1]])
   # A part fails by the mode whose life ends first.
-  drawn <- function() if (is.null(modes)) drawn_of(lives$by) else do.call(pmin, lapply(modes, drawn_of))
+  drawn <- function() {
+    if (!is.null(modes)) return(do.call(pmin, lapply(modes, drawn_of)))
+    of_populations(draw, lives$rows, lives$populations, function(label) drawn_of(if (is.null(label)) lives$by else label))
+  }
   if (is.null(lives$entry)) return(drawn())
   # Given survival to its entry: redrawn until it is.
   values <- drawn()
@@ -55,6 +58,12 @@ new_lives_at <- function(draw, lives) {
 random_life <- function(family, u, location, other) {
   switch(family,
     weibull = location * (-log1p(-u))^(1 / other[[1]]),
+    `exponentiated-weibull` = location * (-log1p(-u^(1 / other[[2]])))^(1 / other[[1]]),
+    `smallest extreme value` = location * exp(other[[1]] * log(-log1p(-u))),
+    normal = location * exp(other[[1]] * stats::qnorm(u)),
+    logistic = location * exp(other[[1]] * stats::qlogis(u)),
+    `largest extreme value` = location * exp(-other[[1]] * log(-log(u))),
+    `log10-normal` = location * 10^(other[[1]] * stats::qnorm(u)),
     lognormal = location * exp(other[[1]] * stats::qnorm(u)),
     loglogistic = location * (u / (1 - u))^(1 / other[[1]]),
     frechet = location * (-log(u))^(-1 / other[[1]]),

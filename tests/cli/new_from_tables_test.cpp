@@ -162,6 +162,8 @@ TEST_F(NewFromTables, CapacityThatFalls) {
              "battery;cycle;capacity [Ah]\nB5;1;1.86\nB5;50;1.75\nB5;100;1.60\nB6;1;1.93\n"
              "B6;50;1.80\nB6;100;1.66\nB7;1;1.89\nB7;50;1.79\nB7;100;1.69\n");
   EXPECT_THAT(said, AllOf(HasSubstr("Ah is not a known unit"), HasSubstr("start - rate * cycles")));
+  // The curved path in its place begins and falls as the straight one.
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("= \"start - rate * (cycles/1 [cycles])^p\""));
   EXPECT_NEAR(middle("start"), 1.9, 0.1);
   EXPECT_NEAR(middle("rate"), 0.0025, 0.001);
 }

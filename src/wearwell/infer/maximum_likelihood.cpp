@@ -36,6 +36,16 @@ bool is_concave(const Maximum& summit, const Eigen::VectorXd& unit) {
 
 }  // namespace
 
+double to_normal_scale(NormalScale scale, double x) {
+  if (scale == NormalScale::logarithm) return std::log(x);
+  return scale == NormalScale::logit ? std::log(x) - std::log1p(-x) : x;
+}
+
+double from_normal_scale(NormalScale scale, double z) {
+  if (scale == NormalScale::logarithm) return std::exp(z);
+  return scale == NormalScale::logit ? 1 / (1 + std::exp(-z)) : z;
+}
+
 // The likelihood as a function of the parameters on their scales.
 class MaximumLikelihood::OnScale final : public LogDensity {
  public:
@@ -54,25 +64,28 @@ class MaximumLikelihood::OnScale final : public LogDensity {
     if (!x.allFinite()) return -std::numeric_limits<double>::infinity();
     const double value = likelihood_->value_and_gradient(view(x), gradient);
     for (std::size_t i = 0; i < z.size(); ++i) {
-      if (is_logarithm(i)) gradient[i] *= x[static_cast<Eigen::Index>(i)];
+      const double at = x[static_cast<Eigen::Index>(i)];
+      if (is_logarithm(i)) gradient[i] *= at;
+      if (scales_[i] == NormalScale::logit) gradient[i] *= at * (1 - at);
     }
     return value;
   }
 
   bool is_logarithm(std::size_t i) const { return scales_[i] == NormalScale::logarithm; }
+  /// On a scale without a unit, of about 1.
+  bool is_plain(std::size_t i) const { return scales_[i] != NormalScale::natural; }
 
   Eigen::VectorXd natural(std::span<const double> z) const {
     Eigen::VectorXd x(static_cast<Eigen::Index>(z.size()));
     for (std::size_t i = 0; i < z.size(); ++i)
-      x[static_cast<Eigen::Index>(i)] = is_logarithm(i) ? std::exp(z[i]) : z[i];
+      x[static_cast<Eigen::Index>(i)] = from_normal_scale(scales_[i], z[i]);
     return x;
   }
 
   Eigen::VectorXd on_scale(const Eigen::VectorXd& x) const {
     Eigen::VectorXd z = x;
-    for (Eigen::Index i = 0; i < z.size(); ++i) {
-      if (is_logarithm(static_cast<std::size_t>(i))) z[i] = std::log(x[i]);
-    }
+    for (Eigen::Index i = 0; i < z.size(); ++i)
+      z[i] = to_normal_scale(scales_[static_cast<std::size_t>(i)], x[i]);
     return z;
   }
 
@@ -91,7 +104,7 @@ MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihoo
           Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity())};
   Eigen::VectorXd unit = widths;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!density_->is_logarithm(static_cast<std::size_t>(i))) continue;
+    if (!density_->is_plain(static_cast<std::size_t>(i))) continue;
     unit[i] = 1;
     box.lower[i] = -greatest_logarithm;
     box.upper[i] = greatest_logarithm;
@@ -108,10 +121,11 @@ MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihoo
     }
     bool near = summit.converged && summit.curvature.allFinite() && is_concave(summit, unit);
     for (Eigen::Index i = 0; near && i < n; ++i)
-      near = !density_->is_logarithm(static_cast<std::size_t>(i)) ||
+      near = !density_->is_plain(static_cast<std::size_t>(i)) ||
              std::abs(summit.x[i] - from[i]) < farthest_logarithm;
     if (near && (!best || summit.value > best->value)) best = std::move(summit);
   }
+  if (highest) highest_ = density_->natural(view(highest->x));
   if (!best) return;
   found_ = true;
   higher_elsewhere_ = highest->value > best->value + clearly_higher;

@@ -12,8 +12,11 @@
 namespace wearwell {
 
 /// The scale on which an estimate of a parameter is taken as normal: the logarithm of a positive
-/// parameter, or the parameter itself.
-enum class NormalScale { logarithm, natural };
+/// parameter, the logit log(p/(1 - p)) of a share, or the parameter itself.
+enum class NormalScale { logarithm, natural, logit };
+
+double to_normal_scale(NormalScale scale, double x);
+double from_normal_scale(NormalScale scale, double z);
 
 /// An estimate on the scale of its normal approximation, with bounds there.
 struct ClassicalBounds {
@@ -36,6 +39,8 @@ class MaximumLikelihood {
   bool found() const { return found_; }
   /// The parameter that the search moved farthest, in its width.
   Eigen::Index rising() const { return rising_; }
+  /// Where the highest search ended, natural; a share that goes to 0 or 1 is near it.
+  const Eigen::VectorXd& highest() const { return highest_; }
   /// Whether a search ended higher without a maximum there: a likelihood with a threshold has no
   /// bound as the threshold approaches the first life.
   bool higher_elsewhere() const { return higher_elsewhere_; }
@@ -63,7 +68,7 @@ class MaximumLikelihood {
 
   std::shared_ptr<const OnScale> density_;
   ProfiledMaximum maximum_;  // on the scales
-  Eigen::VectorXd position_;
+  Eigen::VectorXd position_, highest_;
   Eigen::MatrixXd covariance_;
   bool found_ = false, higher_elsewhere_ = false;
   Eigen::Index rising_ = 0;

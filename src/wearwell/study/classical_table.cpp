@@ -26,6 +26,12 @@ std::string ends_text(const ProfileEnd& lower, const ProfileEnd& upper) {
   return end(lower) + " to " + end(upper);
 }
 
+// "14.5 to never" where a life may never end.
+std::string posterior_text(double lower, double upper) {
+  if (std::isfinite(upper)) return plain_range(lower, upper);
+  return std::isfinite(lower) ? plain_number(lower) + " to never" : "never";
+}
+
 Json end_json(const ProfileEnd& lower, const ProfileEnd& upper) {
   Json json = {{"lower", lower.value}, {"upper", upper.value}};
   if (!lower.open.empty()) json["lower_open"] = lower.open;
@@ -118,7 +124,7 @@ std::string estimate_text(std::span<const ClassicalEstimate> estimates) {
                     plain_number(each.value), plain_number(each.standard_error),
                     plain_range(each.lower, each.upper),
                     ends_text(each.ratio_lower, each.ratio_upper),
-                    plain_range(each.posterior_lower, each.posterior_upper)});
+                    posterior_text(each.posterior_lower, each.posterior_upper)});
     if (exact)
       rows.back().insert(rows.back().begin() + 2,
                          each.exact ? plain_range(each.exact->lower, each.exact->upper) : "-");

@@ -1,6 +1,7 @@
 #include "wearwell/models/formula_model/classical_estimates.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,6 +15,9 @@ namespace {
 
 // Longer lists of steps are thinned; more are not distinct in a plot or table.
 constexpr std::size_t most_steps_listed = 10000;
+
+// A share on its way to 0 or 1.
+constexpr double at_bound = 1e-4;
 
 // Items with a rank each; a rank costs a quantile of a beta distribution.
 constexpr double most_ranked = 20000;
@@ -42,6 +46,76 @@ ClassicalBounds bounds_of(const MaximumLikelihood& maximum, const ScaledQuantity
   return maximum.of(own, above, level);
 }
 
+// Without a maximum: a share goes to its bound, or failures are too few.
+std::string reason_of_none(const FormulaModel& model, const std::vector<NormalScale>& scales,
+                           const MaximumLikelihood& maximum) {
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    if (scales[i] != NormalScale::logit || maximum.highest().size() == 0) continue;
+    const double share = maximum.highest()[static_cast<Eigen::Index>(i)];
+    if (std::min(share, 1 - share) < at_bound)
+      return fmt::format(
+          "the likelihood rises until the share {} is {:.0f}, its bound, where estimates have no "
+          "bounds; a study without this share fits these data as well",
+          model.parameters[i].name, share);
+  }
+  return fmt::format(
+      "the likelihood has no maximum: it rises without end along {}, because too few failures "
+      "differ",
+      model.parameters[static_cast<std::size_t>(maximum.rising())].name);
+}
+
+void add_notes_of_maximum(const AskedOfClassics& asked, const MaximumLikelihood& maximum,
+                          ClassicalEstimates& result) {
+  const FormulaModel& model = *asked.model;
+  if (model.subpopulations)
+    result.notes.push_back(
+        "The likelihood of subpopulations has no bound where one of them shrinks to a single life; "
+        "the estimate is the highest local maximum that searches from the posterior reach, with "
+        "median lives in the order of the names. Likelihood-ratio bounds follow the profile "
+        "outward "
+        "from there: where it has several branches, they can be too narrow.");
+  else if (maximum.higher_elsewhere())
+    result.notes.push_back(
+        model.measured.front().life.plain()
+            ? "The likelihood has no bound elsewhere (a threshold near the first life); the "
+              "estimate is its local maximum."
+            : "The likelihood is higher elsewhere, towards the bound of a share or without bound; "
+              "the estimate is its local maximum.");
+}
+
+// An interval of the likelihood ratio that contains 0 or 1 ends at that bound of the share.
+void note_open_shares(ClassicalEstimates& result) {
+  for (ClassicalEstimate& each : result.parameters) {
+    if (each.scale != "logit") continue;
+    const auto note = [&](ProfileEnd& end, int bound) {
+      if (!end.open.starts_with("the likelihood allows")) return;
+      end.open += fmt::format(", to the bound {} of a share", bound);
+      result.notes.push_back(fmt::format(
+          "{}: the likelihood-ratio interval has no end before {}, the bound of a share: the data "
+          "do not exclude it.",
+          each.name, bound));
+    };
+    note(each.ratio_lower, 0);
+    note(each.ratio_upper, 1);
+  }
+}
+
+// Lives beyond the share that fails at the maximum have no estimate.
+void drop_never_reached(const AskedOfClassics& asked, ClassicalEstimates& result) {
+  std::vector<std::string> names;
+  std::erase_if(result.quantities, [&](const ClassicalEstimate& each) {
+    if (std::isfinite(each.value)) return false;
+    names.push_back(asked.lives.size() > 1 ? each.name + " of " + each.of : each.name);
+    return true;
+  });
+  if (names.empty()) return;
+  LifeAtPoint life = asked.lives.front().life->at_point();
+  life.move_to(result.position.data());
+  result.notes.push_back(
+      fmt::format("Never reached at the maximum, where {:.4g} % fail at all: {}.",
+                  100 * life.failing(), fmt::join(names, ", ")));
+}
+
 void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstimates& result) {
   const FormulaModel& model = *asked.model;
   std::vector<NormalScale> scales;
@@ -49,16 +123,10 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
   const MaximumLikelihood maximum =
       maximum_of(asked.likelihood, scales, model.parameters, fit.pooled);
   if (!maximum.found()) {
-    result.problem = fmt::format(
-        "the likelihood has no maximum: it rises without end along {}, because too few failures "
-        "differ",
-        model.parameters[static_cast<std::size_t>(maximum.rising())].name);
+    result.problem = reason_of_none(model, scales, maximum);
     return;
   }
-  if (maximum.higher_elsewhere())
-    result.notes.push_back(
-        "The likelihood has no bound elsewhere (a threshold near the first life); the estimate is "
-        "its local maximum.");
+  add_notes_of_maximum(asked, maximum, result);
   result.position = maximum.position();
   result.log_likelihood = maximum.log_likelihood();
   std::vector<ScaledQuantity> all;
@@ -79,6 +147,9 @@ void add_estimates(const AskedOfClassics& asked, const Fit& fit, ClassicalEstima
   const auto middle = found.begin() + static_cast<std::ptrdiff_t>(scales.size());
   result.parameters.assign(found.begin(), middle);
   result.quantities.assign(middle, found.end());
+  if (model.measured.front().life.plain()) return;
+  note_open_shares(result);
+  drop_never_reached(asked, result);
 }
 
 // Keeps evenly chosen steps, the first and the last among them.
@@ -110,7 +181,8 @@ ClassicalGroup classical_group(const AskedOfClassics& asked, const LifeGroup& gr
   const bool one_mode = asked.model->modes && std::has_single_bit(group.modes);
   if (one_mode && measured[static_cast<std::size_t>(std::countr_zero(group.modes))].form != &form)
     return found;
-  if (!plain || items > most_ranked || !form.paper.straight) return found;
+  if (!plain || items > most_ranked || !form.paper.straight || !measured.front().life.plain())
+    return found;
   for (const MedianRanks ranks : {MedianRanks::exact, MedianRanks::benard}) {
     const auto fit = rank_regression(ranked_failures(group.responses, group.counts, ranks),
                                      form.paper.distribution, form.positive);
@@ -142,7 +214,11 @@ void add_notes(const AskedOfClassics& asked, ClassicalEstimates& result) {
                  std::any_of(steps.begin(), steps.end() - 1,
                              [](const SurvivalStep& step) { return step.survival <= 0; });
   }
-  if (!has_line)
+  if (!asked.model->measured.front().life.plain())
+    result.notes.push_back(
+        "Rank regression is for one distribution: lives of subpopulations, and of parts that are "
+        "dead on arrival or cannot fail, are no straight line on probability paper.");
+  else if (!has_line)
     result.notes.push_back(
         "Rank regression needs a family of two parameters that is a straight line on its "
         "probability paper: weibull, lognormal, loglogistic, log10-normal, normal or an "

@@ -24,6 +24,9 @@ double identity(double y) {
 double exponential(double y) {
   return std::exp(y);
 }
+double logistic(double y) {
+  return from_normal_scale(NormalScale::logit, y);
+}
 
 ScaledQuantity life_quantity(const ClassicalLife& own, const std::string& name,
                              const Measured& measured, double (*value)(const LifeAtPoint&, double),
@@ -65,7 +68,7 @@ MaximumLikelihood::Comparison quantile_comparison(std::shared_ptr<const LifeDist
 // survival and those of life are the same lines for a location-scale family.
 ScaledQuantity survival_quantity(const ClassicalLife& own, const Quantity& life) {
   const Measured& measured = *own.measured;
-  const bool several = own.life->is_earliest_of_several();
+  const bool several = own.life->is_earliest_of_several() || !measured.life.plain();
   const StandardDistribution paper =
       several ? StandardDistribution::smallest_extreme_value : measured.form->paper.distribution;
   return {"survival to " + description(life),
@@ -97,7 +100,10 @@ NormalScale normal_scale(const FormulaModel& model, const Parameter& parameter) 
   for (const Measured& measured : model.measured) {
     for (std::size_t o = 0; o < measured.wanted.size(); ++o) {
       if (without_level(measured.wanted[o].text) != without_level(parameter.name)) continue;
-      const ParameterForm& place = measured.form->family_parameters[measured.family_parameter[o]];
+      const std::size_t at = measured.family_parameter[o], k = at / most_response_parameters;
+      if (k >= measured.life.families.size()) return NormalScale::logit;  // a share
+      const ParameterForm& place =
+          form_of(measured.life.families[k]).family_parameters[at % most_response_parameters];
       const bool positive =
           place.kind == ParameterKind::scale || place.kind == ParameterKind::number;
       return positive && place.name != "threshold" ? NormalScale::logarithm : NormalScale::natural;
@@ -107,14 +113,18 @@ NormalScale normal_scale(const FormulaModel& model, const Parameter& parameter) 
 }
 
 ScaledQuantity scaled_parameter(const Parameter& parameter, std::size_t i, NormalScale scale) {
-  const bool logarithm = scale == NormalScale::logarithm;
+  const bool logarithm = scale == NormalScale::logarithm, share = scale == NormalScale::logit;
   return {parameter.name,
           "",
           "",
           parameter.unit,
-          logarithm ? "log" : "natural",
+          logarithm ? "log"
+          : share   ? "logit"
+                    : "natural",
           {},
-          logarithm ? exponential : identity,
+          logarithm ? exponential
+          : share   ? logistic
+                    : identity,
           [i](const WeightedDraws& draws) {
             return QuantityDistribution(draws, [i](const double* x) { return x[i]; });
           }};

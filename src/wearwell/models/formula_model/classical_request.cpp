@@ -17,16 +17,25 @@ bool is_earliest_of_modes(const FormulaModel& model) {
   return model.modes && model.measured.size() > 1;
 }
 
+// Of the part, and of each failure mode or subpopulation alone.
 std::vector<ClassicalLife> classical_lives(const AskedOfModes& asked) {
   const FormulaModel& model = *asked.model;
+  const std::string key = asked.predict.has("given") ? "given" : "";
   std::vector<ClassicalLife> lives = {
       {asked.noun, asked.words, asked.part.life, &model.measured.front()}};
+  if (model.subpopulations) {
+    for (std::size_t k = 0; k < model.subpopulations->names.size(); ++k)
+      lives.push_back({fmt::format("{} of {}", asked.noun, model.subpopulations->names[k]),
+                       asked.words,
+                       life_of_subpopulation(asked.predict, key, asked.model, asked.conditions, k),
+                       &model.measured.front()});
+  }
   if (!is_earliest_of_modes(model)) return lives;
   for (std::size_t k = 0; k < model.modes->modes.size(); ++k) {
     lives.push_back({fmt::format("{} with {} alone", asked.noun, model.modes->modes[k]),
                      asked.words,
-                     life_distribution(asked.predict, asked.predict.has("given") ? "given" : "",
-                                       asked.model, asked.conditions, std::uint32_t{1} << k),
+                     life_distribution(asked.predict, key, asked.model, asked.conditions,
+                                       std::uint32_t{1} << k),
                      &model.measured[k]});
   }
   return lives;
@@ -78,9 +87,6 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
                        "that did not fail");
   if (model.measured.size() > 1 && !model.modes)
     asked.predict.fail("classical", "is for one measured life; this study has several");
-  if (!model.measured.front().life.plain())
-    asked.predict.fail("classical",
-                       "is for one distribution of lives, without shares or subpopulations");
   if (model.has_exposure())
     asked.predict.fail("classical",
                        fmt::format("is for lives under constant conditions, not for a {} test",

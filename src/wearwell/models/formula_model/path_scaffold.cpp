@@ -243,10 +243,8 @@ std::optional<Scaffold> first_degradation_study(ColumnRoles& roles) {
   say_others(roles);
   const std::string rate_unit = unit_of_ratio(path->measured_unit, {path->axis_unit});
   const std::string sign = line.falls ? "-" : "";
-  const std::string formula =
-      line.begins_at_zero
-          ? fmt::format("{}rate * {}", sign, path->axis_name)
-          : fmt::format("start {} rate * {}", line.falls ? "-" : "+", path->axis_name);
+  const std::string before = line.begins_at_zero ? sign : line.falls ? "start - " : "start + ";
+  const std::string formula = fmt::format("{}rate * {}", before, path->axis_name);
   std::string priors = fmt::format(
       "rate = {{ distribution = \"lognormal\", median = {}, log_sd = 2 }}    # a factor of 27 to "
       "either "
@@ -266,9 +264,10 @@ std::optional<Scaffold> first_degradation_study(ColumnRoles& roles) {
   const std::string model = fmt::format(
       "[formula]                                    # the simplest path: a straight line\n"
       "{0} = \"{1}\"\n"
-      "# {0} = \"rate * ({2}/1 [{3}])^p\"    # for wear that slows down or speeds up; rate in {4}; "
+      "# {0} = \"{5}rate * ({2}/1 [{3}])^p\"    # for wear that slows down or speeds up; rate in "
+      "{4}; "
       "p needs a prior\n",
-      path->line_name, formula, path->axis_name, path->axis_unit, path->measured_unit);
+      path->line_name, formula, path->axis_name, path->axis_unit, path->measured_unit, before);
   return roles.study(fmt::format("degradation: {} along {}{}", path->measured_name, path->axis_name,
                                  path->unit ? " with unit-to-unit variation" : ""),
                      roles.has({"force", "pressure"}) ? ReadingFit::possible : ReadingFit::general,
