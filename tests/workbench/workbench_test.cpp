@@ -429,7 +429,7 @@ TEST_F(WorkbenchTest, FamiliesStandSideBySide) {
       "\"hours\", unit = "
       "\"h\" }\ntemperature = { column = \"temperature\", unit = \"degC\" "
       "}\n[likelihood.life]\nfamily = "
-      "\"weibull\"\nscale = \"a * temperature / (300 K)\"\nshape = 2\n[prior]\na = { distribution "
+      "\"weibull\"\nscale = \"a * temperature / 300 [K]\"\nshape = 2\n[prior]\na = { distribution "
       "= "
       "\"lognormal\", median = \"100 h\", log_sd = 1 }\n";
   const HttpReply refused = post("/api/families", {{"file", "c.toml"}, {"text", conditions}});

@@ -128,6 +128,9 @@ ordered_json families_json(const std::filesystem::path& file, const std::string&
   std::vector<ordered_json> families;
   for (const std::string_view name : exchangeable_families())
     families.push_back(family_json(name, study, lives, positions, unit));
+  // With its comments.
+  for (ordered_json& each : families)
+    if (each["name"] == family) each["text"] = text;
   std::stable_sort(families.begin(), families.end(), [](const auto& a, const auto& b) {
     return a.value("aic", HUGE_VAL) < b.value("aic", HUGE_VAL);
   });
