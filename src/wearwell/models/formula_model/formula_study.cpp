@@ -11,7 +11,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/math/constants.h"
-#include "wearwell/models/formula_model/exposure_paper.h"
 #include "wearwell/models/formula_model/formula_density_unit.h"
 #include "wearwell/models/formula_model/formula_drawn.h"
 #include "wearwell/models/formula_model/formula_fit_data.h"
@@ -410,10 +409,7 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   formula_model::tell_drawn_effects(model, study);
   formula_model::read_own_predictions(root, model, rows, study);
   // Ages under a stress that changes are not lives under any.
-  if (model->has_exposure())
-    formula_model::show_exposure_paper(model, study);
-  else
-    formula_model::show_life_paper(root, model, study);
+  if (!model->has_exposure()) formula_model::show_life_paper(root, model, study);
   formula_model::add_returns(root, source, model, study);
 }
 
