@@ -172,9 +172,10 @@ present::Table returns_table(const SoldUnits& units, bool with_modes, int until)
       if (with_modes) row.push_back(mode);
       row.push_back(sold);
       for (int month = first; month <= until; ++month) {
+        present::Cell& cell = row.emplace_back();
+        if (month < sale) continue;
         const auto at = returns->units.find({sale, month});
-        row.push_back(month < sale ? present::Cell{}
-                                   : present::Cell{at == returns->units.end() ? 0.0 : at->second});
+        cell = at == returns->units.end() ? 0.0 : at->second;
       }
       table.rows.push_back(std::move(row));
     }
