@@ -44,6 +44,40 @@ std::string month_of(Dialect dialect, const std::string& moment, bool is_time) {
                      moment);
 }
 
+// DuckDB has the dates of a CSV file as texts.
+bool is_text_of_file(Dialect dialect, const fleet::EngineColumn& column) {
+  return dialect == Dialect::duckdb && !column.is_date && !column.is_time && !column.is_number;
+}
+
+std::string cell_text(const std::string& column) {
+  return fmt::format("nullif(trim({}), '')", column);
+}
+
+std::string text_moment(const std::string& column) {
+  return fmt::format("try_cast({} as timestamp)", cell_text(column));
+}
+
+// Throws unless the column holds dates.
+void require_dates(fleet::Engine& engine, const fleet::EngineColumn& column) {
+  if (column.is_date || column.is_time) return;
+  if (!is_text_of_file(engine.dialect(), column))
+    throw InputError(
+        fmt::format("{}: column '{}' does not hold dates; convert it in a view, for "
+                    "example with cast(... as date)",
+                    engine.source(), printable(column.name)));
+  const std::string name = "t." + fleet::identifier(engine.dialect(), column.name);
+  const std::string query = fmt::format(
+      "select coalesce(min({0}), '') from {1} as t where {0} is not null and {2} is null",
+      cell_text(name), engine.table(), text_moment(name));
+  engine.rows(query, 1, [&](const fleet::Row& row) {
+    if (!row.texts.front().empty())
+      throw InputError(
+          fmt::format("{}: column '{}' does not hold dates: '{}' is none; write them "
+                      "as 2024-01-31",
+                      engine.source(), printable(column.name), printable(row.texts.front())));
+  });
+}
+
 // Rows of: mode; month of sale, month of return, units, rows, rows without a number of units.
 std::string count_query(const fleet::Engine& engine, const SoldColumns& columns,
                         const std::vector<fleet::EngineColumn>& known) {
@@ -53,11 +87,8 @@ std::string count_query(const fleet::Engine& engine, const SoldColumns& columns,
   };
   const auto month = [&](const std::string& column) {
     const fleet::EngineColumn* found = column_named(known, column);
-    if (!found->is_date && !found->is_time)
-      throw InputError(
-          fmt::format("{}: column '{}' does not hold dates; convert it in a view, for "
-                      "example with cast(... as date)",
-                      engine.source(), printable(column)));
+    if (is_text_of_file(dialect, *found))
+      return month_of(dialect, text_moment(name(column)), false);
     return month_of(dialect, name(column), found->is_time);
   };
   const std::string mode =
@@ -135,6 +166,8 @@ void count_sold_units(fleet::Engine& engine, const SoldColumns& columns, int unt
   if (!columns.quantity.empty()) fleet::require_column(known, columns.quantity, source, true);
   const std::string query = count_query(engine, columns, known);
   engine.begin();
+  for (const std::string* each : {&columns.sold, &columns.returned})
+    require_dates(engine, *column_named(known, *each));
   engine.rows(query, 1, [&](const fleet::Row& row) {
     check_group(row, columns, source);
     const int sold = static_cast<int>(row.numbers[0]);

@@ -34,74 +34,6 @@ bool is_concave(const Maximum& summit, const Eigen::VectorXd& unit) {
              least_information;
 }
 
-// A density with one variable at a fixed value.
-class AtFixedVariable final : public LogDensity {
- public:
-  AtFixedVariable(const LogDensity& whole, Eigen::Index fixed, double value)
-      : whole_(whole), fixed_(fixed), value_(value) {}
-
-  int dimension() const override { return whole_.dimension() - 1; }
-  double value(std::span<const double> others) const override {
-    return whole_.value(view(with_fixed(others)));
-  }
-  double value_and_gradient(std::span<const double> others,
-                            std::span<double> gradient) const override {
-    const Eigen::VectorXd x = with_fixed(others);
-    Eigen::VectorXd slope(x.size());
-    const double value = whole_.value_and_gradient(view(x), view(slope));
-    const Eigen::VectorXd own = without_fixed(slope);
-    std::copy(own.begin(), own.end(), gradient.begin());
-    return value;
-  }
-
-  Eigen::VectorXd with_fixed(std::span<const double> others) const {
-    Eigen::VectorXd x(whole_.dimension());
-    for (Eigen::Index i = 0, j = 0; i < x.size(); ++i)
-      x[i] = i == fixed_ ? value_ : others[static_cast<std::size_t>(j++)];
-    return x;
-  }
-  Eigen::VectorXd without_fixed(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd others(x.size() - 1);
-    others << x.head(fixed_), x.tail(x.size() - 1 - fixed_);
-    return others;
-  }
-
- private:
-  const LogDensity& whole_;
-  Eigen::Index fixed_;
-  double value_;
-};
-
-// The profile of a mixture can have several branches, and a search outward follows one: from an end where searches
-// from `starts` find a higher likelihood than it has, the profile goes on from there.
-void follow_branches(const LogDensity& density, const ProfiledMaximum& maximum,
-                     Eigen::Index variable, double level,
-                     const std::vector<Eigen::VectorXd>& starts, ProfileInterval& interval) {
-  constexpr int most_branches = 6;
-  constexpr double clearly_inside = 1e-3;  // of the deviance
-  const double z = boost::math::quantile(boost::math::normal(), 0.5 * (1 + level));
-  for (const bool upper : {false, true}) {
-    ProfileEnd& end = upper ? interval.upper : interval.lower;
-    for (int branch = 0; branch < most_branches && end.open.empty(); ++branch) {
-      const AtFixedVariable held(density, variable, end.value);
-      const Box box{held.without_fixed(maximum.box.lower), held.without_fixed(maximum.box.upper)};
-      std::optional<Maximum> highest;
-      for (const Eigen::VectorXd& start : starts) {
-        Maximum summit =
-            maximize(held, held.without_fixed(start), held.without_fixed(maximum.unit), box);
-        if (summit.converged && std::isfinite(summit.value) &&
-            (!highest || summit.value > highest->value))
-          highest = std::move(summit);
-      }
-      if (!highest || 2 * (maximum.value - highest->value) > z * z - clearly_inside) break;
-      ProfiledMaximum there = maximum;
-      there.position = held.with_fixed(view(highest->x));
-      const ProfileInterval beyond = profile_interval(density, there, variable, level);
-      end = upper ? beyond.upper : beyond.lower;
-    }
-  }
-}
-
 }  // namespace
 
 double to_normal_scale(NormalScale scale, double x) {
@@ -139,9 +71,6 @@ class MaximumLikelihood::OnScale final : public LogDensity {
     return value;
   }
 
-  bool has_shares() const {
-    return std::find(scales_.begin(), scales_.end(), NormalScale::logit) != scales_.end();
-  }
   bool is_logarithm(std::size_t i) const { return scales_[i] == NormalScale::logarithm; }
   /// On a scale without a unit, of about 1.
   bool is_plain(std::size_t i) const { return scales_[i] != NormalScale::natural; }
@@ -160,8 +89,6 @@ class MaximumLikelihood::OnScale final : public LogDensity {
     return z;
   }
 
-  std::vector<Eigen::VectorXd> starts;  ///< of searches, on the scales; kept where there are shares
-
  private:
   std::shared_ptr<const LogDensity> likelihood_;
   std::vector<NormalScale> scales_;
@@ -170,9 +97,8 @@ class MaximumLikelihood::OnScale final : public LogDensity {
 MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihood,
                                      std::vector<NormalScale> scales,
                                      const std::vector<Eigen::VectorXd>& starts,
-                                     const Eigen::VectorXd& widths) {
-  const auto density = std::make_shared<OnScale>(std::move(likelihood), std::move(scales));
-  density_ = density;
+                                     const Eigen::VectorXd& widths)
+    : density_(std::make_shared<const OnScale>(std::move(likelihood), std::move(scales))) {
   const Eigen::Index n = widths.size();
   Box box{Eigen::VectorXd::Constant(n, -std::numeric_limits<double>::infinity()),
           Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity())};
@@ -187,7 +113,6 @@ MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihoo
   for (const Eigen::VectorXd& start : starts) {
     const Eigen::VectorXd from = density_->on_scale(start);
     if (!from.allFinite()) continue;
-    if (density->has_shares()) density->starts.push_back(from);
     Maximum summit = maximize(*density_, from, unit, box);
     if (!std::isfinite(summit.value)) continue;
     if (!highest || summit.value > highest->value) {
@@ -212,9 +137,8 @@ MaximumLikelihood::MaximumLikelihood(std::shared_ptr<const LogDensity> likelihoo
 ClassicalBounds MaximumLikelihood::of_parameter(Eigen::Index i, double level) const {
   const double z = boost::math::quantile(boost::math::normal(), 0.5 * (1 + level));
   const double at = maximum_.position[i], error = maximum_.unit[i];
-  ProfileInterval interval = profile_interval(*density_, maximum_, i, level);
-  follow_branches(*density_, maximum_, i, level, density_->starts, interval);
-  return {at, error, at - z * error, at + z * error, interval};
+  return {at, error, at - z * error, at + z * error,
+          profile_interval(*density_, maximum_, i, level)};
 }
 
 // Of a function of the parameters on their scales, by central differences.
@@ -343,7 +267,6 @@ ClassicalBounds MaximumLikelihood::of(const Quantity& quantity, const Comparison
   maximum.box.lower[solved] = -std::numeric_limits<double>::infinity();
   maximum.box.upper[solved] = std::numeric_limits<double>::infinity();
   bounds.likelihood_ratio = profile_interval(density, maximum, solved, level);
-  follow_branches(density, maximum, solved, level, density_->starts, bounds.likelihood_ratio);
   return bounds;
 }
 

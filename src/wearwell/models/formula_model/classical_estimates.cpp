@@ -71,7 +71,9 @@ void add_notes_of_maximum(const AskedOfClassics& asked, const MaximumLikelihood&
     result.notes.push_back(
         "The likelihood of subpopulations has no bound where one of them shrinks to a single life; "
         "the estimate is the highest local maximum that searches from the posterior reach, with "
-        "median lives in the order of the names.");
+        "median lives in the order of the names. Likelihood-ratio bounds follow the profile "
+        "outward "
+        "from there: where it has several branches, they can be too narrow.");
   else if (maximum.higher_elsewhere())
     result.notes.push_back(
         model.measured.front().life.plain()

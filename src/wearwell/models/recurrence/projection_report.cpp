@@ -95,8 +95,8 @@ const char* fix_key(FixClass fix) {
 
 std::string counts_text(const GrowthTest& test) {
   return fmt::format(
-      "{} failures of modes that are not fixed, {} of modes fixed during the test, {} of {} modes "
-      "with delayed fixes",
+      "{} failures of modes that are not fixed, {} of modes fixed during the test, {} of the {} "
+      "modes with delayed fixes",
       test.failures(FixClass::none), test.failures(FixClass::during),
       test.failures(FixClass::delayed), test.of(FixClass::delayed).size());
 }
