@@ -101,7 +101,7 @@ def test_events_of_a_unit_are_reported(url):
     with pytest.raises(ww.InputError, match="year 1970; it is a Unix time in milliseconds"):
         monitor.report("M5", "withdrawn", key=keys[2] // 1000, by="x")
     with pytest.raises(ww.InputError, match="is not a unit"):
-        monitor.report("M55", "withdrawn", key=7, by="x")
+        monitor.report("M55", "withdrawn", key=keys[2], by="x")
 
 
 def test_events(url):
