@@ -32,7 +32,7 @@ struct SoldUnits {
 
 /// Adds the units of an engine's table until the month `until`. The engine counts; months are those of dates, and of
 /// timestamps in UTC. Throws InputError for a column that holds no dates, and for units without a date of sale, with a
-/// return before it, a quantity that is no number of units, or a mode without a return.
+/// return before it, a quantity that is not a whole number, or a mode without a return.
 void count_sold_units(fleet::Engine& engine, const SoldColumns& columns, int until,
                       SoldUnits& units);
 
