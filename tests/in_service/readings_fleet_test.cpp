@@ -192,12 +192,13 @@ TEST_F(ReadingsFleet, OfManyUnits) {
 
 TEST_F(ReadingsFleet, NamesWhatIsWrong) {
   const std::string heading = "unit,use [h],wear [um]\n";
-  refused(table(heading + "A,400,\n"),
+  refused(table(heading + "A,300,2\nA,400,\n"),
           AllOf(HasSubstr("machine 'A' at use = 400 h"), HasSubstr("wear is missing")));
-  refused(table(heading + "A,,3\n"), AllOf(HasSubstr("machine 'A':"), HasSubstr("use is missing")));
+  refused(table(heading + "A,,3\nB,300,2\n"),
+          AllOf(HasSubstr("machine 'A':"), HasSubstr("use is missing")));
   refused(table(heading + ",400,3\n"), HasSubstr("it has no unit"));
   refused(table(heading + "A,-5,3\n"), HasSubstr("machine 'A' at use = -5 h"));
-  refused(table("unit,use,wear [um]\nA,400,3\n"), HasSubstr("use=COLUMN:h"));
+  refused(table("unit,use,wear [um]\nA,400,3\n"), HasSubstr("--columns 'use=use:h'"));
   refused(table("unit,use [mm],wear [um]\nA,400,3\n"), HasSubstr("mm"));
   refused(table("machine,use [h],wear [um]\nA,400,3\n"), HasSubstr("--columns unit=machine"));
   refused(table("unit,age [h],wear [um]\nA,400,3\n"),
@@ -267,7 +268,7 @@ TEST_F(ReadingsFleet, ATableOfClickhouseHasTheNumbersOfFiles) {
   const json ages =
       fleet(engine + "pumps --columns unit=serial age=hours:h in_study=known" + horizons);
   std::filesystem::remove_all(folder() / "fleet");
-  const json same = fleet(table("unit,age [h],in_study\nA,400,1\nB,1200.5,0\n") + horizons);
+  const json same = fleet(table("unit,age [h],in_study\nA,400,yes\nB,1200.5,no\n") + horizons);
   EXPECT_EQ(ages["failures"].dump(), same["failures"].dump());
   EXPECT_EQ(ages["worst"].dump(), same["worst"].dump());
 }

@@ -154,7 +154,8 @@ Check extrapolation_check_of(const LivesFindings& found) {
   if (later > old)
     findings.add(
         Verdict::warn,
-        fmt::format("units that will be within {1}: {0}", later, horizon_text(found.axis, last)),
+        fmt::format("units that will be older than the longest life in the study within {1}: {0}",
+                    later, horizon_text(found.axis, last)),
         advice);
   std::size_t number = 0;
   for (const UnitColumns::Given& each : found.columns.conditions) {

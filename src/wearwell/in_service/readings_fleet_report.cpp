@@ -158,10 +158,13 @@ Check reach_check(const ReadingsFindings& found) {
                              horizon_text(found.axis, found.longest_seen)),
                  advice);
   if (later > now)
-    findings.add(Verdict::warn,
-                 fmt::format("units that will be within {1}: {0}", later,
-                             horizon_text(found.axis, found.horizons.back())),
-                 advice);
+    findings.add(
+        Verdict::warn,
+        fmt::format("units that will be farther than the study's last reading, {2}, within "
+                    "{1}: {0}",
+                    later, horizon_text(found.axis, found.horizons.back()),
+                    horizon_text(found.axis, found.longest_seen)),
+        advice);
   return findings.result("readings and horizons lie within the study");
 }
 

@@ -107,7 +107,7 @@ present::Table projection_table(const Asked& asked, const GrowthTest& test,
       "projection",
       fmt::format("Projection of delayed fixes at age {}, of one unit: {}",
                   age_text(asked.data, test.end), counts_text(test)),
-      {{"quantity"}, {"unit"}, {"median"}, {asked.interval_name(), "1", {}, true}}};
+      {{"Quantity"}, {"Unit"}, {"Median"}, {asked.interval_name(), "1", {}, true}}};
   if (with_crow) table.columns.push_back({"Crow's estimate"});
   for (const ProjectionLine& each : lines) {
     std::vector<present::Cell> row = {each.name, each.unit, each.known.quantile(0.5),
@@ -129,11 +129,11 @@ present::Table mode_table(const Asked& asked, const GrowthTest& test) {
   present::Table table{"fixed-modes",
                        "Failure modes in the order of their first occurrence; failures of one unit "
                        "per age, as observed and with the effectiveness of a delayed fix",
-                       {{"mode"},
-                        {"fix"},
-                        {"failures", "1", present::given},
-                        {"first at age", asked.data.unit.text, present::given},
-                        {"effectiveness", "1", present::digits(3)},
+                       {{"Mode"},
+                        {"Fix"},
+                        {"Failures", "1", present::given},
+                        {"First at age", asked.data.unit.text, present::given},
+                        {"Effectiveness", "1", present::digits(3)},
                         {per + ", observed"},
                         {per + ", after the fix"}}};
   for (const FailureMode& mode : test.modes) {
