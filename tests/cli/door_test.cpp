@@ -228,7 +228,8 @@ TEST_F(Door, SlipsInACommandLine) {
        "'fti' is not a command of wearwell; did you mean 'fit'? (commands: open, new, check, fit, "
        "report, "
        "life, "
-       "decide, plan, update, backtest, compare, monitor, bearing, clutch, fleet, fatigue, export, "
+       "decide, plan, update, backtest, compare, monitor, bearing, clutch, fleet, returns, "
+       "fatigue, export, "
        "select, "
        "help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
