@@ -26,7 +26,9 @@ class SoldUnitsTest : public ScratchTest {
     const CommandResult run = count(arguments);
     EXPECT_EQ(run.exit_code, 0) << arguments << run.err;
     std::ifstream stream(out());
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string lines{std::istreambuf_iterator<char>(stream), {}};
+    std::erase(lines, '\r');
+    return lines;
   }
   std::string table(const std::string& content) {
     return "'" + write("t.csv", content).string() + "'";
@@ -64,7 +66,8 @@ TEST_F(SoldUnitsTest, QuantitiesAndModesAreCounted) {
 TEST_F(SoldUnitsTest, Refusals) {
   refused("sold,back\n2024-02-01,2024-01-31\n2024-02-01,\n",
           "have a return in 2024-01, before the sale");
-  refused("sold,back\n2024-02-01,\n,2024-02-03\n", "1 row without a date in column 'sold'");
+  refused("sold,back\n2024-02-01,2024-02-02\n,2024-02-03\n",
+          "1 row without a date in column 'sold'");
   refused("sold,back\nMay,2024-01-31\n", "column 'sold' does not hold dates");
   refused("sold,back\n2024-02-01,2024-03-01\n", "has no column 'bak' (nearest: 'back')",
           "sold=sold returned=bak");
