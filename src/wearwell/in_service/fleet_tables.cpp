@@ -97,6 +97,18 @@ Json left_out_json(const RowsRead& rows) {
   return {{"rows", rows.left_out}, {"reasons", std::move(reasons)}};
 }
 
+void add_units_beyond(Findings& findings, std::size_t now, std::size_t later,
+                      const std::string& beyond, const Reach& reach, const std::string& advice) {
+  const std::string data = horizon_text(reach.axis, reach.data);
+  if (now > 0)
+    findings.add(Verdict::warn, fmt::format("units {}, {}: {}", beyond, data, now), advice);
+  if (later > now)
+    findings.add(Verdict::warn,
+                 fmt::format("units that will be {}, {}, within {}: {}", beyond, data,
+                             horizon_text(reach.axis, reach.horizon), later),
+                 advice);
+}
+
 Check fit_check(bool trusted) {
   return {"fit", trusted ? Verdict::pass : Verdict::fail,
           trusted ? "the fit is trusted" : "the fit is not trusted, nor is what follows from it",

@@ -29,6 +29,16 @@ std::vector<present::Table> left_out_tables(const RowsRead& rows, const Unit& ax
                                             const std::string& place);
 nlohmann::ordered_json left_out_json(const RowsRead& rows);
 
+/// How far the data reach and the last horizon, SI.
+struct Reach {
+  const Unit& axis;
+  double data, horizon;
+};
+/// Of units beyond the data now, and then of those within the horizon if there are more. `beyond`: "older than the longest
+/// life in the study".
+void add_units_beyond(Findings& findings, std::size_t now, std::size_t later,
+                      const std::string& beyond, const Reach& reach, const std::string& advice);
+
 Check fit_check(bool trusted);
 /// Fails where much was left out (--skip-bad).
 Check left_out_check(const RowsRead& rows);

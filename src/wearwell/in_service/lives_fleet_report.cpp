@@ -146,17 +146,8 @@ Check extrapolation_check_of(const LivesFindings& found) {
     old += age > found.longest_seen;
     later += age + last > found.longest_seen;
   }
-  if (old > 0)
-    findings.add(Verdict::warn,
-                 fmt::format("units older than the longest life in the study, {1}: {0}", old,
-                             horizon_text(found.axis, found.longest_seen)),
-                 advice);
-  if (later > old)
-    findings.add(
-        Verdict::warn,
-        fmt::format("units that will be older than the longest life in the study within {1}: {0}",
-                    later, horizon_text(found.axis, last)),
-        advice);
+  add_units_beyond(findings, old, later, "older than the longest life in the study",
+                   {found.axis, found.longest_seen, last}, advice);
   std::size_t number = 0;
   for (const UnitColumns::Given& each : found.columns.conditions) {
     const Condition& condition = each.condition;

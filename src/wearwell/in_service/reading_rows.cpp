@@ -118,10 +118,8 @@ class ReadingReader {
   std::string unclear(const std::string& unit) const {
     return fmt::format(
         "the study has readings of it up to {} = {:.6g} {}, and this is not one of them: it may be "
-        "a "
-        "late reading, or one of the study with other digits; fit with it (wearwell update), or "
-        "leave "
-        "it out; rename the unit if it is another one",
+        "a late reading, or one of the study with other digits; fit with it (wearwell update), or "
+        "leave it out; rename the unit if it is another one",
         tracker_.axis().name, from_si(tracker_.axis().unit, study_.last(unit)),
         tracker_.axis().unit.text);
   }

@@ -9,6 +9,7 @@
 
 #include "wearwell/in_service/fleet_tables.h"
 #include "wearwell/input/parquet_writer.h"
+#include "wearwell/prognosis/interval_json.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::in_service {
@@ -20,6 +21,8 @@ using present::Prose;
 using present::Range;
 using present::Section;
 using present::Table;
+using prognosis::finite_or_null;
+using prognosis::interval_json;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t riskiest_shown = 100;
@@ -151,20 +154,9 @@ Check reach_check(const ReadingsFindings& found) {
     now += each.known && each.at > longest;
     later += each.known && each.at + last > longest;
   }
-  const std::string advice = "These numbers rest on the form of the path, not on data.";
-  if (now > 0)
-    findings.add(Verdict::warn,
-                 fmt::format("units farther than the study's last reading, {1}: {0}", now,
-                             horizon_text(found.axis, found.longest_seen)),
-                 advice);
-  if (later > now)
-    findings.add(
-        Verdict::warn,
-        fmt::format("units that will be farther than the study's last reading, {2}, within "
-                    "{1}: {0}",
-                    later, horizon_text(found.axis, found.horizons.back()),
-                    horizon_text(found.axis, found.longest_seen)),
-        advice);
+  add_units_beyond(findings, now, later, "farther than the study's last reading",
+                   {found.axis, found.longest_seen, found.horizons.back()},
+                   "These numbers rest on the form of the path, not on data.");
   return findings.result("readings and horizons lie within the study");
 }
 
@@ -175,16 +167,6 @@ std::vector<Check> readings_checks(const ReadingsFindings& found, bool skip_bad)
   return checks;
 }
 
-Json number_or_null(double x) {
-  return std::isfinite(x) ? Json(x) : Json(nullptr);
-}
-
-Json interval_of(const prognosis::Interval& of) {
-  return {{"q05", number_or_null(of.q05)},
-          {"q50", number_or_null(of.q50)},
-          {"q95", number_or_null(of.q95)}};
-}
-
 Json followed_json(const FollowedUnit& unit) {
   Json json = {{"unit", unit.name},     {"of_study", unit.of_study},
                {"known", unit.known},   {"readings", unit.readings},
@@ -193,11 +175,11 @@ Json followed_json(const FollowedUnit& unit) {
   Json failing = Json::array();
   for (const double each : unit.failing) failing.push_back(each);
   json["at"] = unit.at;
-  json["level"] = interval_of(unit.level);
+  json["level"] = interval_json(unit.level);
   json["passed"] = unit.passed;
   json["failing"] = std::move(failing);
-  json["b10"] = number_or_null(unit.b10);
-  json["remaining"] = interval_of(unit.remaining);
+  json["b10"] = finite_or_null(unit.b10);
+  json["remaining"] = interval_json(unit.remaining);
   return json;
 }
 

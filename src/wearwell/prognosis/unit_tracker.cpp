@@ -11,6 +11,7 @@
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/interval_json.h"
 #include "wearwell/prognosis/quantity_like.h"
 #include "wearwell/prognosis/reading_table.h"
 
@@ -18,16 +19,6 @@ namespace wearwell::prognosis {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finite_or_null(double x) {
-  return std::isfinite(x) ? Json(x) : Json(nullptr);
-}
-
-Json interval_json(const Interval& interval) {
-  return {{"q05", finite_or_null(interval.q05)},
-          {"q50", finite_or_null(interval.q50)},
-          {"q95", finite_or_null(interval.q95)}};
-}
 
 Json change_json(const std::optional<RateChange>& change, const TrackerUnits& units) {
   if (!change) return nullptr;
