@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/formula_row_columns.h"
-#include "wearwell/models/formula_model/mode_probability.h"
 
 namespace wearwell::formula_model {
 
@@ -33,9 +33,17 @@ JointFailures::JointFailures(const FormulaModel& model, std::size_t rows) : mode
 
 void JointFailures::find_equal() {
   std::map<std::tuple<std::uint32_t, double, double>, std::size_t> seen;
+  std::map<std::pair<double, double>, std::size_t> intervals;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     const JointFailure& each = joint_[i];
-    first_.push_back(seen.try_emplace({each.possible, each.from, each.until}, i).first->second);
+    single_.push_back({each.from, each.until, {each.possible}, {i}});
+    const auto [first, is_new] = seen.try_emplace({each.possible, each.from, each.until}, i);
+    first_.push_back(first->second);
+    if (!is_new) continue;
+    const auto [at, begins] = intervals.try_emplace({each.from, each.until}, equal_.size());
+    if (begins) equal_.push_back({each.from, each.until, {}, {}});
+    equal_[at->second].possible.push_back(each.possible);
+    equal_[at->second].which.push_back(i);
   }
 }
 
@@ -74,33 +82,45 @@ void JointFailures::reverse(std::span<const double> x, std::span<double> gradien
   }
 }
 
+void JointFailures::compute(const Interval& interval, bool with_slopes) {
+  const std::size_t stride = families_.size() * most_response_parameters;
+  const std::size_t sets = interval.possible.size(), size = with_slopes ? stride : 0;
+  const ModeLives lives{families_, family_parameters(interval.which.front())};
+  terms_.resize(sets);
+  set_slopes_.resize(sets * size);
+  if (interval.from == interval.until) {
+    for (std::size_t s = 0; s < sets; ++s)
+      terms_[s] = log_hazard(lives, interval.possible[s], interval.from,
+                             std::span(set_slopes_).subspan(s * size, size));
+  } else {
+    log_failures(lives, interval.possible, interval.from, interval.until, terms_, set_slopes_);
+  }
+  for (std::size_t s = 0; s < sets; ++s) {
+    const std::size_t i = interval.which[s];
+    value_[i] = terms_[s].value;
+    open_of_[i] = terms_[s].open;
+    std::copy_n(&set_slopes_[s * size], size, &slope_[i * stride]);
+  }
+}
+
 std::span<const double> JointFailures::evaluate(std::span<const double> x,
                                                 std::span<double> gradient) {
   sum_ = open_ = 0;
   if (joint_.empty()) return {};
   forward(x);
+  const bool with_slopes = !gradient.empty();
+  for (const Interval& interval : uniform_ ? equal_ : single_) compute(interval, with_slopes);
   const std::size_t stride = families_.size() * most_response_parameters;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     if (const std::size_t first = first_[i]; uniform_ && first < i) {
       value_[i] = value_[first];
-      std::copy_n(&slope_[first * stride], gradient.empty() ? 0 : stride, &slope_[i * stride]);
-      sum_ += count_[i] * value_[i];
-      open_ += count_[i] * open_of_[first];
-      continue;
+      open_of_[i] = open_of_[first];
+      std::copy_n(&slope_[first * stride], with_slopes ? stride : 0, &slope_[i * stride]);
     }
-    const JointFailure& each = joint_[i];
-    const ModeLives lives{families_, family_parameters(i)};
-    const std::span<double> slope =
-        gradient.empty() ? std::span<double>() : std::span(slope_).subspan(i * stride, stride);
-    const ModeTerm term = each.from == each.until
-                              ? log_hazard(lives, each.possible, each.from, slope)
-                              : log_failure(lives, each.possible, each.from, each.until, slope);
-    value_[i] = term.value;
-    sum_ += count_[i] * term.value;
-    open_of_[i] = term.open;
-    open_ += count_[i] * term.open;
+    sum_ += count_[i] * value_[i];
+    open_ += count_[i] * open_of_[i];
   }
-  if (!gradient.empty() && sum_ > -infinity && sum_ < infinity) reverse(x, gradient);
+  if (with_slopes && sum_ > -infinity && sum_ < infinity) reverse(x, gradient);
   return value_;
 }
 

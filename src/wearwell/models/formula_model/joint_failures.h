@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "wearwell/models/formula_model/formula_model.h"
+#include "wearwell/models/formula_model/mode_probability.h"
 
 namespace wearwell::formula_model {
 
@@ -29,7 +31,14 @@ class JointFailures {
   const std::vector<ResponseFamily>& families() const { return families_; }
 
  private:
+  // Failures within one interval, or at one age: one of each set of possible modes.
+  struct Interval {
+    double from = 0, until = 0;
+    std::vector<std::uint32_t> possible;
+    std::vector<std::size_t> which;
+  };
   void find_equal();
+  void compute(const Interval& interval, bool with_slopes);
   void forward(std::span<const double> x);
   void reverse(std::span<const double> x, std::span<double> gradient);
 
@@ -39,9 +48,13 @@ class JointFailures {
   std::vector<ResponseFamily> families_;
   // Rows of a triangle of returns repeat ages: where no parameter depends on the row, equal failures are computed once.
   std::vector<std::size_t> first_;
+  std::vector<Interval> equal_,
+      single_;  // where parameters are equal in all rows; one for each row
   bool uniform_ = false;
   std::vector<formula::Data> data_;  // by mode
   std::vector<formula::Workspace> workspaces_;
+  std::vector<ModeTerm> terms_;  // of one interval
+  std::vector<double> set_slopes_;
   double sum_ = 0, open_ = 0;
 };
 

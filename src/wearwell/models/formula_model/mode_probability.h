@@ -25,10 +25,11 @@ struct ModeTerm {
 ModeTerm log_hazard(const ModeLives& lives, std::uint32_t possible, double life,
                     std::span<double> slope);
 
-/// log probability that a part that has survived to `from` fails by `until` by one of the `possible` modes. The
-/// probability of a failure by any mode has a closed form; the share of the possible ones in it is a ratio of two integrals by one
-/// rule, which is refined until it reproduces that closed form.
-ModeTerm log_failure(const ModeLives& lives, std::uint32_t possible, double from, double until,
-                     std::span<double> slope);
+/// For each set of modes in `possible`: log probability that a part that has survived to `from` fails by `until` by
+/// one of them. The probability of a failure by any mode has a closed form; the share of a set in it is a ratio of two integrals by
+/// one rule, which is refined until it reproduces that closed form, and serves all sets. `slopes` has those of one set after
+/// another; empty if they are not wanted.
+void log_failures(const ModeLives& lives, std::span<const std::uint32_t> possible, double from,
+                  double until, std::span<ModeTerm> terms, std::span<double> slopes);
 
 }  // namespace wearwell::formula_model
