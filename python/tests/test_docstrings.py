@@ -1,6 +1,7 @@
 """Docstrings are in the form of numpydoc: each argument, what is returned and raised, and examples that run."""
 
 import inspect
+import pydoc
 import re
 import subprocess
 import sys
@@ -71,3 +72,14 @@ def test_docstrings_stand_alone(name):
 def test_without_docstrings_the_module_is_there():
     done = subprocess.run([sys.executable, "-OO", "-c", "import wearwell; print(wearwell.life.__doc__)"], capture_output=True, text=True)
     assert done.stdout.strip() == "None", done.stderr
+
+
+def test_help_of_the_package_has_what_people_call_and_catch():
+    """Classes that functions return have help of their own, and do not stand before the functions."""
+    text = pydoc.render_doc(ww, renderer=pydoc.plaintext)
+    classes = re.findall(r"(?m)^    class (\w+)\(", text)
+    assert classes == [name for name in sorted(ww.__all__) if name in {"Fit", "Study", "Monitor"} or is_exception(getattr(ww, name))]
+    assert len(text.split("\n")) < 4500
+    functions = {name for name in ww.__all__ if inspect.isfunction(getattr(ww, name))}
+    assert functions == {name for name in functions if re.search(rf"(?m)^    {name}\(", text)}
+    assert functions < set(dir(ww)) <= {*ww.__all__, *vars(ww)}

@@ -106,3 +106,11 @@ __all__ = [
     # Errors and warnings.
     "InputError", "MissingFileError", "MachineError", "NotTrusted", "CheckWarning",
 ]
+
+# What functions and fits return; help(fit.plot("life")) documents one. dir(), completion and help(wearwell) show what people call or catch.
+_answers = {"Check", "Plot", "Comparison", "UnitTracker", "Quantiles", "Backtest", "LivesAgainst", "Plan", "LoadSpectrum", "Damage", "DesignCurves",
+            "Selection", "ArrowTable"}
+
+
+def __dir__():
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__") and name.endswith("__"))} - _answers)

@@ -107,6 +107,7 @@ double mean_log_likelihood(const LogDensity& likelihood, const WeightedDraws& no
   std::vector<double> each(static_cast<std::size_t>(count));
   tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index i) {
     if (!(nodes.weights[i] > 0)) return;
+    check_stop();
     const Eigen::VectorXd x = nodes.values.row(i);
     each[static_cast<std::size_t>(i)] = nodes.weights[i] * likelihood.value(view(x));
   });
@@ -123,8 +124,10 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
   const std::vector<Eigen::VectorXd> points = placed(rule, posterior, fit.exact->nodes);
   const std::size_t count = points.size();
   std::vector<std::vector<double>> log_p(count);
-  tbb::parallel_for(std::size_t{0}, count,
-                    [&](std::size_t s) { log_p[s] = likelihood.pointwise(view(points[s])); });
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t s) {
+    check_stop();
+    log_p[s] = likelihood.pointwise(view(points[s]));
+  });
   const std::size_t terms = log_p.front().size();
   const std::vector<int> counts = likelihood.pointwise_counts();
   Loo loo;
@@ -165,8 +168,10 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
     loo.terms[*i].khat = largest_share(rule, own);
   }
   double of_points = 0;
-  for (std::size_t s = 0; s < count; ++s)
+  for (std::size_t s = 0; s < count; ++s) {
+    check_stop();
     of_points += rule.weights[s] * likelihood.value(view(points[s]));
+  }
   loo.error = std::abs(of_points - mean_log_likelihood(likelihood, fit.exact->nodes)) +
               std::accumulate(third.begin(), third.end(), 0.0);
   if (!(loo.error <= most_error)) return {};

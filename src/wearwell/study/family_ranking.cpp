@@ -164,12 +164,16 @@ FamilyRanking rank_families(const Source& study, const std::string& families, Mo
   const std::vector<std::string> names = listed_families(families);
   if (names.size() < 2) throw InputError("--families: needs two families or more, or all");
   std::vector<std::pair<std::string, SavedResult>> results;
-  std::vector<Source> sources;
-  for (const std::string& each : names) sources.push_back(study_with_family(study, each));
-  for (std::size_t i = 0; i < names.size(); ++i)
-    results.emplace_back(names[i], in_family(names[i], [&] {
-                           return fitted(sources[i], names[i], models, monitor);
-                         }));
+  // All studies are written before the first fit, without the tables, which can be large.
+  std::vector<TextFile> written;
+  for (const std::string& each : names)
+    written.push_back(study_with_family({study.study}, each).study);
+  Source source = study;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    source.study = written[i];
+    results.emplace_back(
+        names[i], in_family(names[i], [&] { return fitted(source, names[i], models, monitor); }));
+  }
   FamilyRanking ranking{compare(std::move(results)), {}};
   for (const Comparison::Entry& each : ranking.comparison.studies) {
     if (each.behind &&

@@ -7,32 +7,56 @@
 #include <map>
 #include <optional>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell::formula_model {
 namespace {
 
-// The conditions of a row that the formula depends on.
-Conditions conditions_of_row(const FormulaModel& model, std::size_t row) {
+// The columns that the formula depends on.
+struct UsedColumns {
+  std::vector<const NumberColumn*> numbers;
+  std::vector<const LabelColumn*> labels;
+};
+
+UsedColumns used_columns(const FormulaModel& model) {
   const auto any = [&](auto uses) {
     return std::any_of(model.measured.begin(), model.measured.end(),
                        [&](const Measured& each) { return uses(each.program); });
   };
-  Conditions found;
-  std::vector<std::string> words;
+  UsedColumns used;
   for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
-    if (!any([c](const formula::Program& program) { return program.uses_column(c); })) continue;
-    const NumberColumn& column = *model.data.number(model.row_symbols.columns[c].name);
-    found.numbers[column.name] = column.values[row];
-    const std::string& unit = column.unit.unit.text;
-    words.push_back(fmt::format("{} = {:.6g}{}", column.name,
-                                from_si(column.unit.unit, column.values[row]),
-                                unit == "1" ? "" : " " + unit));
+    if (any([c](const formula::Program& program) { return program.uses_column(c); }))
+      used.numbers.push_back(model.data.number(model.row_symbols.columns[c].name));
   }
   for (std::size_t c = 0; c < model.row_symbols.labels.size(); ++c) {
-    if (!any([c](const formula::Program& program) { return program.uses_label(c); })) continue;
-    const LabelColumn& column = *model.data.label(model.row_symbols.labels[c].name);
-    found.labels[column.name] = column.at[row];
-    words.push_back(fmt::format("{} = {}", column.name,
-                                column.levels[static_cast<std::size_t>(column.at[row])]));
+    if (any([c](const formula::Program& program) { return program.uses_label(c); }))
+      used.labels.push_back(model.data.label(model.row_symbols.labels[c].name));
+  }
+  return used;
+}
+
+// The values of these columns in a row: rows of one group have the same.
+std::vector<double> values_of_row(const UsedColumns& used, std::size_t row) {
+  std::vector<double> values;
+  for (const NumberColumn* column : used.numbers) values.push_back(column->values[row]);
+  for (const LabelColumn* column : used.labels) values.push_back(column->at[row]);
+  return values;
+}
+
+Conditions conditions_of_row(const UsedColumns& used, std::size_t row) {
+  Conditions found;
+  std::vector<std::string> words;
+  for (const NumberColumn* column : used.numbers) {
+    found.numbers[column->name] = column->values[row];
+    const std::string& unit = column->unit.unit.text;
+    words.push_back(fmt::format("{} = {:.6g}{}", column->name,
+                                from_si(column->unit.unit, column->values[row]),
+                                unit == "1" ? "" : " " + unit));
+  }
+  for (const LabelColumn* column : used.labels) {
+    found.labels[column->name] = column->at[row];
+    words.push_back(fmt::format("{} = {}", column->name,
+                                column->levels[static_cast<std::size_t>(column->at[row])]));
   }
   found.words = fmt::format("{}", fmt::join(words, ", "));
   return found;
@@ -60,12 +84,14 @@ std::optional<Response> life_by_mode(const FormulaModel& model, std::size_t row,
 
 std::vector<LifeGroup> groups_of_modes(const FormulaModel& model, std::size_t most) {
   std::vector<LifeGroup> groups;
-  std::map<std::pair<std::map<std::string, double>, std::map<std::string, int>>, std::size_t> known;
+  const UsedColumns used = used_columns(model);
+  std::map<std::vector<double>, std::size_t> known;
   const std::size_t modes = model.measured.size();
   for (std::size_t row = 0; row < model.lives.rows.size(); ++row) {
-    const Conditions own = conditions_of_row(model, row);
-    const auto [at, is_new] = known.try_emplace({own.numbers, own.labels}, groups.size());
+    check_stop();
+    const auto [at, is_new] = known.try_emplace(values_of_row(used, row), groups.size());
     if (is_new) {
+      const Conditions own = conditions_of_row(used, row);
       if (groups.size() + modes + 1 > most) return {};
       groups.push_back({own, {}});
       groups.back().conditions.words = own.words.empty() ? "all modes" : "all modes, " + own.words;
@@ -126,13 +152,15 @@ std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most) 
   if (model.modes && model.measured.size() > 1) return groups_of_modes(model, most);
   const Measured& measured = model.measured.front();
   std::vector<LifeGroup> groups;
-  std::map<std::pair<std::map<std::string, double>, std::map<std::string, int>>, std::size_t> known;
+  const UsedColumns used = used_columns(model);
+  std::map<std::vector<double>, std::size_t> known;
   for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
-    Conditions own = conditions_of_row(model, measured.observed.rows[i]);
-    const auto [at, is_new] = known.try_emplace({own.numbers, own.labels}, groups.size());
+    check_stop();
+    const std::size_t row = measured.observed.rows[i];
+    const auto [at, is_new] = known.try_emplace(values_of_row(used, row), groups.size());
     if (is_new) {
       if (groups.size() == most) return {};
-      groups.push_back({std::move(own), {}});
+      groups.push_back({conditions_of_row(used, row), {}});
     }
     LifeGroup& group = groups[at->second];
     group.responses.push_back(measured.observed.responses[i]);
