@@ -12,6 +12,7 @@
 namespace wearwell {
 namespace {
 
+// Longer than others: one integral over rates, alone and shared between ages.
 constexpr std::size_t per_family = most_response_parameters;
 
 // A step of log r and what the integrand is there.
@@ -26,37 +27,41 @@ double log_width(ResponseFamily family, const double* parameters) {
   return std::log(quantile(family, p, parameters) / quantile(family, 0.5, parameters)) / score;
 }
 
-RateNode node_at(const LifeAtRate& unit, Response age, double log_rate, bool sloped) {
-  const double rate = std::exp(log_rate);
-  const bool exact = age.seen == Censoring::none;
-  age.entry = -infinity;
-  age.at *= rate;
-  age.until *= rate;
+ResponseTerm response_term(ResponseFamily family, const Response& response,
+                           const double* parameters, bool sloped) {
+  if (sloped) return log_response(family, response, parameters);
+  return {log_response_value(family, response, parameters)};
+}
+
+// dr = r dlog r, and an exact age has the factor r of its density once more.
+RateNode joined(Censoring seen, double log_rate, const ResponseTerm& life,
+                const ResponseTerm& use) {
   RateNode node;
   node.log_rate = log_rate;
-  // dr = r dlog r, and an exact age has the factor r of its density once more.
-  const double jacobian = exact ? 2 * log_rate : log_rate;
-  if (!sloped) {
-    node.value = log_response_value(unit.life, age, unit.life_parameters) +
-                 log_response_value(unit.rate, {.at = rate}, unit.rate_parameters) + jacobian;
-    return node;
-  }
-  const ResponseTerm life = log_response(unit.life, age, unit.life_parameters),
-                     use = log_response(unit.rate, {.at = rate}, unit.rate_parameters);
-  node.value = life.value + use.value + jacobian;
+  node.value = life.value + use.value + (seen == Censoring::none ? 2 * log_rate : log_rate);
   std::copy_n(life.slope, per_family, node.slope);
   std::copy_n(use.slope, per_family, node.slope + per_family);
   return node;
 }
 
+RateNode node_at(const LifeAtRate& unit, Response age, double log_rate, bool sloped) {
+  const double rate = std::exp(log_rate);
+  age.entry = -infinity;
+  age.at *= rate;
+  age.until *= rate;
+  return joined(age.seen, log_rate, response_term(unit.life, age, unit.life_parameters, sloped),
+                response_term(unit.rate, {.at = rate}, unit.rate_parameters, sloped));
+}
+
 // From one node on, until the log-concave integrand has fallen by all digits; false if it does not.
-bool walk_rates(const LifeAtRate& unit, const Response& age, double first, double step, bool sloped,
-                double& best, std::vector<RateNode>& nodes) {
+template <class NodeAt>
+bool walk_rates(const NodeAt& node_of, int first, int direction, double& best,
+                std::vector<RateNode>& nodes) {
   constexpr double all_digits = 32;
   constexpr int most = 4000;
   double before = -infinity;
   for (int i = 0; i < most; ++i) {
-    RateNode node = node_at(unit, age, first + i * step, sloped);
+    RateNode node = node_of(first + i * direction);
     if (std::isnan(node.value)) node.value = -infinity;
     const bool falls = node.value < before || !(node.value > -infinity);
     if (falls && best > -infinity && node.value < best - all_digits) return true;
@@ -67,16 +72,16 @@ bool walk_rates(const LifeAtRate& unit, const Response& age, double first, doubl
   return false;
 }
 
-// The nodes of one step, ascending: `even` is the index of the first whose number is even.
+// The nodes of one step, ascending; `node_of` has them by their number, which is 0 at the median rate.
 struct RateSum {
   std::vector<RateNode> nodes;
   double best = -infinity, even = 0, odd = 0;  // sums relative to exp(best)
   bool whole = false;                          // no part of the integrand is left out
 
-  RateSum(const LifeAtRate& unit, const Response& age, double middle, double step, bool sloped) {
+  template <class NodeAt>
+  explicit RateSum(const NodeAt& node_of) {
     std::vector<RateNode> below;
-    whole = walk_rates(unit, age, middle, step, sloped, best, nodes) &&
-            walk_rates(unit, age, middle - step, -step, sloped, best, below);
+    whole = walk_rates(node_of, 0, 1, best, nodes) && walk_rates(node_of, -1, -1, best, below);
     for (std::size_t i = 0; i < nodes.size(); ++i) (i % 2 == 0 ? even : odd) += share(nodes[i]);
     for (std::size_t i = 0; i < below.size(); ++i) (i % 2 == 0 ? odd : even) += share(below[i]);
     std::reverse(below.begin(), below.end());
@@ -104,17 +109,13 @@ bool has_valid_parameters(const LifeAtRate& unit) {
          std::isfinite(first_step(unit));
 }
 
-bool is_lognormal(ResponseFamily family) {
-  return family == ResponseFamily::lognormal || family == ResponseFamily::lognormal_by_moments ||
-         family == ResponseFamily::log10_normal;
-}
+constexpr int most_halvings = 4;
 
-RateSum rate_sum(const LifeAtRate& unit, const Response& age, bool sloped) {
-  constexpr int most_halvings = 4;
-  const double middle = std::log(quantile(unit.rate, 0.5, unit.rate_parameters));
-  double step = first_step(unit);
+// `nodes_of(halvings)` is a function from a number to its node, at the first step halved so often.
+template <class NodesOf>
+RateSum settled_sum(double step, const NodesOf& nodes_of) {
   for (int i = 0;; ++i, step *= 0.5) {
-    RateSum sum(unit, age, middle, step, sloped);
+    RateSum sum(nodes_of(i));
     // The step is a constant factor of the sum, so it goes into the largest term.
     sum.best += std::log(step);
     for (RateNode& each : sum.nodes) each.value += std::log(step);
@@ -125,14 +126,26 @@ RateSum rate_sum(const LifeAtRate& unit, const Response& age, bool sloped) {
   }
 }
 
+double log_median_rate(const LifeAtRate& unit) {
+  return std::log(quantile(unit.rate, 0.5, unit.rate_parameters));
+}
+
+RateSum rate_sum(const LifeAtRate& unit, const Response& age, bool sloped) {
+  const double middle = log_median_rate(unit), step = first_step(unit);
+  return settled_sum(step, [&](int halvings) {
+    return [&unit, &age, sloped, middle, width = std::ldexp(step, -halvings)](int i) {
+      return node_at(unit, age, middle + i * width, sloped);
+    };
+  });
+}
+
 // The log of an integral with its derivatives by all parameters.
 struct LogIntegral {
   double value = -infinity;
   std::array<double, 2 * per_family> slope{};
 };
 
-LogIntegral log_integral(const LifeAtRate& unit, const Response& age, bool sloped) {
-  const RateSum sum = rate_sum(unit, age, sloped);
+LogIntegral log_integral(const RateSum& sum, bool sloped) {
   LogIntegral found;
   if (!(sum.all() > 0)) return found;
   found.value = sum.best + std::log(sum.all());
@@ -144,8 +157,13 @@ LogIntegral log_integral(const LifeAtRate& unit, const Response& age, bool slope
   return found;
 }
 
+LogIntegral log_integral(const LifeAtRate& unit, const Response& age, bool sloped) {
+  return log_integral(rate_sum(unit, age, sloped), sloped);
+}
+
 // Integrals at ages whose logarithms are multiples of a step, each computed when it is first needed: all units under the same
-// parameters share them. In between, the polynomial of degree 5 through six of them, whose error is below 1e-6 of the
+// parameters share them. Steps of log rates are binary multiples of that step, so the integrals share the lives in use, too,
+// and all have one row of rates. In between, the polynomial of degree 5 through six of them, whose error is below 1e-6 of the
 // logarithm as the step is at most a fifth of the width of the narrower distribution. Steps are powers of two, so that small
 // changes of the parameters keep them.
 class AgeTable {
@@ -155,8 +173,12 @@ class AgeTable {
     std::copy_n(unit.life_parameters, per_family, parameters_.begin());
     std::copy_n(unit.rate_parameters, per_family, parameters_.begin() + per_family);
     valid_ = has_valid_parameters(unit);
+    if (!valid_) return;
     constexpr double of_width = 0.2 / 0.55;  // of first_step
-    if (valid_) step_ = std::exp2(std::floor(std::log2(of_width * first_step(unit))));
+    const double widest = first_step(unit);
+    step_ = std::exp2(std::floor(std::log2(of_width * widest)));
+    while (ages_of_a_rate_ * 2 * step_ <= widest) ages_of_a_rate_ *= 2;
+    middle_ = log_median_rate(unit);
   }
 
   bool is_like(const LifeAtRate& unit, Censoring seen, bool sloped) const {
@@ -196,22 +218,46 @@ class AgeTable {
  private:
   const LogIntegral& node_at(const LifeAtRate& unit, int k) {
     const auto [node, fresh] = nodes_.try_emplace(k);
-    if (fresh)
-      node->second = log_integral(unit, {.seen = seen_, .at = std::exp(k * step_)}, sloped_);
+    if (fresh) node->second = log_integral(sum_at(unit, k), sloped_);
     return node->second;
+  }
+
+  // Places are in the finest step of a rate; a life stands at the sum of those of its age and its rate.
+  static constexpr int finest = 1 << most_halvings;
+
+  RateSum sum_at(const LifeAtRate& unit, int k) {
+    return settled_sum(ages_of_a_rate_ * step_, [&, k](int halvings) {
+      return [&, k, stride = ages_of_a_rate_ * (finest >> halvings)](int i) {
+        const int rate = i * stride;
+        return joined(seen_, log_rate(rate), life_at(unit, k * finest + rate), use_at(unit, rate));
+      };
+    });
+  }
+  double log_rate(int place) const { return middle_ + place * (step_ / finest); }
+  const ResponseTerm& life_at(const LifeAtRate& unit, int place) {
+    const auto [at, fresh] = lives_.try_emplace(place);
+    if (fresh)
+      at->second = response_term(unit.life, {.seen = seen_, .at = std::exp(log_rate(place))},
+                                 unit.life_parameters, sloped_);
+    return at->second;
+  }
+  const ResponseTerm& use_at(const LifeAtRate& unit, int place) {
+    const auto [at, fresh] = uses_.try_emplace(place);
+    if (fresh)
+      at->second = response_term(unit.rate, {.at = std::exp(log_rate(place))}, unit.rate_parameters,
+                                 sloped_);
+    return at->second;
   }
 
   ResponseFamily life_, rate_;
   Censoring seen_;
   bool sloped_, valid_ = false;
   std::array<double, 2 * per_family> parameters_{};
-  double step_ = 1;
+  double step_ = 1, middle_ = 0;
+  int ages_of_a_rate_ = 1;  // the first step of a rate in steps of an age
   std::unordered_map<int, LogIntegral> nodes_;
+  std::unordered_map<int, ResponseTerm> lives_, uses_;
 };
-
-}  // namespace
-
-namespace {
 
 // Of the last parameters in a thread, for each kind of ages. Values do not depend on what was asked
 // before, so they may outlive their scope.
@@ -229,6 +275,11 @@ struct AgeTables {
   }
 };
 thread_local AgeTables age_tables;
+
+bool is_lognormal(ResponseFamily family) {
+  return family == ResponseFamily::lognormal || family == ResponseFamily::lognormal_by_moments ||
+         family == ResponseFamily::log10_normal;
+}
 
 }  // namespace
 
