@@ -10,10 +10,13 @@
 #include <condition_variable>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/equal_names.h"
@@ -59,6 +62,22 @@ class Deadline {
   std::condition_variable changed_;
   bool done_ = false;
   std::thread thread_;
+};
+
+/// Interrupts the query of a connection once the work of this thread is asked to stop.
+class StoppableQuery {
+ public:
+  explicit StoppableQuery(duckdb_connection connection)
+      : signal_(current_stop_signal()),
+        on_stop_(signal_ ? signal_->requested : std::stop_token(), Interrupt{connection}) {}
+
+ private:
+  struct Interrupt {
+    duckdb_connection connection;
+    void operator()() const { duckdb_interrupt(connection); }
+  };
+  std::shared_ptr<const StopSignal> signal_;
+  std::stop_callback<Interrupt> on_stop_;
 };
 
 /// Checks that the settings apply to this kind of table. Throws InputError.
@@ -137,10 +156,12 @@ void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& ou
 }
 
 DuckdbResult::DuckdbResult(const DuckdbSession& session, const std::string& query) {
+  const StoppableQuery stoppable(session.connection());
   if (duckdb_query(session.connection(), query.c_str(), &result_) == DuckDBSuccess) return;
   const char* error = duckdb_result_error(&result_);
   const std::string message = error ? error : "";
   duckdb_destroy_result(&result_);
+  check_stop();
   session.fail(message);
 }
 
@@ -320,6 +341,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
   duckdb_state outcome = DuckDBSuccess;
   {
     const Deadline deadline(session.connection(), limits.seconds);
+    const StoppableQuery stoppable(session.connection());
     outcome = duckdb_query(session.connection(), ("create temp table result as " + query).c_str(),
                            &result);
   }
@@ -335,6 +357,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     }
   }
   duckdb_destroy_result(&result);
+  check_stop();
   if (!reason.empty()) refuse(reason);
 }
 

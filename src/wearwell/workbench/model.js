@@ -4,7 +4,7 @@
   const {element, strings} = wearwell;
   const place = {};
   const replaced = [];
-  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
+  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, slow = 0, checking = false, again = false;
   let keys = [], questions = [], unread = false, keptFor = 0, left = false;
 
   const text = () => place.text.value;
@@ -55,36 +55,59 @@
     marks();
     gutter();
     clearTimeout(timer);
-    timer = setTimeout(() => wearwell.quietly(check), 250);
+    timer = setTimeout(() => wearwell.quietly(check), 40);
   }
 
-  // One at a time; of the texts that come meanwhile the last is checked.
+  // The form follows at once. The check reads the tables: one at a time, and of the texts that come meanwhile the last.
   async function check() {
+    const checked = text();
+    if (!await showForm(checked)) return;
+    await new Promise((done) => { setTimeout(done, 200); });
+    if (checked !== text()) return;
     if (checking) { again = true; return; }
     checking = true;
     try {
-      await checkText(text());
+      await checkText(checked);
     } finally {
       checking = false;
       if (again) { again = false; wearwell.quietly(check); }
     }
   }
 
-  async function checkText(checked) {
+  // Whether this is still the text, and TOML.
+  async function showForm(checked) {
     keys = [];
-    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return; }
-    const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
-    if (checked !== text()) return;
+    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return false; }
+    const found = await wearwell.post('/api/form', {file: place.name.value || 'study.toml', text: checked});
+    if (checked !== text()) return false;
     keys = found.keys;
+    form(keys);
+    compare();
+    if (!found.problem) {
+      place.check.dataset.state = 'checking';
+      clearTimeout(slow);
+      slow = setTimeout(() => place.check.replaceChildren(element('p', {class: 'note'}, strings.checking)), 300);
+      return true;
+    }
+    verdict(found);
+    return false;
+  }
+
+  function verdict(found) {
+    clearTimeout(slow);
     gutter(found.line);
     place.text.setAttribute('aria-invalid', found.problem ? 'true' : 'false');
     place.check.replaceChildren(...(found.problem ? problem(found) : [element('p', {class: 'good'}, strings.checkGood),
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0, lang: 'en'}, found.description))]));
-    form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
     for (const each of place.parts) each.update();
+  }
+
+  async function checkText(checked) {
+    const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
+    if (checked !== text()) return;
+    verdict(found);
     if (table === null && saved !== null) openItsTable();
-    compare();
   }
 
   // The study, for the parts below the form: what they ask of it and how they change it.

@@ -19,6 +19,8 @@ std::string_view workbench_server_js();
 std::string_view workbench_server_js_sha256();
 std::string_view workbench_scatter_js();
 std::string_view workbench_scatter_js_sha256();
+std::string_view workbench_reading_js();
+std::string_view workbench_reading_js_sha256();
 std::string_view workbench_data_js();
 std::string_view workbench_data_js_sha256();
 std::string_view workbench_priors_js();

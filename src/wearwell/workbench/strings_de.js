@@ -12,6 +12,8 @@ wearwell.languages.de = {
   inFolder: 'Im Ordner', open: 'Öffnen', nothingHere: 'noch keine Tabellen, Studien oder Ergebnisse',
   tables: 'Tabellen', studies: 'Studien', results: 'Ergebnisse',
   sheetTitle: (file) => `${file} hat mehrere Tabellenblätter. Welches?`,
+  reading: (file) => `${file} wird gelesen`, progress: 'Fortschritt', stopReading: 'Lesen abbrechen', firstLines: 'Erste Zeilen der Datei, wie sie dort stehen',
+  readingStopped: (file) => `${file} wurde nicht zu Ende gelesen. Was vorher offen war, bleibt offen.`,
   otherPage: (file) => `Eine andere Seite hat ${file} geöffnet. Alle Seiten zeigen dieselbe Tabelle.`,
   stored: 'Wie die Tabelle gespeichert ist', apply: 'Neu lesen',
   settings: {sheet: 'Tabellenblatt', range: 'Bereich (B4:G22)', header_row: 'Zeile der Überschriften', units_row: 'Zeile der Einheiten: below (darunter) oder none (keine)',
@@ -40,7 +42,7 @@ wearwell.languages.de = {
   taken: 'Aus den Überschriften', guesses: 'Prüfen Sie diese Annahmen', unstated: 'Geben Sie an, was keine Überschrift sagt',
   columnRole: 'Rolle einer Spalte angeben', role: 'Rolle', column: 'Spalte', noColumn: '(keine Spalte)', setRole: 'Festlegen', chosenRoles: 'Gewählt', forget: 'Diese Angaben verwerfen',
   formTitle: 'Werte', wholeStudy: 'Studie', editorLabel: 'Studie in TOML', fileName: 'Datei', save: 'Speichern', saved: (file) => `Gespeichert als ${file}.`,
-  undo: 'Letzte Ersetzung zurücknehmen', checkGood: 'Die Studie kann angepasst werden', checkBad: 'Die Studie kann noch nicht angepasst werden', goTo: (line) => `Zu Zeile ${line}`,
+  undo: 'Letzte Ersetzung zurücknehmen', checking: 'Die Studie wird an ihren Tabellen geprüft.', checkGood: 'Die Studie kann angepasst werden', checkBad: 'Die Studie kann noch nicht angepasst werden', goTo: (line) => `Zu Zeile ${line}`,
   description: 'Was angepasst wird',
 
   priorsTitle: 'A-priori-Verteilungen als Kurven, und was sie vor allen Daten bedeuten', dragHint: 'Ziehen Sie an einem Griff, oder wählen Sie ihn aus und drücken Sie die Pfeiltasten. Werte, Studie und Lebensdauern folgen.',

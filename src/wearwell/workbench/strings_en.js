@@ -13,6 +13,8 @@ wearwell.languages.en = {
   inFolder: 'In the folder', open: 'Open', nothingHere: 'no tables, studies or results yet',
   tables: 'Tables', studies: 'Studies', results: 'Results',
   sheetTitle: (file) => `${file} has several sheets. Which one?`,
+  reading: (file) => `Reading ${file}`, progress: 'Progress', stopReading: 'Stop reading', firstLines: 'First lines of the file, as they stand there',
+  readingStopped: (file) => `${file} was not read to its end. What was open before stays open.`,
   otherPage: (file) => `Another page has opened ${file}. All pages show the same table.`,
   stored: 'How the table is stored', apply: 'Read again',
   settings: {sheet: 'Sheet', range: 'Range (B4:G22)', header_row: 'Line of the headings', units_row: 'Line of units: below or none',
@@ -41,7 +43,7 @@ wearwell.languages.en = {
   taken: 'From the headings', guesses: 'Check these guesses', unstated: 'State what no heading says',
   columnRole: 'Name a role of a column', role: 'Role', column: 'Column', noColumn: '(no column)', setRole: 'Set', chosenRoles: 'Chosen', forget: 'Forget these choices',
   formTitle: 'Values', wholeStudy: 'study', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,
-  undo: 'Undo last replacement', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
+  undo: 'Undo last replacement', checking: 'The study is checked against its tables.', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
   description: 'What will be fitted',
 
   priorsTitle: 'Priors as curves, and what they imply before any data', dragHint: 'Drag a handle, or focus it and press the arrow keys. Values, study and lives follow.',
