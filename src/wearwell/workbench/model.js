@@ -5,7 +5,7 @@
   const place = {};
   const replaced = [];
   let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, slow = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0, left = false;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false, form = null;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -48,6 +48,7 @@
     [questions, unread] = [[], false];
     place.readings.hidden = true;
     place.roles.hidden = true;
+    place.limit.hidden = true;
     place.reasons.replaceChildren();
   }
 
@@ -81,7 +82,7 @@
     const found = await wearwell.post('/api/form', {file: place.name.value || 'study.toml', text: checked});
     if (checked !== text()) return false;
     keys = found.keys;
-    form(keys);
+    form.show(keys);
     compare();
     if (!found.problem) {
       place.check.dataset.state = 'checking';
@@ -166,41 +167,6 @@
     place.text.scrollTop = Math.max(0, (line - 4) * parseFloat(getComputedStyle(place.text).lineHeight));
   }
 
-  // The meanings of keys are those of the reference, whose pages are not here.
-  const plain = (text) => text.replace(/\s*\(?\[[^\]]*\]\([^)]*\)\)?/g, '').replaceAll('`', '').replace(/[:,]? see$/, '');
-
-  function form(keys) {
-    if (place.form.contains(document.activeElement) && document.activeElement.matches('input, textarea')) place.form.dataset.focus = document.activeElement.id;
-    const groups = new Map();
-    for (const key of keys) {
-      const at = key.path.lastIndexOf('.');
-      const group = at < 0 ? '' : key.path.slice(0, at);
-      if (!groups.has(group)) groups.set(group, []);
-      groups.get(group).push([key, key.path.slice(at + 1)]);
-    }
-    place.form.replaceChildren(...[...groups].map(([group, inside]) => element('fieldset', {}, element('legend', {}, group || strings.wholeStudy),
-        ...inside.map(([key, name]) => {
-          const id = `key-${key.path}`;
-          const make = key.value.includes('\n') ? wearwell.area : wearwell.field;
-          const field = make(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
-          if (key.meaning) field.append(element('small', {id: `${id}-meaning`, lang: 'en'}, plain(key.meaning)));
-          field.querySelector('input, textarea').addEventListener('change', (event) => wearwell.attempt(async () => {
-            const before = text();
-            try {
-              const {text: next} = await wearwell.post('/api/set', {text: before, path: key.path, value: event.target.value});
-              if (text() === before) replace(next, true);
-            } catch (error) {
-              event.target.value = key.value;
-              throw error;
-            }
-          }));
-          return field;
-        }))));
-    const focus = place.form.dataset.focus;
-    delete place.form.dataset.focus;
-    if (focus) document.getElementById(focus)?.focus();
-  }
-
   const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {lang: 'en'}, each)))) : null);
 
   // The options of a reading, as `wearwell new` has them: {"--column", "depth=wear"}.
@@ -223,7 +189,23 @@
   function reasons(reading) {
     const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {lang: 'en'}, question.text),
         ...question.readings.map((each) => wearwell.button(each.text, () => choose(each.options), 'plain'))));
+    const wantsLimit = [...reading.guesses, ...reading.unstated].some((each) => each.includes('--limit'));
+    place.limit.hidden = !wantsLimit && choices.limit === undefined;
     place.reasons.replaceChildren(...[...asked, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
+  }
+
+  // Of wear: without it there is no life. A value that is refused leaves what was there.
+  async function setLimit(value) {
+    const before = choices.limit;
+    choices.limit = value.trim() || undefined;
+    try {
+      await wearwell.data.ofTable(guess);
+    } catch (error) {
+      choices.limit = before;
+      await wearwell.data.ofTable(guess);
+      place.limit.hidden = false;
+      throw error;
+    }
   }
 
   async function guess() {
@@ -277,6 +259,7 @@
   function tableOpened(next) {
     table = next;
     choices = {columns: []};
+    document.getElementById('limit').value = '';
     place.empty.hidden = true;
     place.work.hidden = false;
     hideGuess();
@@ -318,7 +301,11 @@
         element('div', {class: 'field'}, element('label', {for: 'role'}, strings.role), place.role),
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
         wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
-    place.form = element('div', {class: 'form'});
+    const limit = wearwell.field(strings.limit[0], 'limit', {placeholder: strings.limit[1]});
+    place.limit = element('form', {class: 'fields', hidden: true}, limit, element('button', {class: 'plain'}, strings.setRole));
+    place.limit.addEventListener('submit', (event) => { event.preventDefault(); wearwell.attempt(() => setLimit(limit.querySelector('input').value)); });
+    form = wearwell.valuesForm(study);
+    place.form = form.panel;
     place.parts = [wearwell.priors(study), wearwell.families(study)];
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
@@ -332,7 +319,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
+        element('div', {}, place.readings, place.limit, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));

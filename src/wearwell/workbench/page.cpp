@@ -21,6 +21,7 @@ ServedPage workbench_page() {
                       {of::workbench_data_js(), of::workbench_data_js_sha256()},
                       {of::workbench_priors_js(), of::workbench_priors_js_sha256()},
                       {of::workbench_families_js(), of::workbench_families_js_sha256()},
+                      {of::workbench_form_js(), of::workbench_form_js_sha256()},
                       {of::workbench_model_js(), of::workbench_model_js_sha256()},
                       {of::workbench_fit_js(), of::workbench_fit_js_sha256()},
                       {of::workbench_compare_js(), of::workbench_compare_js_sha256()},

@@ -27,6 +27,8 @@ std::string_view workbench_priors_js();
 std::string_view workbench_priors_js_sha256();
 std::string_view workbench_families_js();
 std::string_view workbench_families_js_sha256();
+std::string_view workbench_form_js();
+std::string_view workbench_form_js_sha256();
 std::string_view workbench_model_js();
 std::string_view workbench_model_js_sha256();
 std::string_view workbench_fit_js();

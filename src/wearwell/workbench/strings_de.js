@@ -39,7 +39,7 @@ wearwell.languages.de = {
   readings: 'Wie diese Tabelle gelesen werden kann', equal: 'passt ebenso gut',
   chooseReading: 'Die Tabelle kann auf mehrere Arten gelesen werden, die gleich gut passen. Wählen Sie eine.',
   openQuestion: (question) => `Beantworten Sie zuerst diese Frage im Schritt Modell: ${question}`,
-  taken: 'Aus den Überschriften', guesses: 'Prüfen Sie diese Annahmen', unstated: 'Geben Sie an, was keine Überschrift sagt',
+  limit: ['Ausfallgrenze des Verschleißes: wer sie erreicht, ist ausgefallen', '0.3 mm, oder leer'], taken: 'Aus den Überschriften', guesses: 'Prüfen Sie diese Annahmen', unstated: 'Geben Sie an, was keine Überschrift sagt',
   columnRole: 'Rolle einer Spalte angeben', role: 'Rolle', column: 'Spalte', noColumn: '(keine Spalte)', setRole: 'Festlegen', chosenRoles: 'Gewählt', forget: 'Diese Angaben verwerfen',
   formTitle: 'Werte', wholeStudy: 'Studie', editorLabel: 'Studie in TOML', fileName: 'Datei', save: 'Speichern', saved: (file) => `Gespeichert als ${file}.`,
   undo: 'Letzte Ersetzung zurücknehmen', checking: 'Die Studie wird an ihren Tabellen geprüft.', checkGood: 'Die Studie kann angepasst werden', checkBad: 'Die Studie kann noch nicht angepasst werden', goTo: (line) => `Zu Zeile ${line}`,

@@ -40,7 +40,7 @@ wearwell.languages.en = {
   readings: 'How this table can be read', equal: 'fits equally well',
   chooseReading: 'The table can be read in several ways that fit equally well. Choose one.',
   openQuestion: (question) => `Answer this question of the step Model first: ${question}`,
-  taken: 'From the headings', guesses: 'Check these guesses', unstated: 'State what no heading says',
+  limit: ['Failure threshold of the wear: a part has failed once it is reached', '0.3 mm, or empty'], taken: 'From the headings', guesses: 'Check these guesses', unstated: 'State what no heading says',
   columnRole: 'Name a role of a column', role: 'Role', column: 'Column', noColumn: '(no column)', setRole: 'Set', chosenRoles: 'Chosen', forget: 'Forget these choices',
   formTitle: 'Values', wholeStudy: 'study', editorLabel: 'Study in TOML', fileName: 'File', save: 'Save', saved: (file) => `Saved as ${file}.`,
   undo: 'Undo last replacement', checking: 'The study is checked against its tables.', checkGood: 'The study can be fitted', checkBad: 'The study cannot be fitted yet', goTo: (line) => `Go to line ${line}`,
