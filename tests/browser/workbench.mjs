@@ -297,9 +297,9 @@ async function large(browser) {
   await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
   await page.click('#step-model');
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
-  await page.fill('#limit', '5 furlongs');
+  await page.fill('#limit', '5 h');
   await page.press('#limit', 'Enter');
-  await page.waitForSelector('#banners .callout:has-text("furlongs")', {timeout: 60000});
+  await page.waitForSelector('#banners .callout:has-text("dimension")', {timeout: 60000});
   await page.fill('#limit', '0.12 mm');
   await page.press('#limit', 'Enter');
   await page.waitForFunction(() => document.getElementById('study').value.includes('0.12 mm'), null, {timeout: 60000});
