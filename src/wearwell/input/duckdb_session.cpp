@@ -10,9 +10,7 @@
 #include <condition_variable>
 #include <limits>
 #include <map>
-#include <memory>
 #include <mutex>
-#include <stop_token>
 #include <thread>
 
 #include "wearwell/base/error.h"
@@ -20,6 +18,7 @@
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/equal_names.h"
+#include "wearwell/input/stoppable_query.h"
 #include "wearwell/input/text_lines.h"
 #include "wearwell/input/text_rewrite.h"
 #include "wearwell/input/workbook.h"
@@ -62,22 +61,6 @@ class Deadline {
   std::condition_variable changed_;
   bool done_ = false;
   std::thread thread_;
-};
-
-/// Interrupts the query of a connection once the work of this thread is asked to stop.
-class StoppableQuery {
- public:
-  explicit StoppableQuery(duckdb_connection connection)
-      : signal_(current_stop_signal()),
-        on_stop_(signal_ ? signal_->requested : std::stop_token(), Interrupt{connection}) {}
-
- private:
-  struct Interrupt {
-    duckdb_connection connection;
-    void operator()() const { duckdb_interrupt(connection); }
-  };
-  std::shared_ptr<const StopSignal> signal_;
-  std::stop_callback<Interrupt> on_stop_;
 };
 
 /// Checks that the settings apply to this kind of table. Throws InputError.
