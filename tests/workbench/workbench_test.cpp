@@ -46,6 +46,7 @@ std::string content(const std::filesystem::path& file) {
 class WorkbenchTest : public ScratchTest {
  protected:
   WorkbenchTest() : session_(folder(), all_models()), routes_(session_, token) {
+    session_.patience = std::chrono::minutes(5);
     HttpSettings settings;
     settings.port = 0;
     settings.limits.body_bytes = 1 << 20;
@@ -104,6 +105,15 @@ class WorkbenchTest : public ScratchTest {
     return {};
   }
 
+  json ended_reading() const {
+    for (int i = 0; i < 1200; ++i) {
+      const json session = got("/api/session");
+      if (session["reading"]["state"] != "running") return session;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return {};
+  }
+
   Session session_;
   Routes routes_;
   std::optional<HttpListener> listener_;
@@ -119,6 +129,73 @@ TEST_F(WorkbenchTest, ThePageHoldsNoDataAndNeedsNoToken) {
   EXPECT_EQ(page.field("Content-Security-Policy").find("unsafe"), std::string::npos);
   EXPECT_EQ(page.field("X-Frame-Options"), "DENY");
   EXPECT_EQ(page.body.find("src=\"http"), std::string::npos);
+}
+
+std::string many_lives(int rows) {
+  std::string text = "unit,hours [h],status\n";
+  for (int i = 0; i < rows; ++i)
+    text += "U" + std::to_string(i) + "," + std::to_string(100 + i % 997) + ".5,failure\n";
+  return text;
+}
+
+TEST_F(WorkbenchTest, ATableIsReadWhileThePageGoesOn) {
+  write("few.csv", many_lives(12));
+  write("many.csv", many_lives(400'000));
+  done("/api/open", {{"file", "few.csv"}});
+  session_.patience = std::chrono::milliseconds(0);
+  const json begun = done("/api/open", {{"file", "many.csv"}});
+  EXPECT_EQ(begun["kind"], "reading");
+  EXPECT_EQ(begun["lines"][0], "unit,hours [h],status");
+  EXPECT_EQ(begun["lines"].size(), 20U);
+  const json meanwhile = got("/api/session");
+  EXPECT_EQ(meanwhile["table"], "few.csv");
+  EXPECT_EQ(meanwhile["reading"]["state"], "running");
+  EXPECT_EQ(got("/api/rows?from=0&count=3&" + named_query())["rows"].size(), 3U);
+  done("/api/stop-reading", json::object());
+  const json stopped = ended_reading();
+  EXPECT_EQ(stopped["reading"]["state"], "stopped");
+  EXPECT_EQ(stopped["table"], "few.csv");
+
+  // Of two readings the later one stays, whichever ends first.
+  done("/api/open", {{"file", "many.csv"}});
+  const json later = done("/api/open", {{"file", "few.csv"}});
+  EXPECT_EQ(ended_reading()["table"], "few.csv");
+  EXPECT_EQ(got("/api/table")["number"], later["number"]);
+
+  done("/api/open", {{"file", "many.csv"}});
+  const json session = ended_reading();
+  EXPECT_EQ(session["reading"]["state"], "done");
+  EXPECT_EQ(session["reading"]["number"], session["table_number"]);
+  const json table = got("/api/table");
+  EXPECT_EQ(table["rows"], 400'000);
+  EXPECT_EQ(table["columns"][1]["largest"], 1096.5);
+}
+
+TEST_F(WorkbenchTest, ATableThatCannotBeReadIsRefusedInTheBackground) {
+  session_.patience = std::chrono::milliseconds(0);
+  const auto uploaded = [&](const std::string& name, const std::string& body) {
+    return send("POST /api/upload?file=" + name, host(), fields(), body).status;
+  };
+  EXPECT_EQ(uploaded("bad.csv", "a,b\n1,2\n3\n"), 200);
+  json read = ended_reading()["reading"];
+  EXPECT_EQ(read["state"], "failed");
+  EXPECT_THAT(read["problem"].get<std::string>(), HasSubstr("bad.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "bad.csv"));
+  EXPECT_EQ(uploaded("good.csv", "a,b\n1,2\n"), 200);
+  read = ended_reading()["reading"];
+  EXPECT_EQ(read["state"], "done");
+  EXPECT_EQ(read["problem"], "");
+  EXPECT_TRUE(std::filesystem::exists(folder() / "good.csv"));
+}
+
+TEST_F(WorkbenchTest, TheFormNeedsNoTable) {
+  const std::string text = "model = \"lifetimes\"\n[data]\nfile = \"absent.csv\"\n";
+  const json form = done("/api/form", {{"file", "a.toml"}, {"text", text}});
+  EXPECT_EQ(form["keys"].size(), 2U);
+  EXPECT_FALSE(form.contains("problem"));
+  EXPECT_TRUE(done("/api/check", {{"file", "a.toml"}, {"text", text}}).contains("problem"));
+  const json broken = done("/api/form", {{"file", "a.toml"}, {"text", text + "x = \n"}});
+  EXPECT_EQ(broken["line"], 4);
 }
 
 TEST_F(WorkbenchTest, RefusesStrangers) {

@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/column_stream.h"
 #include "wearwell/input/csv_reader.h"
@@ -69,6 +70,7 @@ void add_result(const DuckdbSession& session, bool described, Table& table) {
     }
     table.rows += count;
     duckdb_destroy_data_chunk(&chunk);
+    check_stop();
   }
   if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
 }

@@ -14,9 +14,11 @@
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/equal_names.h"
+#include "wearwell/input/stoppable_query.h"
 #include "wearwell/input/text_lines.h"
 #include "wearwell/input/text_rewrite.h"
 #include "wearwell/input/workbook.h"
@@ -137,10 +139,12 @@ void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& ou
 }
 
 DuckdbResult::DuckdbResult(const DuckdbSession& session, const std::string& query) {
+  const StoppableQuery stoppable(session.connection());
   if (duckdb_query(session.connection(), query.c_str(), &result_) == DuckDBSuccess) return;
   const char* error = duckdb_result_error(&result_);
   const std::string message = error ? error : "";
   duckdb_destroy_result(&result_);
+  check_stop();
   session.fail(message);
 }
 
@@ -320,6 +324,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
   duckdb_state outcome = DuckDBSuccess;
   {
     const Deadline deadline(session.connection(), limits.seconds);
+    const StoppableQuery stoppable(session.connection());
     outcome = duckdb_query(session.connection(), ("create temp table result as " + query).c_str(),
                            &result);
   }
@@ -335,6 +340,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     }
   }
   duckdb_destroy_result(&result);
+  check_stop();
   if (!reason.empty()) refuse(reason);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell {
 namespace {
 
@@ -77,6 +79,7 @@ void TextRecords::split_quoted() {
 }
 
 bool TextRecords::next() {
+  check_stop();
   for (;;) {
     if (!lines_.next(line_)) return false;
     if (line_.empty() || lines_.number < first_line_) continue;

@@ -11,6 +11,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/input/memory_text.h"
 #include "wearwell/input/merged_cells.h"
@@ -352,6 +353,7 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   MergedCells merged(used.merged);
   std::vector<std::size_t> hidden;
   book.read_rows(*sheet, range, [&](SheetRow& row) {
+    check_stop();
     if (row.number < next_row)
       throw InputError(
           fmt::format("row {} of sheet '{}' is out of order", row.number, sheet->name));

@@ -14,7 +14,6 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/text_file.h"
-#include "wearwell/input/workbook.h"
 #include "wearwell/workbench/comparison_view.h"
 #include "wearwell/workbench/families_view.h"
 #include "wearwell/workbench/fit_run.h"
@@ -24,6 +23,7 @@
 #include "wearwell/workbench/question_view.h"
 #include "wearwell/workbench/result_view.h"
 #include "wearwell/workbench/study_form.h"
+#include "wearwell/workbench/table_reading.h"
 #include "wearwell/workbench/table_view.h"
 
 // Longer than others: one short function for each request of the page.
@@ -94,26 +94,6 @@ std::map<std::string, std::string> settings_of(const json& wish) {
   return settings;
 }
 
-Json read_and_show(Session& session, const std::string& file,
-                   const std::map<std::string, std::string>& settings) {
-  try {
-    const auto open = std::make_shared<OpenTable>(open_table(session.folder, file, settings));
-    Json shown = table_json(*open);
-    const std::lock_guard lock(session.mutex);
-    shown["number"] = open->number = ++session.tables;
-    session.table = open;
-    session.workbook.clear();
-    ++session.version;
-    return {{"kind", "table"}, {"table", std::move(shown)}};
-  } catch (const SeveralSheets& several) {
-    Json names = Json::array();
-    for (const std::string& each : several.names) names.push_back(printable(each));
-    const std::lock_guard lock(session.mutex);
-    session.workbook = file;
-    return {{"kind", "sheets"}, {"file", file}, {"sheets", std::move(names)}};
-  }
-}
-
 // Line ends apart: a page has LF only.
 bool is_same_text(std::string a, std::string b) {
   for (std::string* each : {&a, &b}) std::erase(*each, '\r');
@@ -146,7 +126,7 @@ Json study_json(Session& session, const std::string& name) {
 }
 
 Json table_action(Session& session, const json& wish) {
-  return read_and_show(session, table_of_wish(session, wish)->file, settings_of(wish));
+  return start_reading(session, table_of_wish(session, wish)->file, settings_of(wish));
 }
 
 Json guess_action(Session& session, const json& wish) {
@@ -156,6 +136,11 @@ Json guess_action(Session& session, const json& wish) {
 Json check_action(Session& session, const json& wish) {
   const std::string name = wish.value("file", "study.toml");
   return checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+}
+
+Json form_action(Session& session, const json& wish) {
+  const std::string name = wish.value("file", "study.toml");
+  return study_form(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
 }
 
 Json priors_action(Session& session, const json& wish) {
@@ -216,6 +201,11 @@ Json stop_action(Session& session, const json&) {
   return Json::object();
 }
 
+Json stop_reading_action(Session& session, const json&) {
+  stop_reading(session);
+  return Json::object();
+}
+
 std::string open_result(Session& session) {
   const std::lock_guard lock(session.mutex);
   if (session.result.empty()) throw InputError("no result is open");
@@ -258,10 +248,7 @@ Json session_look(Session& session, const HttpTarget&) {
 }
 
 Json table_look(Session& session, const HttpTarget&) {
-  const auto open = required_table(session);
-  Json shown = table_json(*open);
-  shown["number"] = open->number;
-  return shown;
+  return shown_table(*required_table(session));
 }
 
 Json rows_look(Session& session, const HttpTarget& target) {
@@ -338,14 +325,17 @@ Json session_json(Session& session) {
           {"workbook", session.workbook},
           {"study", session.study},
           {"result", session.result},
+          {"reading", reading_json(session.read)},
           {"fit", progress_json(session.fit)}};
 }
 
-Json open_file(Session& session, const json& wish) {
-  const std::string name = text_of_wish(wish, "file");
+// `refused` is called if the file is a table that cannot be read.
+Json open_named(Session& session, const std::string& name,
+                const std::map<std::string, std::string>& settings,
+                const std::function<void()>& refused) {
   const fs::path path = path_in(session.folder, name);
   const std::string kind = kind_of(path);
-  if (kind == "table") return read_and_show(session, name, settings_of(wish));
+  if (kind == "table") return start_reading(session, name, settings, refused);
   if (kind == "study") {
     Json study = study_json(session, name);
     const std::lock_guard lock(session.mutex);
@@ -366,15 +356,24 @@ Json open_file(Session& session, const json& wish) {
                   printable(name)));
 }
 
-Json upload(Session& session, const std::string& name, const std::string& bytes) {
+Json open_file(Session& session, const json& wish) {
+  return open_named(session, text_of_wish(wish, "file"), settings_of(wish), {});
+}
+
+Json upload(Session& session, const std::string& name, std::string bytes) {
   const fs::path path = path_in(session.folder, name);
-  if (!store_upload(session, path, name, bytes)) return open_file(session, {{"file", name}});
-  try {
-    return open_file(session, {{"file", name}});
-  } catch (...) {
+  if (!store_upload(session, path, name, bytes)) return open_named(session, name, {}, {});
+  // It is not removed if another program has changed it since.
+  const auto forget = [&session, path, bytes = std::move(bytes)] {
     const std::lock_guard one_writer(session.writing);
     std::error_code ignored;
     if (bytes_of(path) == bytes) fs::remove(path, ignored);
+  };
+  const bool is_table = kind_of(path) == "table";
+  try {
+    return open_named(session, name, {}, forget);
+  } catch (...) {
+    if (!is_table) forget();
     throw;
   }
 }
@@ -396,7 +395,8 @@ Action action_of(std::string_view path) {
       {"/api/fit", fit_action},          {"/api/stop", stop_action},
       {"/api/life", life_action},        {"/api/priors", priors_action},
       {"/api/decide", decide_action},    {"/api/compare", compare_action},
-      {"/api/prior", move_prior_action}, {"/api/families", families_action}};
+      {"/api/prior", move_prior_action}, {"/api/families", families_action},
+      {"/api/form", form_action},        {"/api/stop-reading", stop_reading_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;
   return nullptr;

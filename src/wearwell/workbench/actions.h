@@ -14,7 +14,7 @@ namespace wearwell::workbench {
 /// InputError.
 using Json = nlohmann::ordered_json;
 
-/// {version, folder, files, table, table_number, workbook, study, result, fit}: what is open. `table`:
+/// {version, folder, files, table, table_number, workbook, study, result, reading, fit}: what is open. `table`:
 /// its file. `workbook`: a file whose sheet is still to be chosen.
 Json session_json(Session& session);
 
@@ -27,10 +27,10 @@ using Action = Json (*)(Session& session, const nlohmann::json& wish);
 Action action_of(std::string_view path);
 
 /// Writes `bytes` as a new file `name` of the folder, and opens it. A file with other content stays, and
-/// is an error. A new file that cannot be read as a table is removed.
-Json upload(Session& session, const std::string& name, const std::string& bytes);
+/// is an error. A new file that cannot be read as a table is removed; one whose reading is stopped stays.
+Json upload(Session& session, const std::string& name, std::string bytes);
 
-/// Opens a table, a study or a result of the folder.
+/// Opens a study or a result of the folder, or begins to read a table (workbench/table_reading.h).
 Json open_file(Session& session, const nlohmann::json& wish);
 
 /// A file has changed since the page read it, or another table or result has been opened.

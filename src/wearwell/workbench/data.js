@@ -9,6 +9,7 @@
   async function opened(answer) {
     if (answer.kind === 'sheets') return sheets(answer);
     if (answer.kind === 'table') await show(answer.table);
+    if (answer.kind === 'reading') place.reading.began(answer);
     if (answer.kind === 'study') { wearwell.model.show(answer.study.file, answer.study.text); wearwell.step('model'); }
     if (answer.kind === 'result') { wearwell.step('fit'); wearwell.fit.result(); }
     return undefined;
@@ -20,7 +21,7 @@
   async function reload() {
     const before = table;
     await show(await wearwell.get('/api/table'));
-    place.moved.textContent = before && before.number !== table.number ? strings.otherPage(table.file) : '';
+    place.moved.textContent = before && before.number !== table.number && !place.reading.isOwn(table.number) ? strings.otherPage(table.file) : '';
   }
 
   // Of a table that is not open any more the page shows nothing further.
@@ -49,6 +50,13 @@
 
   const open = (file, settings = {}) => opens(() => wearwell.post('/api/open', {file, settings}));
   const upload = (file) => opens(() => wearwell.upload(file));
+
+  // A table that has been read is announced by its number.
+  function ended({state, file, sheets: names, problem}) {
+    if (state === 'sheets') sheets({file, sheets: names});
+    if (state === 'stopped') place.moved.textContent = strings.readingStopped(file);
+    if (state === 'failed') wearwell.quietly(() => { throw new Error(problem); });
+  }
 
   function sheets({file, sheets: names}) {
     place.sheets.replaceChildren(element('fieldset', {class: 'choices'}, element('legend', {}, strings.sheetTitle(file)),
@@ -169,6 +177,7 @@
       if (event.dataTransfer.files.length) upload(event.dataTransfer.files[0]);
     });
     place.sheets = element('div', {});
+    place.reading = wearwell.reading(ended);
     place.grid = element('table', {});
     place.settings = element('details', {});
     place.rowsShown = element('p', {role: 'status'});
@@ -197,7 +206,7 @@
         element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
     panel.append(element('h2', {}, strings.dataTitle),
         element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
-            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.moved, place.table);
+            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.moved, place.reading.panel, place.table);
   }
 
   function files(all) {
@@ -214,7 +223,11 @@
   const openNamed = (file, settings) => (has(file) ? open(file, settings) : undefined);
 
   // Another page has opened another table.
-  function session(now) { announced = now.table_number; catchUp(); }
+  function session(now) {
+    place.reading.session(now);
+    announced = now.table_number;
+    catchUp();
+  }
 
   // A page that is opened again shows what the program has open.
   wearwell.data = {build, files, session, has, openNamed, ofTable, named, restore: reload, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(() => ofTable(plot)); }};

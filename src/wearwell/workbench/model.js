@@ -4,8 +4,8 @@
   const {element, strings} = wearwell;
   const place = {};
   const replaced = [];
-  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0, left = false;
+  let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, slow = 0, checking = false, again = false;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false, form = null;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -48,6 +48,7 @@
     [questions, unread] = [[], false];
     place.readings.hidden = true;
     place.roles.hidden = true;
+    place.limit.hidden = true;
     place.reasons.replaceChildren();
   }
 
@@ -55,36 +56,59 @@
     marks();
     gutter();
     clearTimeout(timer);
-    timer = setTimeout(() => wearwell.quietly(check), 250);
+    timer = setTimeout(() => wearwell.quietly(check), 40);
   }
 
-  // One at a time; of the texts that come meanwhile the last is checked.
+  // The form follows at once. The check reads the tables: one at a time, and of the texts that come meanwhile the last.
   async function check() {
+    const checked = text();
+    if (!await showForm(checked)) return;
+    await new Promise((done) => { setTimeout(done, 200); });
+    if (checked !== text()) return;
     if (checking) { again = true; return; }
     checking = true;
     try {
-      await checkText(text());
+      await checkText(checked);
     } finally {
       checking = false;
       if (again) { again = false; wearwell.quietly(check); }
     }
   }
 
-  async function checkText(checked) {
+  // Whether this is still the text, and TOML.
+  async function showForm(checked) {
     keys = [];
-    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return; }
-    const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
-    if (checked !== text()) return;
+    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return false; }
+    const found = await wearwell.post('/api/form', {file: place.name.value || 'study.toml', text: checked});
+    if (checked !== text()) return false;
     keys = found.keys;
+    form.show(keys);
+    compare();
+    if (!found.problem) {
+      place.check.dataset.state = 'checking';
+      clearTimeout(slow);
+      slow = setTimeout(() => place.check.replaceChildren(element('p', {class: 'note'}, strings.checking)), 300);
+      return true;
+    }
+    verdict(found);
+    return false;
+  }
+
+  function verdict(found) {
+    clearTimeout(slow);
     gutter(found.line);
     place.text.setAttribute('aria-invalid', found.problem ? 'true' : 'false');
     place.check.replaceChildren(...(found.problem ? problem(found) : [element('p', {class: 'good'}, strings.checkGood),
         element('details', {}, element('summary', {}, strings.description), element('pre', {tabindex: 0, lang: 'en'}, found.description))]));
-    form(found.keys);
     place.check.dataset.state = found.problem ? 'bad' : 'good';
     for (const each of place.parts) each.update();
+  }
+
+  async function checkText(checked) {
+    const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
+    if (checked !== text()) return;
+    verdict(found);
     if (table === null && saved !== null) openItsTable();
-    compare();
   }
 
   // The study, for the parts below the form: what they ask of it and how they change it.
@@ -143,41 +167,6 @@
     place.text.scrollTop = Math.max(0, (line - 4) * parseFloat(getComputedStyle(place.text).lineHeight));
   }
 
-  // The meanings of keys are those of the reference, whose pages are not here.
-  const plain = (text) => text.replace(/\s*\(?\[[^\]]*\]\([^)]*\)\)?/g, '').replaceAll('`', '').replace(/[:,]? see$/, '');
-
-  function form(keys) {
-    if (place.form.contains(document.activeElement) && document.activeElement.matches('input, textarea')) place.form.dataset.focus = document.activeElement.id;
-    const groups = new Map();
-    for (const key of keys) {
-      const at = key.path.lastIndexOf('.');
-      const group = at < 0 ? '' : key.path.slice(0, at);
-      if (!groups.has(group)) groups.set(group, []);
-      groups.get(group).push([key, key.path.slice(at + 1)]);
-    }
-    place.form.replaceChildren(...[...groups].map(([group, inside]) => element('fieldset', {}, element('legend', {}, group || strings.wholeStudy),
-        ...inside.map(([key, name]) => {
-          const id = `key-${key.path}`;
-          const make = key.value.includes('\n') ? wearwell.area : wearwell.field;
-          const field = make(name, id, {value: key.value, placeholder: key.example, 'aria-describedby': key.meaning ? `${id}-meaning` : undefined});
-          if (key.meaning) field.append(element('small', {id: `${id}-meaning`, lang: 'en'}, plain(key.meaning)));
-          field.querySelector('input, textarea').addEventListener('change', (event) => wearwell.attempt(async () => {
-            const before = text();
-            try {
-              const {text: next} = await wearwell.post('/api/set', {text: before, path: key.path, value: event.target.value});
-              if (text() === before) replace(next, true);
-            } catch (error) {
-              event.target.value = key.value;
-              throw error;
-            }
-          }));
-          return field;
-        }))));
-    const focus = place.form.dataset.focus;
-    delete place.form.dataset.focus;
-    if (focus) document.getElementById(focus)?.focus();
-  }
-
   const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {lang: 'en'}, each)))) : null);
 
   // The options of a reading, as `wearwell new` has them: {"--column", "depth=wear"}.
@@ -200,7 +189,23 @@
   function reasons(reading) {
     const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {lang: 'en'}, question.text),
         ...question.readings.map((each) => wearwell.button(each.text, () => choose(each.options), 'plain'))));
+    const wantsLimit = [...reading.guesses, ...reading.unstated].some((each) => each.includes('--limit'));
+    place.limit.hidden = !wantsLimit && choices.limit === undefined;
     place.reasons.replaceChildren(...[...asked, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
+  }
+
+  // Of wear: without it there is no life. A value that is refused leaves what was there.
+  async function setLimit(value) {
+    const before = choices.limit;
+    choices.limit = value.trim() || undefined;
+    try {
+      await wearwell.data.ofTable(guess);
+    } catch (error) {
+      choices.limit = before;
+      await wearwell.data.ofTable(guess);
+      place.limit.hidden = false;
+      throw error;
+    }
   }
 
   async function guess() {
@@ -254,6 +259,7 @@
   function tableOpened(next) {
     table = next;
     choices = {columns: []};
+    document.getElementById('limit').value = '';
     place.empty.hidden = true;
     place.work.hidden = false;
     hideGuess();
@@ -295,7 +301,11 @@
         element('div', {class: 'field'}, element('label', {for: 'role'}, strings.role), place.role),
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
         wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
-    place.form = element('div', {class: 'form'});
+    const limit = wearwell.field(strings.limit[0], 'limit', {placeholder: strings.limit[1]});
+    place.limit = element('form', {class: 'fields', hidden: true}, limit, element('button', {class: 'plain'}, strings.setRole));
+    place.limit.addEventListener('submit', (event) => { event.preventDefault(); wearwell.attempt(() => setLimit(limit.querySelector('input').value)); });
+    form = wearwell.valuesForm(study);
+    place.form = form.panel;
     place.parts = [wearwell.priors(study), wearwell.families(study)];
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
@@ -309,7 +319,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
+        element('div', {}, place.readings, place.limit, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));

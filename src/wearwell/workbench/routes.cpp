@@ -126,7 +126,9 @@ bool Routes::is_events(const HttpRequest& question) const {
 
 bool Routes::is_delivery(const HttpRequest& question) const {
   // What a user waits for does not wait behind checks and guesses.
-  static constexpr std::string_view quick[] = {"/api/stop", "/api/save", "/api/fit"};
+  static constexpr std::string_view quick[] = {"/api/stop", "/api/stop-reading", "/api/save",
+                                               "/api/fit",  "/api/open",         "/api/table",
+                                               "/api/set",  "/api/prior",        "/api/form"};
   return question.method == "POST" &&
          std::find(std::begin(quick), std::end(quick), path_of(question)) == std::end(quick);
 }

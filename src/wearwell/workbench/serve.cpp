@@ -5,6 +5,7 @@
 #include <chrono>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -51,7 +52,12 @@ void serve(const Opening& opening, Models models,
            const std::function<void(const std::string&)>& ready) {
   const auto [folder, name] = folder_and_name(opening.target);
   Session session(folder, models);
-  if (!name.empty()) static_cast<void>(open_file(session, {{"file", name}}));
+  if (!name.empty()) {
+    // A table that cannot be read is refused on the command line, a large one is shown while it is read.
+    const auto patience = std::exchange(session.patience, std::chrono::seconds(2));
+    static_cast<void>(open_file(session, {{"file", name}}));
+    session.patience = patience;
+  }
   const std::string token = random_token();
   Routes routes(session, token);
   HttpListener listener(settings_of(opening), {}, routes);

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -23,7 +26,20 @@ struct OpenTable {
   Table table = {};
   std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes,
   Table as_stored = {};                ///< and this is the table before it
-  std::uint64_t number = 0;  ///< of the tables opened so far: a request names the one it means
+  std::uint64_t number = 0;            ///< of its reading: a request names the one it means
+  nlohmann::ordered_json shown = {};   ///< its `table_json`
+};
+
+enum class ReadState { none, running, done, sheets, failed, stopped };
+
+/// The latest reading of a table. A later one replaces it.
+struct ReadProgress {
+  ReadState state = ReadState::none;
+  std::string file;
+  std::uint64_t number = 0;
+  std::chrono::steady_clock::time_point begin = {};
+  std::vector<std::string> sheets = {};  ///< of a workbook, to choose from
+  std::string problem = {};              ///< why it failed
 };
 
 enum class FitState { none, running, done, failed, stopped };
@@ -46,18 +62,25 @@ struct Session {
 
   const std::filesystem::path folder;
   const Models models;
+  /// How long a request waits for a table; then the answer is that it is being read. The page
+  /// answers within 100 ms.
+  std::chrono::milliseconds patience{50};
 
   /// Held from the comparison of a file to its writing. Taken before `mutex`.
   std::mutex writing;
-  std::mutex mutex;           ///< guards the members below
-  std::uint64_t version = 1;  ///< increases with each change of them
-  std::uint64_t tables = 0;   ///< opened so far
+  std::mutex mutex;            ///< guards the members below
+  std::uint64_t version = 1;   ///< increases with each change of them
+  std::uint64_t readings = 0;  ///< begun so far
   std::shared_ptr<const OpenTable> table = {};
   std::string workbook = {};               ///< the file whose sheet is still to be chosen; "" none
   std::string study = {}, result = {};     ///< open: a file, a folder; "" none
   std::vector<std::string> compared = {};  ///< results that were compared last
   FitProgress fit = {};
-  std::jthread fitting = {};  ///< last, so that it ends first
+  ReadProgress read = {};
+  std::condition_variable read_ended = {};
+  // Last, so that they end first.
+  std::jthread fitting = {};
+  std::jthread reading = {};
 };
 
 }  // namespace wearwell::workbench

@@ -164,23 +164,36 @@ void add_position(const std::string& message, const std::string& file, ordered_j
   }
 }
 
+void add_problem(std::string message, const std::filesystem::path& file, ordered_json& json) {
+  // Names of this folder need no path.
+  const std::string folder = file.parent_path().string() + "/";
+  for (std::size_t at = 0; (at = message.find(folder, at)) != message.npos;)
+    message.erase(at, folder.size());
+  json["problem"] = printable_lines(message);
+  add_position(message, file.filename().string(), json);
+}
+
 }  // namespace
+
+ordered_json study_form(const std::filesystem::path& file, const std::string& text, Models models) {
+  ordered_json json = {{"keys", ordered_json::array()}};
+  try {
+    json["keys"] = form_json(TomlReader::parse(TextFile{file, text}), text, models);
+  } catch (const InputError& error) {
+    add_problem(error.what(), file, json);
+  }
+  return json;
+}
 
 ordered_json checked_study(const std::filesystem::path& file, const std::string& text,
                            Models models) {
-  ordered_json json = {{"keys", ordered_json::array()}};
+  ordered_json json = study_form(file, text, models);
+  if (json.contains("problem")) return json;
   try {
-    const TextFile study{file, text};
-    json["keys"] = form_json(TomlReader::parse(study), text, models);
-    json["description"] = printable_lines(read_study({study}, models)->description());
+    json["description"] =
+        printable_lines(read_study({TextFile{file, text}}, models)->description());
   } catch (const InputError& error) {
-    // Names of this folder need no path.
-    std::string message = error.what();
-    const std::string folder = file.parent_path().string() + "/";
-    for (std::size_t at = 0; (at = message.find(folder, at)) != message.npos;)
-      message.erase(at, folder.size());
-    json["problem"] = printable_lines(message);
-    add_position(message, file.filename().string(), json);
+    add_problem(error.what(), file, json);
   }
   return json;
 }

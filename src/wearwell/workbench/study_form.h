@@ -15,6 +15,10 @@ namespace wearwell::workbench {
 nlohmann::ordered_json checked_study(const std::filesystem::path& file, const std::string& text,
                                      Models models);
 
+/// The form without the check, which reads the tables: keys, or the problem of a text that is not TOML.
+nlohmann::ordered_json study_form(const std::filesystem::path& file, const std::string& text,
+                                  Models models);
+
 /// The value of a key as the form shows it. Throws InputError if the study has no such key.
 std::string value_of(const std::string& text, const std::string& path);
 

@@ -116,6 +116,8 @@ struct Different {
   template <class Value, class At>
   void read(std::size_t rows, const At& value_at) {
     std::unordered_map<Value, std::size_t> index;
+    index.reserve(rows);
+    of_row.reserve(rows);
     for (std::size_t row = 0; row < rows; ++row) {
       const auto [found, is_new] = index.try_emplace(value_at(row), first_row.size());
       if (is_new) {
@@ -149,10 +151,12 @@ Labels labels_in(const Table& table, const Column* column) {
   const Different different = different_in(table, *column);
   std::vector<std::size_t> chosen(different.count.size());
   std::iota(chosen.begin(), chosen.end(), 0);
-  std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
-    return different.count[a] > different.count[b];
-  });
-  if (chosen.size() > most) chosen.resize(most);
+  const auto kept = static_cast<std::ptrdiff_t>(std::min(most, chosen.size()));
+  std::partial_sort(chosen.begin(), chosen.begin() + kept, chosen.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return std::pair(different.count[b], a) < std::pair(different.count[a], b);
+                    });
+  chosen.resize(static_cast<std::size_t>(kept));
   std::vector<std::pair<std::string, std::size_t>> named;
   for (const std::size_t each : chosen)
     named.emplace_back(prognosis::cell_text(column, different.first_row[each]), each);
@@ -162,6 +166,7 @@ Labels labels_in(const Table& table, const Column* column) {
     label[each] = labels.names.size();
     labels.names.push_back(name);
   }
+  labels.of_row.reserve(different.of_row.size());
   for (const std::size_t each : different.of_row) labels.of_row.push_back(label[each]);
   return labels;
 }
@@ -205,6 +210,12 @@ ordered_json table_json(const OpenTable& open) {
     json["columns"].push_back(column_json(open.table, each));
   json["roles"] = ordered_json::array();
   for (const RoleForm& each : role_forms()) json["roles"].push_back(std::string(each.name));
+  return json;
+}
+
+ordered_json shown_table(const OpenTable& open) {
+  ordered_json json = open.shown;
+  json["number"] = open.number;
   return json;
 }
 

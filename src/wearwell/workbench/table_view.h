@@ -19,6 +19,9 @@ OpenTable open_table(const std::filesystem::path& folder, const std::string& fil
 /// number of the others; at most 1000 are counted, and then there is no least and largest.
 nlohmann::ordered_json table_json(const OpenTable& open);
 
+/// `OpenTable::shown` with the number of the table.
+nlohmann::ordered_json shown_table(const OpenTable& open);
+
 /// {from, rows: [{row, line, cells, refused: {COLUMN: message}}]} of `count` rows and `columns`
 /// columns; a missing number is null, an infinite one "inf" or "-inf".
 nlohmann::ordered_json rows_json(const OpenTable& open, std::size_t from, std::size_t count,
