@@ -423,7 +423,7 @@ TEST_F(FailureModesTest, ModesThatMayBeOthersAreRefused) {
                  "[failure_modes.\"seal or gear\"]\nfamily = \"weibull\"\n"
                  "scale = \"a\"\nshape = \"b\"\n"),
             "read");
-  for (const char* const word : {"seal|gear", "seal housing", "seal or motor", "orgear"})
+  for (const char* const word : {"seal|gear", "seal housing", "1.1|11", "seal or motor", "orgear"})
     EXPECT_EQ(said(word), "read");
 }
 

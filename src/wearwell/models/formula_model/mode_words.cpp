@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string.hpp>
 #include <regex>
 
 #include "wearwell/base/contains.h"
@@ -61,6 +62,17 @@ std::vector<std::string> modes_in(const std::string& text,
 
 namespace {
 
+// Codes such as 1.1 and 11 differ in a mark.
+bool is_spelled_alike(const std::string& a, const std::string& b) {
+  const auto has_digit = [](const std::string& text) {
+    return text.find_first_of("0123456789") != text.npos;
+  };
+  if (has_digit(a) || has_digit(b))
+    return boost::algorithm::iequals(boost::algorithm::erase_all_copy(a, " "),
+                                     boost::algorithm::erase_all_copy(b, " "));
+  return !folded_word(a).empty() && folded_word(a) == folded_word(b);
+}
+
 // "seal or gear", "seal/gear", "seal?": what stands between the separators.
 std::vector<std::string> named_together(const std::string& mode) {
   static const std::regex separator(R"(\s*[/,;+&?]\s*|\s+(or|and|oder|und|ou|et|o|y)\s+)",
@@ -75,7 +87,7 @@ std::vector<std::string> named_together(const std::string& mode) {
 
 std::string doubt_of_mode(const std::string& mode, const std::vector<std::string>& others) {
   for (const std::string& other : others) {
-    if (other != mode && folded_word(other) == folded_word(mode) && !folded_word(mode).empty())
+    if (other != mode && is_spelled_alike(other, mode))
       return fmt::format(
           "'{}' beside '{}' can be one failure mode or two; write one spelling, or two names that "
           "differ in more than capitals, blanks and marks",
@@ -84,7 +96,7 @@ std::string doubt_of_mode(const std::string& mode, const std::vector<std::string
   std::vector<std::string> parts = named_together(mode);
   for (std::string& part : parts) {
     const auto known = std::find_if(others.begin(), others.end(), [&](const std::string& other) {
-      return other != mode && folded_word(other) == folded_word(part);
+      return other != mode && is_spelled_alike(other, part);
     });
     if (known == others.end()) return "";
     part = *known;
