@@ -71,6 +71,30 @@ def test_words_of_the_table_and_refusals_of_repairs(valve_seats):
     assert "ahead" in refusal(ww.repairable, frame, "age", unit="engine", event="event", units={"age": "day"}, rounding="1 day", ahead="-3 day")
 
 
+def test_delayed_fixes_in_one_line_are_those_of_the_study_file():
+    study = study_of("repairable/delayed_fixes.toml")
+    frame = table_of("repairable/delayed_fixes.csv")
+    fixes = {**{each: "none" for each in study["fixes"]["none"]}, **{each: "during" for each in study["fixes"]["during"]}, **study["fixes"]["effectiveness"]}
+
+    def projected(fixes, mode="mode", **_):  # further options are those of `refusal`
+        return ww.repairable(frame, "test time", unit="system", event="event", mode=mode, fixes=fixes, priors=study["prior"], classical=True,
+                             predict={"level": 0.9, "sides": "both"}, **quick).results["repairable"]["projection"]
+
+    own = ww.fit(os.path.join(source, "examples", "repairable", "delayed_fixes.toml"), **quick)
+    found = projected(fixes)
+    assert found == own.results["repairable"]["projection"]
+    uncertain = projected({**fixes, "BD1": {"distribution": "beta", "alpha": 67, "beta": 33}})  # of the same mean
+    assert uncertain["mean_effectiveness"] == pytest.approx(found["mean_effectiveness"], rel=1e-5)
+    assert "BD1: is 1.4" in refusal(projected, {**fixes, "BD1": 1.4})
+    assert "BD1 is 'later'" in refusal(projected, {**fixes, "BD1": "later"})
+    assert "BD1 is True" in refusal(projected, {**fixes, "BD1": True})
+    assert "does not name mode 'BD3'" in refusal(projected, {each: fix for each, fix in fixes.items() if each != "BD3"})
+    assert "names mode 'BD99'" in refusal(projected, {**fixes, "BD99": 0.4})
+    assert "mode needs fixes" in refusal(projected, None)
+    assert "mode needs fixes" in refusal(projected, fixes, None)
+    assert "no column 'mod'" in refusal(projected, fixes, "mod")
+
+
 triangle = table_of("warranty/returns.csv")
 
 

@@ -474,6 +474,8 @@ def repairable(
     rounding: _Quantity | None = ...,
     phase_ends: _Quantity | Sequence[_Quantity] | None = ...,
     reference_age: _Quantity | None = ...,
+    mode: str | None = ...,
+    fixes: Mapping[str, Any] | None = ...,
     at: _Quantity | Sequence[_Quantity] | None = ...,
     ahead: _Quantity | Sequence[_Quantity] | None = ...,
     units: _Units = ...,

@@ -1,5 +1,7 @@
 """Units that are repaired, in one line: failures in the course of their age."""
 
+import numbers
+
 from . import _toml
 from ._columns import repairs_of
 from ._errors import InputError
@@ -11,7 +13,7 @@ _processes = ("power_law", "renewal", "phases")
 
 @fits
 def repairable(data, age, *, unit, event, start=None, count=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
-               at=None, ahead=None, units=None, priors=None, classical=False, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
+               mode=None, fixes=None, at=None, ahead=None, units=None, priors=None, classical=False, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
                warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the failures of units that are repaired: minimal repair (Crow-AMSAA), renewal, or phases of a growth test.
 
@@ -42,6 +44,13 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
         Of phases: the ages at which all phases but the last end.
     reference_age : str or pint quantity, optional
         Of a power law: age T of the parameter ``M_T``; by default the largest age.
+    mode : str, optional
+        Column of the failure mode of each failure of a growth test; needs ``fixes``.
+    fixes : dict, optional
+        The fix of each mode: "none" (A modes), "during" the test (BC), or, of a mode that is fixed after the test (BD), the share of
+        its failure intensity that the fix removes, a number from 0 to 1 or a distribution:
+        ``{"A": "none", "BC1": "during", "BD1": 0.7, "BD2": {"distribution": "beta", "alpha": 7, "beta": 3}}``. The projection is
+        ``fit.results["repairable"]["projection"]``.
     at : str or sequence of str, optional
         Of a power law: ages at which the mean time between failures is asked for, "600 day".
     ahead : str or sequence of str, optional
@@ -80,6 +89,7 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
     study.rows["event"] = repairs_of(study.columns, event)
     study.column("start", "start", start)
     study.column("count", "count", count)
+    study.column("mode", "mode", mode)
     study.choices["process"] = process
     for key, value in (("end", end), ("rounding", rounding)):
         if value is not None:
@@ -90,5 +100,29 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
     study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "predict.age": "at", "predict.next": "ahead",
                             "conditions.phase_ends": "phase_ends", "conditions.reference_age": "reference_age"})
     asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **classical_key(classical), **(predict or {})}
-    made = study.study(title or f"Failures along {age}", {}, priors, asked, unused, may_have_counts=True)
+    made = study.study(title or f"Failures along {age}", _fix_tables(mode, fixes, study.arguments), priors, asked, unused, may_have_counts=True)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)
+
+
+def _fix_tables(mode, fixes, arguments):
+    """The tables [fixes] and [fixes.effectiveness]."""
+    if fixes is None and mode is None:
+        return {}
+    if fixes is None or mode is None:
+        raise InputError("mode needs fixes, and fixes needs mode: the column of the failure modes, and the fix of each")
+    if not isinstance(fixes, dict) or not fixes:
+        raise InputError(f'fixes is {fixes!r}; it is a dict of modes like {{"A": "none", "BC1": "during", "BD1": 0.7}}')
+    named = {"none": [], "during": []}
+    after = {}
+    for each, fix in fixes.items():
+        if isinstance(fix, str) and fix not in named:
+            raise InputError(f'fixes: {each} is {fix!r}; it is "none", "during", or the share of the failure intensity that the fix removes')
+        if isinstance(fix, str):
+            named[fix].append(str(each))
+        elif isinstance(fix, dict) or (isinstance(fix, numbers.Real) and not isinstance(fix, bool)):
+            after[str(each)] = fix if isinstance(fix, dict) else float(fix)
+        else:
+            raise InputError(f'fixes: {each} is {fix!r}; it is "none", "during", a number from 0 to 1 or a distribution')
+    arguments.update({"data.columns.mode": "mode", "fixes": "fixes", "fixes.none": "fixes", "fixes.during": "fixes"})
+    arguments.update({f"fixes.effectiveness.{each}": f"fixes, {each}" for each in after})
+    return {"fixes": {key: each for key, each in named.items() if each}, "fixes.effectiveness": after}

@@ -1,7 +1,7 @@
 # Data from the field in one line: units that are repaired, and warranty returns. And lives of two fits against each other.
 
 ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, process = c("power_law", "renewal", "phases"), end = NULL, rounding = NULL,
-                          phase_ends = NULL, reference_age = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
+                          phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
                           title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_repairable")
   require_options("ww_repairable", ..., own = names(formals(ww_repairable)))
@@ -9,7 +9,8 @@ ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, pr
   kinds <- eval(formals(ww_repairable)$process)
   if (!is_path(process) || !process %in% kinds) stop_input("process is ", shown_value(process), "; it is one of ", words(kinds))
   columns <- frame_columns(data, units)
-  study <- preset_study(columns, list(unit = unit, age = age, start = start, count = count))
+  study <- preset_study(columns, list(unit = unit, age = age, start = start, count = count, mode = mode))
+  if (!is.null(study$mode) && !is.character(study$mode$values)) study$mode$values <- number_text(study$mode$values)
   if (!is.character(study$unit$values)) study$unit$values <- number_text(study$unit$values)
   event <- if (is.list(event)) event else list(column = event)
   unknown <- setdiff(c(names(event), if (is.null(names(event))) ""), c("column", "failure", "end"))
@@ -17,7 +18,7 @@ ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, pr
     stop_input("event is ", shown_value(event), "; it is the name of a column, or like list(column = \"event\", failure = \"repaired\")")
   }
   study$event <- event_column(event, columns)
-  look_at_unused(columns, c(age, unit, event$column, start, count), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
+  look_at_unused(columns, c(age, unit, event$column, start, count, mode), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
   text <- c(toml_table("", list(title = if (is.null(title)) paste("Failures along", age) else one_text(title, "title"), model = "repairable",
                                 process = process)),
             toml_table("data", c(list(file = "data"), given_arguments(end = if (!is.null(end)) one_text(end, "end"),
@@ -26,10 +27,33 @@ ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, pr
   constants <- given_arguments(reference_age = if (!is.null(reference_age)) quantity(reference_age, "reference_age"),
                                phase_ends = if (!is.null(phase_ends)) as.list(phase_ends))
   if (length(constants)) text <- c(text, toml_table("conditions", constants))
+  text <- c(text, fix_tables(mode, fixes))
   if (length(priors)) text <- c(text, toml_table("prior", checked_priors(priors, NULL)))
   asked <- predict_of(predict, given_arguments(age = if (!is.null(at)) as.list(at), `next` = if (!is.null(ahead)) as.list(ahead)))
   if (length(asked)) text <- c(text, toml_table("predict", asked))
   one_line(paste(text, collapse = "\n"), study, NULL, NULL, fit, call, ...)
+}
+
+# The tables [fixes] and [fixes.effectiveness] of a list by mode.
+fix_tables <- function(mode, fixes) {
+  if (is.null(mode) && is.null(fixes)) return(NULL)
+  if (is.null(mode) || is.null(fixes)) {
+    stop_input("mode needs fixes, and fixes needs mode: the column of the failure modes, and the fix of each")
+  }
+  fixes <- as.list(fixes)
+  if (!length(fixes) || is.null(names(fixes)) || any(names(fixes) == "") || anyDuplicated(names(fixes))) {
+    stop_input("fixes is ", shown_value(fixes), "; it is a list by mode, each once, like list(A = \"none\", BC1 = \"during\", BD1 = 0.7)")
+  }
+  kind <- vapply(names(fixes), function(each) {
+    fix <- fixes[[each]]
+    if (is.list(fix) || (is.numeric(fix) && length(fix) == 1)) return("after")
+    if (is_path(fix) && fix %in% c("none", "during")) return(fix)
+    stop_input("fixes: ", each, " is ", shown_value(fix), "; it is \"none\", \"during\", or the share of the failure intensity that the fix removes, ",
+               "a number from 0 to 1 or a distribution")
+  }, "")
+  modes <- function(of) if (any(kind == of)) as.list(names(fixes)[kind == of])
+  c(toml_table("fixes", given_arguments(none = modes("none"), during = modes("during"))),
+    if (any(kind == "after")) toml_table("fixes.effectiveness", fixes[kind == "after"]))
 }
 
 # A column of failures and ends of observation: truths and 0 and 1 by failures_of(), words as they are.

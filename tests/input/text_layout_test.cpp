@@ -154,6 +154,15 @@ TEST_F(TextLayoutTest, ARowOfUnits) {
   EXPECT_EQ(read("status,label\nF,A\nS,A\n").rows, 2u);
   EXPECT_EQ(read("life,status\n100,F\n200,S\n").rows, 2u);
   EXPECT_EQ(read("status,label\nF,A\n1,2\n", {.units_row = false}).rows, 2u);
+  // Dates are no units, with a blank beside them too.
+  for (const char* const date : {"2024-02-01", "01.02.2024", "1/2/2024", "2024-02", "02/2024",
+                                 "2024-02-01 08:30", "2024-02-01T08:30:00", "08:30"}) {
+    const std::string day = date;
+    const Table sales = read("sold,returned\n" + day + ",\n" + day + "," + day + "\n");
+    EXPECT_EQ(sales.rows, 2u) << date;
+    EXPECT_EQ(sales.column("sold").unit, "") << date;
+  }
+  EXPECT_EQ(read("t,x\ns,1/1000\n1,2\n").column("x").unit, "1/1000");
   EXPECT_EQ(read("x,y\nfurlong per lunar month,?\n1,2\n", {.units_row = true}).rows, 1u);
 }
 

@@ -137,6 +137,18 @@ TEST(PopulationLives, OfWhichSomeNeverFail) {
 
 // R 4.2: for shape 2, scale 1000, 800 at failure, 120 before: the root of the derivative of the cost rate, and where the
 // rate is 1 % above its least, by uniroot.
+TEST(CheapestAge, ErrorsAreTwiceTheDifferenceFromFewerPoints) {
+  AgeReplacement fine, coarse;
+  fine.age = 100, coarse.age = 104;
+  fine.rate = 2, coarse.rate = 1.99;
+  estimate_errors(fine, coarse);
+  EXPECT_NEAR(*fine.age_error, 0.08, 1e-12);
+  EXPECT_NEAR(*fine.rate_error, 0.01, 1e-12);
+  coarse.age = INFINITY;
+  estimate_errors(fine, coarse);
+  EXPECT_EQ(*fine.age_error, 2);
+}
+
 TEST(CheapestAge, HasTheRangeOfASmoothMinimum) {
   const AgeReplacement best = cheapest_age(alike(2, 1000), {800, 120, 0});
   EXPECT_NEAR(best.age, 426.4, 2);

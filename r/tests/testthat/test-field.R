@@ -24,6 +24,26 @@ test_that("repairs in one line are those of the study file", {
   refused(ww_repairable(seats, "age", "engine", "event", agead = "3 day"), "did you mean 'ahead'")
 })
 
+test_that("delayed fixes in one line are those of the study file", {
+  frame <- read.csv(example("repairable", "delayed_fixes.csv"), check.names = FALSE)
+  delayed <- c(0.67, 0.72, 0.77, 0.77, 0.87, 0.92, 0.50, 0.85, 0.89, 0.74, 0.70, 0.63, 0.64, 0.72, 0.69, 0.46)
+  fixes <- c(list(A = "none"), setNames(as.list(rep("during", 12)), paste0("BC", 17:28)), setNames(as.list(delayed), paste0("BD", 1:16)))
+  flat <- list(distribution = "flat")
+  projected <- function(fixes, mode = "mode") {
+    quiet(ww_repairable(frame, age = "test time", unit = "system", event = "event", mode = mode, fixes = fixes, priors = list(beta = flat, M_T = flat),
+                        predict = list(level = 0.9, sides = "both", classical = TRUE), seed = 1, method = "exact", draws = 50, chains = 2,
+                        report = FALSE))$summary$repairable$projection
+  }
+  file <- quiet(ww_fit(example("repairable", "delayed_fixes.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  expect_identical(projected(fixes), file$summary$repairable$projection)
+  refused(projected(replace(fixes, "BD1", 1.4)), "1.4")
+  refused(projected(replace(fixes, "BD1", "later")), "BD1 is \"later\"")
+  refused(projected(fixes[names(fixes) != "BD3"]), "does not name mode 'BD3'")
+  refused(projected(unname(fixes)), "list by mode")
+  refused(projected(NULL), "mode needs fixes")
+  refused(projected(fixes, NULL), "mode needs fixes")
+})
+
 test_that("returns in one line are those of the study file", {
   triangle <- read.csv(example("warranty", "returns.csv"), check.names = FALSE)
   planned <- read.csv(example("warranty", "planned_sales.csv"))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/trimmed.h"
@@ -32,6 +33,13 @@ bool is_unit(const std::string& text, std::string_view si, bool suffix = false) 
   } catch (const InputError&) {
     return false;
   }
+}
+
+/// 2024-02-01, 01.02.2024, 2024-02, 01/2024, 12:30, which units of digits alone could be; a factor 1/1000 is none.
+bool is_date(const std::string& text) {
+  static const std::regex form(
+      R"(\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}([ T].*)?|(19|20)\d\d[-/.]\d{1,2}|\d{1,2}[-/.](19|20)\d\d|\d{1,2}:\d\d.*)");
+  return std::regex_match(text, form);
 }
 
 /// The bracket that matches the last closing one.
@@ -113,7 +121,7 @@ bool is_unit_cell(std::string_view cell) {
   const std::string text(trimmed(cell));
   if (text.empty()) return false;
   if (text.front() == '[' && text.back() == ']') return true;
-  return is_unit(bare_unit(text), "");
+  return !is_date(text) && is_unit(bare_unit(text), "");
 }
 
 }  // namespace wearwell

@@ -104,6 +104,8 @@ Decisions decide(const KnownLives& lives, const Question& question) {
                     lives.title, lives.noun));
   Decisions decisions;
   decisions.age = cheapest_age(lives.fresh, question.costs);
+  if (!lives.fewer.lives.empty())
+    estimate_errors(*decisions.age, cheapest_age(lives.fewer, question.costs));
   decisions.reference = decisions.age->rate;
   if (question.claims) decisions.warranty = longest_warranty(lives, *question.claims);
   if (question.hidden || question.inspected) {

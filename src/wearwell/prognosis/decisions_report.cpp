@@ -13,6 +13,7 @@
 #include "wearwell/prognosis/warranty_text.h"
 #include "wearwell/study/trust_blocks.h"
 
+// Longer than others: text, page and JSON have the same numbers.
 namespace wearwell::prognosis {
 namespace {
 
@@ -73,6 +74,27 @@ std::string past_optimum_text(const DecisionsReport& report) {
   if (waiting == past) return text + "replacement at failure costs least.";
   return text + fmt::format("for {}, replacement at failure costs least; replace the other{} now.",
                             waiting, past - waiting == 1 ? "" : "s");
+}
+
+// Empty if the policy rests on the whole posterior, or on enough of it.
+std::string error_text(const DecisionsReport& report) {
+  const AgeReplacement& age = *report.decisions.age;
+  constexpr double least = 1e-3;
+  if (!age.rate_error || (*age.rate_error < least && *age.age_error < least)) return "";
+  const auto percent = [](double error) {
+    return error < least ? std::string("below 0.1 %")
+                         : "up to " + plain_number(100 * error, 2) + " %";
+  };
+  if (!std::isfinite(age.age) || *age.age_error >= 1)
+    return fmt::format(
+        "These numbers are sums over {} points of the posterior. Their error in the cost is {}{}.",
+        report.lives.populations.size(), percent(*age.rate_error),
+        *age.age_error >= 1 ? "; which age costs least is not determined" : "");
+  return fmt::format(
+      "These numbers are sums over {} points of the posterior. Their error in the age is {}, in "
+      "the "
+      "cost {}.",
+      report.lives.populations.size(), percent(*age.age_error), percent(*age.rate_error));
 }
 
 std::string worth_text(const DecisionsReport& report) {
@@ -187,6 +209,8 @@ std::string decisions_text(const DecisionsReport& report) {
   std::string text = wrapped(printable(report.lives.title), 0, 2) +
                      wrapped(printable(costs_text(report)), 2, 4) + "\n" +
                      wrapped(printable(answer(report)), 0, 2) + table_text(policies_table(report));
+  if (const std::string error = error_text(report); !error.empty())
+    text += wrapped(printable(error), 2, 2);
   if (report.decisions.warranty) text += "\n" + wrapped(printable(warranty_text(report)), 0, 2);
   if (!report.decisions.units.empty()) {
     text += table_text(units_table(report));
@@ -212,6 +236,8 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
                                 check.detail + ". " + check.advice});
   policy.add(present::Figures{{cost_figure(report)}});
   policy.add(policies_table(report));
+  if (const std::string error = error_text(report); !error.empty())
+    policy.add(present::Prose{error});
   std::vector<present::Section> sections = {policy};
   if (!report.decisions.units.empty()) {
     present::Section units{"units", html::capital(plural(report.lives.noun))};
@@ -257,6 +283,10 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                  {"to", finite(shown.at(age.to))},
                  {"failing", age.failing},
                  {"beyond_known", age.beyond_known}};
+  if (age.rate_error) {
+    json["age"]["age_error"] = *age.age_error;
+    json["age"]["cost_error"] = *age.rate_error;
+  }
   json["at_failure"] = {{"cost", shown.rate(age.at_failure)}};
   if (decisions.inspection) {
     const InspectionInterval& best = *decisions.inspection;

@@ -41,6 +41,9 @@ struct KnownLives {
   Unit unit;                  ///< of the axis, as shown
   bool trusted = true;        ///< the underlying fit
   PopulationLives fresh;      ///< of a new unit; empty if unknown
+  /// The same over fewer points of the posterior, which show how far results depend on their number; empty if the
+  /// populations are the whole posterior.
+  PopulationLives fewer = {};
   std::vector<KnownUnit> units;
   std::vector<double> populations =
       {};  ///< weights of populations that units may share; empty: not distinguished

@@ -7,6 +7,7 @@
 #include "wearwell/math/root.h"
 #include "wearwell/prognosis/least.h"
 #include "wearwell/prognosis/survival_sweep.h"
+#include "wearwell/study/numerical_error.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -152,6 +153,11 @@ AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs) {
   find_range(rate, std::min(best.age, ages.back()), ages, best);
   if (!some_never && best.at_failure <= as_good * best.rate) best.to = never;
   return best;
+}
+
+void estimate_errors(AgeReplacement& age, const AgeReplacement& coarse) {
+  age.age_error = 2 * relative_difference(age.age, coarse.age, age.age);
+  age.rate_error = 2 * relative_difference(age.rate, coarse.rate, age.rate);
 }
 
 double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after) {

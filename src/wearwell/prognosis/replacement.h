@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,8 +52,12 @@ struct AgeReplacement {
   /// The minimum is at the end of the computed lives: some never fail within this range, and their
   /// later behaviour is unknown.
   bool beyond_known = false;
+  /// Estimated relative errors of the age and of its cost if the populations are few points of the posterior.
+  std::optional<double> age_error = {}, rate_error = {};
 };
 AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs);
+/// Sets the errors to twice the difference from the same over fewer points (study/numerical_error.h).
+void estimate_errors(AgeReplacement& age, const AgeReplacement& coarse);
 
 /// The time of replacement of one running unit.
 struct UnitReplacement {

@@ -20,7 +20,7 @@
 namespace wearwell::prognosis {
 namespace {
 
-constexpr std::size_t most_populations = 128;
+constexpr std::size_t most_populations = 128, fewer_populations = 32;
 
 Unit unit_of(const Table& table, const Column& age, const Unit& like) {
   const std::string text = heading_unit(age);
@@ -74,6 +74,16 @@ KnownUnit unit_of_age(const KnownLives& lives, std::string name, double age, boo
   return unit;
 }
 
+PopulationLives lives_over(const ThinnedPosterior& few, const NamedLife& life) {
+  PopulationLives lives(std::vector<WeightedLives>(few.weights.size()), few.weights);
+  tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
+    const auto x = few.values.row(static_cast<Eigen::Index>(k));
+    lives.lives[k] = represented_lives(
+        distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}).quantile);
+  });
+  return lives;
+}
+
 }  // namespace
 
 KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& posterior,
@@ -86,13 +96,10 @@ KnownLives lives_of_study(const PosteriorStudy& study, const WeightedDraws& post
   known.noun = without_new(life.request->of);
   known.unit = life.request->unit;
   known.trusted = trusted;
-  known.fresh = PopulationLives(std::vector<WeightedLives>(few.weights.size()), few.weights);
+  known.fresh = lives_over(few, life);
   known.populations = few.weights;
-  tbb::parallel_for(std::size_t{0}, few.weights.size(), [&](std::size_t k) {
-    const auto x = few.values.row(static_cast<Eigen::Index>(k));
-    known.fresh.lives[k] = represented_lives(
-        distribution_at(life, {x.data(), static_cast<std::size_t>(x.size())}).quantile);
-  });
+  if (posterior.values.rows() > static_cast<Eigen::Index>(most_populations))
+    known.fewer = lives_over(ThinnedPosterior(posterior, fewer_populations), life);
   return known;
 }
 

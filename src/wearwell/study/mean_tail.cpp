@@ -55,6 +55,7 @@ constexpr const char* advice_beyond =
     "test until more items fail.";
 constexpr const char* advice_highest =
     "This average changes with the tails of the priors and need not be finite. Read the quantiles.";
+constexpr const char* advice_never = "Read the quantiles.";
 constexpr const char* advice_endless =
     "The tails of the priors decide on this average, not the data. Read the quantiles, or state "
     "what is known of the shape of the distribution in its prior.";
@@ -109,21 +110,24 @@ void refuse_endless_mean(QuantityQuantiles& q) {
 std::string reason_of_endless_mean(const QuantityQuantiles& q) {
   if (!is_endless_mean(q)) return "";
   return q.mean_tail->highest >= 1
-             ? "it is infinite at a part of the posterior"
+             ? "at a part of the posterior it is infinite, as where some items never "
+               "fail or never reach the threshold"
              : fmt::format("the highest 1 % of the posterior carries {} of its sum",
                            share_text(q.mean_tail->highest));
 }
 
 std::vector<std::string> mean_tail_remarks(const std::vector<QuantitySummary>& quantities,
                                            bool bounds) {
-  std::vector<std::string> beyond, carried, endless;
+  std::vector<std::string> beyond, carried, endless, never;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.mean_tail || q.predictive.has_value() != bounds) continue;
     if (rests_beyond(*q.mean_tail)) beyond.push_back(beyond_text(each, *q.mean_tail));
     if (is_carried(q))
       carried.push_back(highest_text(each, *q.mean_tail) + (bounds ? " (next one)" : ""));
-    if (is_endless_mean(q)) endless.push_back(endless_text(each) + (bounds ? " (next one)" : ""));
+    if (is_endless_mean(q))
+      (q.mean_tail->highest < 1 ? endless : never)
+          .push_back(endless_text(each) + (bounds ? " (next one)" : ""));
   }
   std::vector<std::string> remarks;
   const auto add = [&](const std::vector<std::string>& means, const char* advice) {
@@ -133,6 +137,7 @@ std::vector<std::string> mean_tail_remarks(const std::vector<QuantitySummary>& q
   add(beyond, advice_beyond);
   add(carried, advice_highest);
   add(endless, advice_endless);
+  add(never, advice_never);
   return remarks;
 }
 
@@ -156,7 +161,9 @@ std::optional<Check> mean_life_check(const std::vector<QuantitySummary>& quantit
     if (rests_beyond(*tail)) findings.add(Verdict::warn, beyond_text(each, *tail), advice_beyond);
     if (is_carried(each.best()))
       findings.add(Verdict::warn, highest_text(each, *tail), advice_highest);
-    if (endless) findings.add(Verdict::warn, endless_text(each), advice_endless);
+    if (endless)
+      findings.add(Verdict::warn, endless_text(each),
+                   tail->highest < 1 ? advice_endless : advice_never);
   }
   if (!any) return {};
   const std::string carried =

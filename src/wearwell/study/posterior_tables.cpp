@@ -204,7 +204,8 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
       for (const char* name : {"5 %", "50 %", "95 %", "Next one"}) table.columns.push_back({name});
     }
     const auto value = [&](double x) -> Cell {
-      return std::isinf(x) && x > 0 && is_b_life(each) ? Cell("never") : Cell(x);
+      if (std::isinf(x) && x > 0 && is_b_life(each)) return "never";
+      return std::isinf(x) && q.mean_tail ? Cell(not_finite_text) : Cell(x);
     };
     table.rows.push_back({each.name, each.unit, each.of, each.at});
     std::vector<Cell>& row = table.rows.back();

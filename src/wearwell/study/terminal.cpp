@@ -209,9 +209,10 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
          text_table(rows) + error_line(quantities, false) + tail_lines(quantities, false);
 }
 
-// "never" for the life by which a share has failed, if it is not reached.
+// "never" for the life by which a share has failed, if it is not reached; a mean life is then not finite.
 std::string share_life(const QuantitySummary& each, double x, int digits) {
-  return std::isinf(x) && x > 0 && is_b_life(each) ? "never" : plain_number(x, digits);
+  if (std::isinf(x) && x > 0 && is_b_life(each)) return "never";
+  return std::isinf(x) && each.best().mean_tail ? not_finite_text : plain_number(x, digits);
 }
 
 // Properties of the population: the value for the next item and the bounds.

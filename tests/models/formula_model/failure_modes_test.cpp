@@ -390,6 +390,43 @@ TEST_F(FailureModesTest, CellsWithTwoReadingsAreRefused) {
 }
 
 // The study states what its words mean.
+TEST_F(FailureModesTest, ModesThatMayBeOthersAreRefused) {
+  const auto said = [&](const std::string& word, const std::string& more = "") -> std::string {
+    try {
+      model("life,mode\n10,seal\n20,gear\n25,runout\n30,\"" + word + "\"\n40,gear\n",
+            "[data.columns]\nlife = { column = \"life\", unit = \"1\" }\nmode = \"mode\"\n"
+            "[failure_modes]\ncolumn = \"mode\"\n" +
+                more +
+                "[likelihood.life]\nfamily = \"weibull\"\nscale = \"eta\"\nshape = \"beta\"\n" +
+                flat(more.empty() ? "eta beta" : "eta beta a b"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "read";
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != text.npos;
+  };
+  for (const char* const word : {"Seal", "SEAL", "se-al", "seal.", "seal?"}) {
+    const std::string why = said(word);
+    EXPECT_TRUE(has(why, "row 4") && has(why, "beside 'seal' can be one failure mode or two"))
+        << why;
+  }
+  for (const char* const word :
+       {"seal or gear", "seal/gear", "gear, seal", "Seal oder Gear", "seal + gear"}) {
+    const std::string why = said(word);
+    EXPECT_TRUE(has(why, "row 4") && has(why, "is not known, or a mode of its own")) << why;
+    EXPECT_TRUE(has(why, "'seal|gear'") || has(why, "'gear|seal'")) << why;
+  }
+  // A mode that names others and is one of its own, by its table; words that only contain others.
+  EXPECT_EQ(said("seal or gear",
+                 "[failure_modes.\"seal or gear\"]\nfamily = \"weibull\"\n"
+                 "scale = \"a\"\nshape = \"b\"\n"),
+            "read");
+  for (const char* const word : {"seal|gear", "seal housing", "1.1|11", "seal or motor", "orgear"})
+    EXPECT_EQ(said(word), "read");
+}
+
 TEST_F(FailureModesTest, WordsOfTwoReadingsAreReadAsTheStudyStates) {
   const auto modes_of = [&](const std::string& words) {
     return model("life,mode\n1,seal\n2,failed\n3,still runing\n4,sensor\n5,suspended\n",

@@ -50,6 +50,56 @@ beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
 survival_to = ["300 h", "900 h"]
 )toml";
 
+// Exponential modes under flat priors: the share of a mode in the failures is beta distributed (r - 1 failures), independent of the life of
+// the part.
+TEST_F(LifeAnswers, SharesFailedByAModeHaveTheBoundsThatAreAsked) {
+  std::string rows = "life [h],mode\n";
+  double total = 0;
+  for (int i = 1; i <= 12; ++i) {
+    rows += fmt::format("{},{}\n", 50 * i, i % 3 == 0 ? "runout" : i % 4 == 1 ? "wear" : "leak");
+    total += 50 * i;
+  }
+  write("lives.csv", rows);
+  const std::string text = R"toml(
+model = "formula"
+[data]
+file = "lives.csv"
+[data.columns]
+life = "life"
+mode = "mode"
+[failure_modes]
+column = "mode"
+[likelihood.life]
+family = "exponential"
+mean = "m[mode]"
+[prior]
+m = { distribution = "flat" }
+[predict]
+survival_to = "100 h"
+)toml";
+  const auto failed = [&](const std::string& keys, const std::string& mode) {
+    const PosteriorSummary result = run(text + keys);
+    for (const QuantitySummary& each : result.quantities)
+      if (each.name == "failed by " + mode + " to 100 h") return each;
+    ADD_FAILURE() << mode;
+    return result.quantities.front();
+  };
+  const double leaks = 5 - 1, wears = 3 - 1, both = leaks + wears;
+  const double predictive = 100 * (1 - std::pow(1 + 100 / total, -both)) * leaks / both;
+  const QuantitySummary lower = failed("", "leak"),
+                        two = failed("level = 0.9\nsides = \"both\"\n", "leak"),
+                        upper = failed("level = 0.8\nsides = \"upper\"\n", "wear");
+  ASSERT_TRUE(lower.best().predictive && lower.best().bound);
+  EXPECT_NEAR(*lower.best().predictive / predictive, 1, 1e-3);
+  EXPECT_FALSE(lower.best().upper_bound);
+  EXPECT_EQ(*two.best().bound, two.best().q05);
+  EXPECT_EQ(*two.best().upper_bound, two.best().q95);
+  EXPECT_EQ(two.credible_level, 0.9);
+  EXPECT_FALSE(upper.best().bound);
+  EXPECT_GT(*upper.best().upper_bound, upper.best().q50);
+  EXPECT_LT(*upper.best().upper_bound, upper.best().q95);
+}
+
 // Sums over all nodes of the quadrature share nothing with the mixture that the program solves.
 TEST_F(LifeAnswers, SurvivalAndHorizonArePredictive) {
   write("lives.csv",

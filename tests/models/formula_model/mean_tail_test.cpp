@@ -197,6 +197,57 @@ TEST_F(MeanTailTest, AMeanOfTheTailIsNotFinite) {
   EXPECT_TRUE(found->at("draws").contains("mean_tail"));
 }
 
+// Of wear that slows down some machines never reach the threshold: their mean life is not finite, and the reason is beside it.
+TEST_F(MeanTailTest, AThresholdThatSomeNeverReach) {
+  std::string rows = "wear [mm],time [h],machine\n";
+  for (int machine = 0; machine < 6; ++machine) {
+    const double last = 0.6 + 0.12 * machine;
+    for (const double t : {50, 150, 400, 900})
+      rows += fmt::format("{:.4f},{},m{}\n",
+                          last * (1 - std::exp(-t / 300.0)) + 0.004 * std::sin(t + machine), t,
+                          machine);
+  }
+  write("wear.csv", rows);
+  const PosteriorSummary result = run(R"toml(
+model = "formula"
+[data]
+file = "wear.csv"
+[data.columns]
+wear = "wear"
+time = "time"
+machine = "machine"
+[likelihood.wear]
+family = "normal"
+mean = "last * (1 - exp(-time / pace))"
+sd = "sigma"
+[prior]
+last = { distribution = "lognormal", median = "0.8 mm", log_sd = 0.5 }
+pace = { distribution = "lognormal", median = "300 h", log_sd = 0.3 }
+scatter = { distribution = "half-normal", scale = 0.3 }
+sigma = { distribution = "half-normal", scale = "0.02 mm" }
+[random_effects.machine]
+last = { distribution = "lognormal", log_sd = "scatter" }
+[formula]
+path = "last * (1 - exp(-time / pace))"
+[predict]
+along = "time"
+limit = { path = "0.9 mm" }
+lives_of = []
+mean_life = true
+)toml");
+  const QuantityQuantiles& mean = named(result, "mean life");
+  EXPECT_EQ(mean.predictive, INFINITY);
+  ASSERT_TRUE(mean.mean_tail);
+  EXPECT_THAT(reason_of_endless_mean(mean), HasSubstr("never reach the threshold"));
+  const std::vector<std::string> remarks = mean_tail_remarks(result.quantities, true);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_THAT(remarks[0], HasSubstr("is not finite: at a part of the posterior it is infinite"));
+  EXPECT_THAT(check_of(result).detail, HasSubstr("not finite"));
+  const std::string terminal = terminal_summary(result, {});
+  EXPECT_THAT(terminal, HasSubstr("not finite"));
+  EXPECT_THAT(terminal, Not(HasSubstr(" inf")));
+}
+
 // Where all have failed and the slope is well above 1, nothing is said.
 TEST_F(MeanTailTest, AMeanOfTheDataIsNot) {
   std::string rows = "life [h],status\n";

@@ -7,6 +7,7 @@
 
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/models/formula_model/exposure_lives.h"
 #include "wearwell/models/formula_model/formula_fit_data.h"
 #include "wearwell/models/formula_model/formula_life.h"
 #include "wearwell/models/formula_model/formula_likelihood.h"
@@ -91,6 +92,38 @@ TEST_F(StepStressTest, LikelihoodIsThatOfCumulativeExposure) {
     EXPECT_NEAR(log_likelihood(table_of_steps, with_interval, {3600 * eta, n, beta}), expected,
                 1e-10 * std::abs(expected));
   }
+}
+
+// Equivalent ages use up the same share of life at the stress in the middle of those at failure (10, 13 and 14 kV).
+TEST_F(StepStressTest, EquivalentAgesAreThoseOfOneStress) {
+  const auto own = model(table_of_steps, with_interval);
+  const auto reference = exposure_reference(*own);
+  ASSERT_TRUE(reference);
+  EXPECT_EQ(reference->conditions.words, "voltage = 13 kV");
+  const FormulaRows rows(own, own->data.table.rows);
+  const double eta = 100, n = 5;
+  const std::vector<double> x = {3600 * eta, n, 1.7};
+  const std::vector<Response> lives = exposure_lives(rows, *reference, x.data());
+  const auto hours = [&](double share) { return share * std::pow(13 / 10., -n) * eta; };
+  const auto used = [&](double h, double kv) { return h / (eta * std::pow(kv / 10, -n)); };
+  std::vector<double> at, until;
+  for (const Response& each : lives) {
+    at.push_back(each.at / 3600);
+    if (each.seen == Censoring::interval) until.push_back(each.until / 3600);
+  }
+  const auto near = [](double x) { return ::testing::DoubleNear(x, 1e-9 * x); };
+  EXPECT_THAT(
+      at, ::testing::UnorderedElementsAre(
+              near(hours(used(10, 10) + used(10, 12) + used(5.5, 14))), near(hours(used(4.5, 10))),
+              near(hours(used(10, 10) + used(21, 12))), near(hours(used(12, 11) + used(8, 13)))));
+  EXPECT_THAT(until, ::testing::ElementsAre(near(hours(used(12, 11) + used(28, 13)))));
+  // Of a shape that depends on the stress no age is equivalent.
+  std::string bent = with_interval;
+  bent.replace(bent.find("\"beta\""), 6, "\"beta * voltage / (10 [kV])\"");
+  const auto other = model(table_of_steps, bent);
+  EXPECT_TRUE(exposure_lives(FormulaRows(other, other->data.table.rows),
+                             *exposure_reference(*other), x.data())
+                  .empty());
 }
 
 TEST_F(StepStressTest, GradientIsThatOfDifferences) {

@@ -143,6 +143,27 @@ TEST(CrowBounds, CoverIfTimeEndsTheTest) {
   EXPECT_GT(above / counted, 0.4 * outside);
 }
 
+// At the ends of the interval so many failures, or so few, have the probability outside. Two units, 3 and 1 failures.
+TEST(CrowBounds, OfTheAgePerFailureAreThoseOfTheNumberOfFailures) {
+  const auto two =
+      power_law_sample({{"1", 0, 100, {20, 30, 95}, false}, {"2", 0, 100, {7}, false}});
+  const Interval age = *exact_age_per_failure(*two, 0.05);
+  const auto at_most = [](int n, double mean) {
+    double term = std::exp(-mean), sum = 0;
+    for (int i = 0; i <= n; ++i, term *= mean / i) sum += term;
+    return sum;
+  };
+  EXPECT_NEAR(at_most(4, 2 * 100 / age.lower), 0.05, 1e-9);
+  EXPECT_NEAR(1 - at_most(3, 2 * 100 / age.upper), 0.05, 1e-9);
+  // Until the last of 22 failures: chi-square with 44 degrees of freedom, from tables 29.787 and 60.481.
+  const Interval last =
+      *exact_age_per_failure(*power_law_sample({{"1", 0, 620, twenty_two, true}}), 0.05);
+  EXPECT_NEAR(last.lower, 2 * 620 / 60.481, 1e-3);
+  EXPECT_NEAR(last.upper, 2 * 620 / 29.787, 1e-2);
+  const auto ends = power_law_sample({{"1", 0, 100, {20, 30}, false}, {"2", 0, 80, {7}, false}});
+  EXPECT_FALSE(exact_age_per_failure(*ends, 0.05));
+}
+
 TEST(CrowBounds, SayWhereTheyDoNotApply) {
   EXPECT_FALSE(power_law_sample({{"1", 5, 100, {20, 30}, false}}));
   const auto ends = power_law_sample({{"1", 0, 100, {20, 30}, false}, {"2", 0, 80, {7}, false}});

@@ -87,6 +87,20 @@ class ModeCells {
     }
   }
 
+  // `stated` have a table of their own: they are modes.
+  void refuse_doubtful_modes(const std::vector<std::string>& modes,
+                             const std::vector<std::string>& stated) const {
+    for (auto mode = modes.rbegin(); mode != modes.rend(); ++mode) {
+      if (contains(stated, *mode)) continue;
+      const std::string doubt = doubt_of_mode(*mode, modes);
+      if (doubt.empty()) continue;
+      for (std::size_t i = 0; i < all_.rows.size(); ++i) {
+        const Named own = named(i);
+        if (contains(own.modes, *mode)) fail(i, doubt);
+      }
+    }
+  }
+
  private:
   static std::vector<std::string> others(std::vector<std::string> modes, const std::string& but) {
     std::erase(modes, but);
@@ -191,6 +205,7 @@ FailureModes read_failure_modes(const TomlReader& root, const FormulaData& data,
     }
   }
   cells.refuse_failures_of_no_mode(found.modes);
+  cells.refuse_doubtful_modes(found.modes, modes_with_tables(section));
   if (found.modes.empty())
     throw InputError(fmt::format("{}: column '{}' names no failure mode{}", data.table.source,
                                  heading, of_returns ? " of a return in the fitted periods" : ""));

@@ -409,7 +409,10 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   formula_model::tell_drawn_effects(model, study);
   formula_model::read_own_predictions(root, model, rows, study);
   // Ages under a stress that changes are not lives under any.
-  if (!model->has_exposure()) formula_model::show_life_paper(root, model, study);
+  if (model->has_exposure())
+    formula_model::show_exposure_paper(root, model, rows, study);
+  else
+    formula_model::show_life_paper(root, model, study);
   formula_model::add_returns(root, source, model, study);
 }
 

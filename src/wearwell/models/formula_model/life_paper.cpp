@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "wearwell/models/formula_model/exposure_lives.h"
 #include "wearwell/models/formula_model/group_colour.h"
 #include "wearwell/models/formula_model/life_groups.h"
 #include "wearwell/models/formula_model/life_stress.h"
@@ -53,12 +54,13 @@ std::vector<LifeGroup> drawn_groups(const TomlReader& root,
 class Drawing {
  public:
   Drawing(const FormulaModel& model, const std::vector<LifeGroup>& groups, std::size_t left_out,
-          const Fit& fit)
+          const Fit& fit, bool equivalent = false)
       : measured_(model.measured.front()),
         modes_(model.modes && model.measured.size() > 1),
         varies_(model.has_random_effects()),
         groups_(groups),
         left_out_(left_out),
+        equivalent_(equivalent),
         paper_(measured_.form->paper),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
     for (const LifeGroup& group : groups) {
@@ -186,7 +188,8 @@ class Drawing {
   double shown(double y) const { return from_si(measured_.unit, y); }
   plot::Axis axis() const {
     const std::string unit = html::unit(measured_.unit.text);
-    return {html::capital(measured_.column) + (unit.empty() ? "" : fmt::format(" [{}]", unit)),
+    const std::string of = equivalent_ ? " at " + groups_.front().conditions.words : "";
+    return {html::capital(measured_.column) + of + (unit.empty() ? "" : fmt::format(" [{}]", unit)),
             positive(), shown(low_), shown(high_)};
   }
   std::string label(std::size_t g) const {
@@ -284,6 +287,13 @@ class Drawing {
       words +=
           " Conditions without failures, or with delayed entries and intervals, have no points.";
     if (thinned) words += fmt::format(" At most {} points of a condition are drawn.", most_points);
+    if (equivalent_)
+      words += fmt::format(
+          " The stress changed in the test: lives are equivalent ages at {} by cumulative "
+          "exposure, "
+          "with all parameters at their posterior medians. At this constant stress the same share "
+          "would have failed by then.",
+          groups_.front().conditions.words);
     if (left_out_ > 0) {
       words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
                            left_out_ + groups_.size(), groups_.size());
@@ -303,6 +313,7 @@ class Drawing {
   bool modes_, varies_;
   const std::vector<LifeGroup>& groups_;
   std::size_t left_out_;
+  bool equivalent_;  // lives under one constant stress, by cumulative exposure
   Paper paper_;
   WeightedDraws draws_;
   std::vector<std::vector<PlottingPosition>> positions_;
@@ -335,6 +346,26 @@ void show_life_paper(const TomlReader& root, std::shared_ptr<const FormulaModel>
     for (const LifeStress& each : *stresses) shown.push_back(life_stress_figure(*model, each, fit));
     for (html::Figure& each : drawing.papers()) shown.push_back(std::move(each));
     if (auto hazard = drawing.hazard()) figures["predictions"].push_back(std::move(*hazard));
+    return figures;
+  };
+}
+
+void show_exposure_paper(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
+                         std::shared_ptr<const FormulaRows> rows, PosteriorStudy& study) {
+  const auto reference = exposure_reference(*model);
+  if (!reference) return;
+  const auto life = life_distribution(root, "likelihood", model, reference->conditions);
+  study.figures = [=, before = study.figures](const Fit& fit) {
+    auto figures = before ? before(fit) : std::map<std::string, std::vector<html::Figure>>();
+    std::vector<double> medians;
+    for (const QuantityDistribution& each : fit.marginals) medians.push_back(each.quantile(0.5));
+    LifeGroup group{reference->conditions, exposure_lives(*rows, *reference, medians.data())};
+    if (group.responses.empty()) return figures;
+    group.counts = model->measured.front().observed.counts;
+    group.life = life;
+    const std::vector<LifeGroup> groups = {std::move(group)};
+    for (html::Figure& each : Drawing(*model, groups, 0, fit, true).papers())
+      figures["verdict"].push_back(std::move(each));
     return figures;
   };
 }

@@ -140,14 +140,13 @@ std::vector<QuantityQuantiles> LimitGroup::answers(const LimitedLives& lives) co
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
       found.push_back({none, none, none, 0, 0, 0});
       found.back().mean = mean;
-      if (std::isfinite(mean))
+      if (!std::isnan(mean))
         found.back().mean_tail = MeanTail{share_of_highest(all[i].lives), {}, {}};
       continue;
     }
     found.push_back(b_life(Remaining{lives.mean, all[i].survival}, mean, wishes_.levels));
     found.back().numerical_error = lives.mean_misfit;
-    if (std::isfinite(mean))
-      found.back().mean_tail = MeanTail{share_of_highest(lives.mean), {}, {}};
+    if (!std::isnan(mean)) found.back().mean_tail = MeanTail{share_of_highest(lives.mean), {}, {}};
   }
   return found;
 }

@@ -42,15 +42,18 @@ void add_lives(const AskedOfModes& asked, const SomeModes& some, PosteriorStudy&
   add_lives_of(own, noun, at, unit, study);
 }
 
-std::vector<QuantityQuantiles> shares_failed(const LifeDistribution& part, std::size_t modes,
-                                             const std::vector<Quantity>& by,
+std::vector<QuantityQuantiles> shares_failed(std::size_t modes, const AskedOfLife& asked,
                                              const WeightedDraws& draws, double points) {
+  const std::vector<Quantity>& by = asked.survival;
   std::vector<QuantityQuantiles> all(modes * by.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const LifeDistribution::Known known =
-        part.incidence(draws, i % modes, by[i / modes].si(), points);
+        asked.life->incidence(draws, i % modes, by[i / modes].si(), points);
     const QuantityDistribution& of = known.distribution;
     all[i] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
+    // The probability that the next one fails so is the mean of the shares.
+    all[i].predictive = of.mean();
+    add_bounds(of, asked.levels, all[i]);
     all[i].numerical_error = known.misfit;
   });
   return all;
@@ -66,13 +69,13 @@ void add_shares(const AskedOfModes& asked, PosteriorStudy& study) {
       group.requests.push_back(request(fmt::format("failed by {} to {}", mode, description(each)),
                                        asked.noun, asked.words, Unit{"%", 0.01, 0}));
       group.requests.back().safe_end = 0.95;
+      ask_bounds(asked.part.levels, group.requests.back());
     }
   }
-  group.from_draws = [part = asked.part.life, by,
-                      count = modes.size()](const WeightedDraws& draws) {
-    std::vector<QuantityQuantiles> found = shares_failed(*part, count, by, draws, 1);
-    if (!part->over_all())
-      estimate_numerical_errors(found, shares_failed(*part, count, by, draws, fewer_points));
+  group.from_draws = [of = asked.part, count = modes.size()](const WeightedDraws& draws) {
+    std::vector<QuantityQuantiles> found = shares_failed(count, of, draws, 1);
+    if (!of.life->over_all())
+      estimate_numerical_errors(found, shares_failed(count, of, draws, fewer_points));
     return found;
   };
   study.quantity_groups.push_back(std::move(group));

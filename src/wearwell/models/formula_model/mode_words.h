@@ -25,4 +25,8 @@ ModeWords read_mode_words(const TomlReader& failure_modes);
 std::vector<std::string> modes_in(const std::string& text,
                                   const std::function<std::string()>& place);
 
+/// Why the last of these modes may be none of its own: one before is spelled alike ("Seal", "seal"), or it names others
+/// ("seal or gear", "seal/gear", "seal?"), and then these are not known. Empty if it is clear.
+std::string doubt_of_mode(const std::string& mode, const std::vector<std::string>& others);
+
 }  // namespace wearwell::formula_model

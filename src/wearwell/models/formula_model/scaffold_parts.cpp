@@ -1,4 +1,5 @@
 #include "wearwell/models/formula_model/scaffold_parts.h"
+#include "wearwell/base/unit_system.h"
 
 #include <fmt/format.h>
 
@@ -47,8 +48,12 @@ bool rises_throughout(const Table& table, const Column& axis) {
 std::string quantity_text(double value, const std::string& unit) {
   if (unit.empty() || unit == "1") return fmt::format("{:.6g}", value);
   const std::size_t blank = unit.find(' ');
-  if (std::isdigit(static_cast<unsigned char>(unit.front())) && blank != unit.npos)
-    return quantity_text(value * std::stod(unit), unit.substr(blank + 1));
+  // "1000 km" and "10^3 km": the factor goes into the number.
+  if (std::isdigit(static_cast<unsigned char>(unit.front())) && blank != unit.npos) {
+    const auto factor = parse_unit(unit.substr(0, blank));
+    if (factor && factor->dimension.empty())
+      return quantity_text(value * factor->scale, unit.substr(blank + 1));
+  }
   return fmt::format("{:.6g} {}", value, unit);
 }
 

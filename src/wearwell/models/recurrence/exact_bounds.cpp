@@ -126,6 +126,12 @@ Interval exact_constant_mtbf(std::size_t failures, double time, bool failure_end
   return interval;
 }
 
+std::optional<Interval> exact_age_per_failure(const PowerLawSample& sample, double outside) {
+  if (!std::isfinite(sample.end) || !(sample.time_ended || sample.failure_ended)) return {};
+  return exact_constant_mtbf(sample.failures, static_cast<double>(sample.units) * sample.end,
+                             !sample.time_ended, outside);
+}
+
 std::optional<Interval> exact_phase(const Process& process, const std::vector<UnitHistory>& units,
                                     std::size_t phase, double outside) {
   std::size_t failures = 0, observed = 0, at_failure = 0;

@@ -42,6 +42,10 @@ std::optional<Interval> exact_mtbf(const PowerLawSample& sample, double outside)
 /// (NIST/SEMATECH e-Handbook 8.4.5.1): 2 time/chi^2 with 2 n degrees of freedom, for the lower bound of a test that a time
 /// limit ended 2 n + 2.
 Interval exact_constant_mtbf(std::size_t failures, double time, bool failure_ended, double outside);
+/// The mean age per failure until the common end of observation, end/M(end) (the cumulative mean time between failures
+/// of Crow's bounds), by the same quantiles: failures are Poisson distributed with the mean `units` M(end), or M at the
+/// last of n failures is gamma distributed with the shape n. Empty if ends differ, or with a mixture of both ends.
+std::optional<Interval> exact_age_per_failure(const PowerLawSample& sample, double outside);
 /// The same of a phase. Empty if observations within it ended in both ways.
 std::optional<Interval> exact_phase(const Process& process, const std::vector<UnitHistory>& units,
                                     std::size_t phase, double outside);

@@ -59,8 +59,13 @@ std::vector<PositiveQuantity> power_law_quantities(const Asked& asked,
     if (sample && age == sample->end)
       mtbf.exact = exact_of(exact_mtbf(*sample, asked.classical->outside()), "Crow");
     all.push_back(std::move(mtbf));
-    all.push_back({"age per failure", "until age " + age_text(asked.data, age), asked.data.unit,
-                   [process, age](const double* x) { return age / process.mean_by(x, age); }});
+    PositiveQuantity until{
+        "age per failure", "until age " + age_text(asked.data, age), asked.data.unit,
+        [process, age](const double* x) { return age / process.mean_by(x, age); }};
+    if (sample && age == sample->end)
+      until.exact =
+          exact_of(exact_age_per_failure(*sample, asked.classical->outside()), "chi-square");
+    all.push_back(std::move(until));
   }
   return all;
 }
@@ -88,6 +93,11 @@ std::optional<ExactBounds> exact_parameter(const Asked& asked,
     return exact_of(exact_phase(asked.process, asked.data.units, i, outside), "chi-square");
   if (asked.process.kind == ProcessKind::power_law && i == 0 && sample)
     return exact_of(exact_beta(*sample, outside), "chi-square");
+  if (asked.process.kind == ProcessKind::power_law && i == 1 && sample &&
+      asked.process.reference == sample->end) {
+    const auto age = exact_age_per_failure(*sample, outside);
+    if (age) return ExactBounds{sample->end / age->upper, sample->end / age->lower, "chi-square"};
+  }
   return {};
 }
 
@@ -177,7 +187,9 @@ void add_notes(const Asked& asked, const std::optional<PowerLawSample>& sample, 
   }
   note(
       "Exact: beta by the chi-square distribution, given the numbers of failures; the mean time "
-      "between failures at the end of observation by Crow's conditional distribution.");
+      "between failures at the end of observation by Crow's conditional distribution; the expected "
+      "failures and the age per failure until then by the chi-square distribution of their "
+      "number.");
   if (!std::isfinite(sample->end))
     note("Crow's bounds of the mean time between failures need one common end of observation.");
   else if (!sample->time_ended && !sample->failure_ended)
