@@ -1,15 +1,16 @@
 // So many units that report so often for so long: what is stored, how long it takes to be stored, and how long until the
-// state that people see knows of it.
+// state that people see knows of it; then what it holds in memory and on disk, and how long a restart takes.
 //
 //   build/release/bin/monitor_load RESULT [UNITS 1000] [A_SECOND 10] [SECONDS 60] [STORE load.sqlite]
 //
-// RESULT: wearwell fit examples/formula/study.toml -o RESULT
+// RESULT: wearwell fit examples/formula/study.toml -o RESULT. With 0 a second nothing is sent: a restart on STORE.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "wearwell/base/rng.h"
@@ -50,11 +51,39 @@ SourceSettings load_source() {
   return source;
 }
 
+// Of the process, now and at most.
+std::string memory() {
+  std::ifstream status("/proc/self/status");
+  std::string now, most;
+  for (std::string line; std::getline(status, line);) {
+    const auto value = [&] { return std::stod(line.substr(line.find(':') + 1)) / 1e6; };
+    if (line.starts_with("VmRSS:")) now = fmt::format("{:.2f} GB", value());
+    if (line.starts_with("VmHWM:")) most = fmt::format("{:.2f} GB", value());
+  }
+  return now + ", at most " + most;
+}
+
 double processor_seconds() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
          1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+std::uint64_t readings_known(const Fleet& fleet) {
+  std::uint64_t known = 0;
+  for (const UnitView& each : fleet.units("", 0, SIZE_MAX)) known += each.quality.readings;
+  return known;
+}
+
+void report_start(Fleet& fleet, double opened) {
+  const Clock::time_point begin = Clock::now();
+  while (fleet.apply() > 0) {
+  }
+  const double applied = opened + seconds(Clock::now() - begin);
+  fleet.refresh(true);
+  fmt::print("restart: {:.1f} s to the states, {:.1f} s to all forecasts; {} readings; memory {}\n",
+             applied, opened + seconds(Clock::now() - begin), readings_known(fleet), memory());
 }
 
 }  // namespace
@@ -76,7 +105,12 @@ int main(int argc, char** argv) {
   settings.population = "load";
   settings.alarm = {10e3, 0.05, 0.2, 0.8, {}};
   settings.threads = 2;
+  const Clock::time_point started = Clock::now();
   Fleet fleet(*tracker, *store, tally, notices, settings);
+  if (rate == 0) {
+    report_start(fleet, seconds(Clock::now() - started));
+    return 0;
+  }
   Intake intake(*store, tally, notices, [] {});
   const SourceSettings source = load_source();
 
@@ -109,14 +143,18 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 4; ++i) senders.emplace_back(send);
   std::jthread watcher([&] {
     std::vector<std::uint64_t> seen(units, 0);
+    Clock::duration look{};
     while (!sent) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      // All units of a large fleet take long: a look costs at most a twentieth of a processor.
+      std::this_thread::sleep_for(
+          std::max<Clock::duration>(std::chrono::milliseconds(100), 20 * look));
       const auto now = Clock::now();
       for (const UnitView& each : fleet.units("", 0, SIZE_MAX)) {
         const int unit = std::atoi(each.unit.c_str() + 1);
         for (auto& n = seen[unit]; n < each.quality.readings; ++n)
           to_view.push_back(seconds(now - due(static_cast<int>((n * units + unit) / per_tick))));
       }
+      look = Clock::now() - now;
     }
   });
   const double before = processor_seconds();
@@ -141,12 +179,17 @@ int main(int argc, char** argv) {
     bytes += each.bytes.size();
     ++states;
   }
-  std::uint64_t known = 0;
-  for (const UnitView& each : fleet.units("", 0, SIZE_MAX)) known += each.quality.readings;
   fmt::print("{} units x {} a second for {} s: {} messages sent, {} stored, {} in states\n", units,
-             rate, length, static_cast<long long>(ticks) * per_tick, store->count(), known);
+             rate, length, static_cast<long long>(ticks) * per_tick, store->count(),
+             readings_known(fleet));
   fmt::print("until stored:  {}\n", quantiles(to_store));
   fmt::print("until seen:    {}\n", quantiles(to_view));
-  fmt::print("behind at the end: {:.2f} s; {:.1f} s of processors; {} bytes a unit\n", behind, used,
-             states ? bytes / states : 0);
+  double stored = 0;
+  for (int tick = 0; tick < ticks; ++tick) stored = std::max(stored, 0.01 * tick + to_store[tick]);
+  const double all = static_cast<double>(ticks) * per_tick, known = seconds(over - begin) + behind;
+  fmt::print(
+      "all stored after {:.1f} s, {:.0f} a second; in states after {:.1f} s, {:.0f} a second\n",
+      stored, all / stored, known, all / known);
+  fmt::print("{:.1f} s of processors; {} bytes a unit in the store; memory {}\n", used,
+             states ? bytes / states : 0, memory());
 }

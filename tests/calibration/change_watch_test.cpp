@@ -1,11 +1,14 @@
 // Fleets of units on line that change after their tenth reading: how soon the forecast is in doubt, whether the reason is the right
 // one, how many right units are doubted, and what becomes of 90 % intervals of the remaining useful life. Every fifty units belong to a
 // population of their own, learned from 12 machines. WEARWELL_REPLICATIONS says how many units a fleet has.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <string_view>
 
 #include "calibration/changing_units.h"
 
@@ -129,38 +132,47 @@ FleetCounts fleet_of(const Change& change, bool may_change,
   return all;
 }
 
-// One line of the table.
-void print(const char* name, bool may_change, FleetCounts& counts) {
+std::string covered(Coverage of) {
+  return of.forecasts > 0 ? fmt::format("{:.1f} %, {:.2f}", of.percent(), of.median_width()) : "";
+}
+
+constexpr const char* head =
+    "| fleet | doubted before the change | found | delay in readings: median, 90 % | right reason "
+    "| before: coverage, width | after | after, not in doubt (forecasts) |\n"
+    "|---|---|---|---|---|---|---|---|\n";
+
+// One line of the table in docs/explanation/validation.md. A changed rate is no reason for doubt where rates may change.
+void print(const Change& change, bool may_change, FleetCounts& counts) {
   std::sort(counts.delay.begin(), counts.delay.end());
   const auto delay = [&](double p) {
-    return counts.delay.empty() ? 0
-                                : counts.delay[static_cast<std::size_t>(
-                                      p * static_cast<double>(counts.delay.size() - 1))];
+    return counts.delay[static_cast<std::size_t>(p * static_cast<double>(counts.delay.size() - 1))];
   };
+  const bool changes = change.named[0] != 0;
   const double changed = std::max(counts.changed, 1);
-  std::printf(
-      "| %s | %s | %d | %.1f | %.1f | %d, %d | %.0f | %.1f, %.2f | %.1f, %.2f | %.1f (%d) |\n",
-      name, may_change ? "may change" : "fixed", counts.changed,
-      100.0 * counts.doubted_before / counts.units, 100 * counts.found / changed, delay(0.5),
-      delay(0.9), 100 * counts.named / changed, counts.before.percent(),
-      counts.before.median_width(), counts.after.percent(), counts.after.median_width(),
-      counts.undoubted.percent(), counts.undoubted.forecasts);
+  const bool model_has_it = may_change && std::string_view(change.named) == "rate has changed";
+  const Coverage& undoubted = counts.undoubted;
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", change.name,
+             change.from_start ? "" : fmt::format("{} of {}", counts.doubted_before, counts.units),
+             changes ? fmt::format("{:.1f} %", 100 * counts.found / changed) : "",
+             counts.delay.empty() ? "" : fmt::format("{}, {}", delay(0.5), delay(0.9)),
+             changes && !model_has_it ? fmt::format("{:.0f} %", 100 * counts.named / changed) : "",
+             covered(counts.before), covered(counts.after),
+             undoubted.forecasts > 0
+                 ? fmt::format("{:.1f} % ({})", undoubted.percent(), undoubted.forecasts)
+             : changes ? "none"
+                       : "");
   std::fflush(stdout);
 }
 
 void compare_fleets(bool may_change) {
   const int units = fleet_size();
-  std::printf(
-      "| fleet | rate in the study | units that changed | doubted before, %% | found, %% | delay, "
-      "readings (median, 90 %%) | right reason, %% | coverage before, %%, and median width by "
-      "median "
-      "life | after | after, not in doubt, %% (forecasts) |\n");
+  fmt::print("{}, {} units a fleet\n{}", may_change ? "rates may change" : "one rate", units, head);
   const auto guides = populations(units);
   std::uint64_t first = 0;
   for (const Change& change : changes()) {
     first += 1000;
     FleetCounts counts = fleet_of(change, may_change, guides, first);
-    print(change.name, may_change, counts);
+    print(change, may_change, counts);
     EXPECT_GE(counts.units, units);
     // One in 1,000, and three standard errors.
     const double expected = 0.001 * counts.units;

@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "fleet/clickhouse_server.h"
+#include "support/disk_content.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 #include "support/servers.h"
@@ -271,6 +275,24 @@ TEST_F(ReadingsFleet, ATableOfClickhouseHasTheNumbersOfFiles) {
   const json same = fleet(table("unit,age [h],in_study\nA,400,yes\nB,1200.5,no\n") + horizons);
   EXPECT_EQ(ages["failures"].dump(), same["failures"].dump());
   EXPECT_EQ(ages["worst"].dump(), same["worst"].dump());
+}
+
+// While it reads and while it follows units, a signal ends it at once, and nothing is left.
+TEST_F(ReadingsFleet, EndsWithASignal) {
+  const std::string readings = table(csv_of(rows_of(20'000)));
+  const std::string output = (folder() / "fleet").string();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int after_ms : {50, 600}) {
+      ChildProcess program({WEARWELL_BINARY, "fleet", fit_, readings, "-o", output},
+                           folder() / "log");
+      std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+      ASSERT_TRUE(program.runs()) << content(folder() / "log");
+      const auto sent = std::chrono::steady_clock::now();
+      EXPECT_EQ(program.end(signal), 128 + signal);
+      EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(2));
+      EXPECT_THAT(entries(folder()), testing::ElementsAre("a.csv", "log"));
+    }
+  }
 }
 
 }  // namespace

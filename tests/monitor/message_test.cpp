@@ -229,6 +229,12 @@ std::string mutated(std::string text, Rng& rng) {
 
 using HostileMessages = FleetRig;
 
+TEST(SeparatorProblem, NamesWhatMessagesAreSeparatedBy) {
+  EXPECT_EQ(separator_problem("a,1.5"), "");
+  EXPECT_THAT(separator_problem("a;1,5"), HasSubstr("are separated by commas"));
+  EXPECT_THAT(separator_problem("a\t1"), HasSubstr("are separated by commas"));
+}
+
 TEST_F(HostileMessages, AreCountedAndLeaveTheOthersAlone) {
   open();
   Rng rng(17, 1);

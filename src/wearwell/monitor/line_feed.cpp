@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/monitor/message.h"
 
 namespace wearwell::monitor {
 
@@ -67,8 +68,9 @@ LineFeed::Piece LineFeed::begin(std::string_view lines) {
       begun_ = true;
       break;
     }
-    piece.refused.push_back(fmt::format("'{}' is neither JSON nor a heading with {}",
-                                        printable(shortened(line)), fmt::join(needed_, ", ")));
+    piece.refused.push_back(fmt::format("'{}' is neither JSON nor a heading with {}{}",
+                                        printable(shortened(line)), fmt::join(needed_, ", "),
+                                        separator_problem(line)));
   }
   return piece;
 }

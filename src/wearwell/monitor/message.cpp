@@ -156,8 +156,8 @@ void read_csv(std::string_view payload, const std::function<void(const Fields&)>
       return;
     }
     if (cells.size() != heading.size())
-      return bad(fmt::format("line {} has {} cells, but the heading {}", in_quotes(line),
-                             cells.size(), heading.size()));
+      return bad(fmt::format("line {} has {} cells, but the heading {}{}", in_quotes(line),
+                             cells.size(), heading.size(), separator_problem(line)));
     fields.clear();
     for (std::size_t i = 0; i < cells.size(); ++i)
       fields.push_back(field_of_cell(heading[i], cells[i]));
@@ -166,6 +166,12 @@ void read_csv(std::string_view payload, const std::function<void(const Fields&)>
 }
 
 }  // namespace
+
+std::string separator_problem(std::string_view line) {
+  return line.find(';') == line.npos && line.find('\t') == line.npos
+             ? ""
+             : "; cells of messages are separated by commas, and decimals by points";
+}
 
 const Field* find_field(const Fields& fields, std::string_view name) {
   for (const Field& field : fields) {

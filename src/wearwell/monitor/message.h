@@ -29,6 +29,9 @@ using Fields = std::vector<Field>;
 /// The field with that name; null if there is none.
 const Field* find_field(const Fields& fields, std::string_view name);
 
+/// What is wrong with a line of CSV that has semicolons or tabs; empty without them.
+std::string separator_problem(std::string_view line);
+
 /// One object of JSON. Throws InputError: not JSON, not an object, too deep, too many fields, a
 /// repeated name.
 Fields fields_of_json(std::string_view text);

@@ -339,7 +339,8 @@ StoredReading identity_of(const Fields& fields, const std::string& unit,
   reading.key = reading.time_ms;
   if (!mapping.sequence.empty()) {
     const Field* sequence = find_field(fields, mapping.sequence);
-    if (!sequence || sequence->kind != Field::Kind::number || !sequence->whole)
+    if (!sequence || sequence->kind == Field::Kind::null) fail_missing(sequence, mapping.sequence);
+    if (sequence->kind != Field::Kind::number || !sequence->whole)
       throw InputError(fmt::format("{} must be a whole number", shown_value(mapping.sequence)));
     reading.key = sequence->integer;
   }

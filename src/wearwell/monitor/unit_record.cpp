@@ -73,6 +73,20 @@ std::string carried_columns(const StoredReading& reading, const prognosis::Track
   return names;
 }
 
+/// Why a reading is not one of its part: its counter was set back, and the event does not say so.
+std::string before_installation(const UnitRecord& record, const StoredReading& reading,
+                                const TrackerUnits& units) {
+  const UnitPart& part = record.events->part();
+  const double since = reading.numbers[units.watched().axis];
+  if (!(since < 0) || !(part.from_use > 0)) return {};
+  const prognosis::ReadingColumn& axis = units.tracker().axis();
+  return fmt::format(
+      "{0} = {1:.6g} {2} lies before {3:.6g} {2}, at which part {4} was installed; if the counter "
+      "was set back then, cancel that event and report it with {0} = 0",
+      axis.name, from_si(axis.unit, since + part.from_use), axis.unit.text,
+      from_si(axis.unit, part.from_use), part.number);
+}
+
 Json json_of_moment(const UnitMoment& each) {
   return {
       each.key,       each.time_ms,   each.at,        each.measured ? Json(*each.measured) : Json(),
@@ -175,6 +189,8 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
   }
   if (!taken.counted) {
     ++record.not_counted;
+    const std::string before = before_installation(record, reading, units);
+    if (!before.empty()) record.last_problem = before;
     return;
   }
   if (!late) record.last_measured = measured_level(reading, added, units);
