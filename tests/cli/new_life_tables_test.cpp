@@ -42,6 +42,19 @@ TEST_F(NewLifeTables, AStepStressTest) {
   EXPECT_NEAR(middle("slope"), 2, 0.8);
 }
 
+// One row for each unit, with its dates: counted by month. Its end is the last date of the table.
+TEST_F(NewLifeTables, UnitsWithDatesOfSaleAndReturn) {
+  const std::string said = fitted("units.csv", example("warranty/units.csv"));
+  EXPECT_THAT(said,
+              AllOf(HasSubstr("units with their dates of sale and of return"),
+                    HasSubstr("sold: column 'sale date'"), HasSubstr("the last date of the table"),
+                    HasSubstr("column 'serial' is not used")));
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("returned = \"failure date\""));
+  // As examples/warranty/units.toml has it, whose table ends in the same month.
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("until    = \"2025-12\""));
+  EXPECT_NEAR(middle("slope"), 1.2, 0.5);
+}
+
 // What is like one, but is none: a failure before the last row, a condition that was read, ages that do not rise.
 TEST_F(NewLifeTables, TablesThatAreNoSteps) {
   for (const char* rows :

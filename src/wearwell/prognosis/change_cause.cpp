@@ -69,19 +69,29 @@ struct Best {
   }
 };
 
+// A unit may be noisier than the forecast of its population, before and after: then its scatter is estimated, too.
 void try_factors(Since part, std::size_t first, double before, Best& best) {
+  constexpr double most_scatter = 5;  // spreads
   const bool off = std::any_of(part.begin(), part.end(), [](const ReadingSince& each) {
     return std::abs(each.measured - each.expected) > near * each.spread;
   });
+  if (!off) return;
   for (const double factor : factors) {
-    double sum = before + choice;
-    bool fits = off;
+    double square = 0, largest = 0, logarithms = 0;
     for (const ReadingSince& each : part) {
       const double deviation = factor * (each.measured - each.added) - (each.expected - each.added);
-      fits = fits && std::abs(deviation) <= near * each.spread;
-      sum += cost(deviation / factor, each.spread / factor);
+      square += std::pow(deviation / each.spread, 2);
+      largest = std::max(largest, std::abs(deviation / each.spread));
+      logarithms += 2 * std::log(each.spread / factor);
     }
-    if (fits) best.offer({ChangeKind::factor, first, factor, factor < 1}, sum);
+    const auto count = static_cast<double>(part.size());
+    const ChangeCause cause{ChangeKind::factor, first, factor, factor < 1};
+    if (largest <= near) best.offer(cause, before + choice + square + logarithms);
+    const double scatter = std::sqrt(square / count);
+    if (part.size() < 3 || !(scatter > 1) || scatter > most_scatter || largest > near * scatter)
+      continue;
+    best.offer(cause,
+               before + choice + parameter + logarithms + count * (1 + 2 * std::log(scatter)));
   }
 }
 

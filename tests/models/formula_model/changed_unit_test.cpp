@@ -85,6 +85,19 @@ TEST(ChangedUnit, ReportsMillimetres) {
 }
 
 // From the first reading on, where no earlier reading contradicts; and a new part on the counter of an earlier one.
+// Deviations four times as large as the population's, before and after.
+TEST(ChangedUnit, ReportsMillimetresThoughItScattersMoreThanOthers) {
+  for (const auto& [factor, words] : {std::pair(1000.0, "by 1/1000: the unit has changed"),
+                                      {0.001, "by 1000: the unit has changed"}}) {
+    WatchedGuide guide(guides(), "M1");
+    for (int i = 1; i <= 13; ++i) {
+      const double wear = 6.0 * i + 4 * deviations[(i - 1) % 10];
+      guide.read(300 * i, i > 8 ? factor * wear : wear);
+    }
+    EXPECT_THAT(guide.watch.reason(), HasSubstr(words));
+  }
+}
+
 TEST(ChangedUnit, IsNoneOfItsPopulation) {
   WatchedGuide metres(guides(), "M1");
   metres.read(300, 6.4 * 1000);

@@ -111,7 +111,7 @@ TEST_F(StepStressTest, EquivalentAgesAreThoseOfOneStress) {
     at.push_back(each.at / 3600);
     if (each.seen == Censoring::interval) until.push_back(each.until / 3600);
   }
-  const auto near = [](double x) { return ::testing::DoubleNear(x, 1e-9 * x); };
+  const auto near = [](double h) { return ::testing::DoubleNear(h, 1e-9 * h); };
   EXPECT_THAT(
       at, ::testing::UnorderedElementsAre(
               near(hours(used(10, 10) + used(10, 12) + used(5.5, 14))), near(hours(used(4.5, 10))),

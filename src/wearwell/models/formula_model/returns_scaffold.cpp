@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
+#include "wearwell/input/columns.h"
+#include "wearwell/input/month_text.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/models/formula_model/returns_period.h"
 #include "wearwell/models/formula_model/returns_triangle.h"
 
 namespace wearwell::formula_model {
@@ -28,12 +32,114 @@ double length_of(const Table& table) {
   return std::max<double>(1, static_cast<double>(table.columns.size() - others));
 }
 
+// The life of units, and what is asked of it, for a table that covers so many periods.
+std::string life_text(double periods, const std::string& unit) {
+  return fmt::format(
+      "# warranty = \"36 {}\"                  # in use; later failures are not claimed\n\n"
+      "[likelihood.life]\nfamily = \"weibull\"                       # or lognormal, loglogistic, "
+      "gamma (docs/reference/formula-models.md)\n"
+      "scale  = \"characteristic\"                # 63.2 % have failed by then\nshape  = "
+      "\"slope\"\n\n"
+      "# Prior knowledge: PROPOSED as weak priors from the length of the table. Replace them with "
+      "what you know.\n[prior]\n"
+      "characteristic = {{ distribution = \"lognormal\", median = \"{} {}\", log_sd = 2 }}    # a "
+      "factor of 27 to either side\n"
+      "slope = {{ distribution = \"lognormal\", median = 1.2, log_sd = 0.5 }}    # below 1: early "
+      "failures, above: wear-out\n\n"
+      "[predict]\nnext = \"12 {}\"                        # returns to come\n"
+      "# cost_per_return = \"180 EUR\"\n"
+      "# planned_sales = {{ file = \"planned_sales.csv\" }}    # columns: period of sale, units\n",
+      unit, rounded_up(10 * periods), unit, unit);
+}
+
+// Dates of one column: how many cells have one, and the first and the last month.
+struct Dates {
+  std::size_t cells = 0;
+  int first = 0, last = 0;
+};
+
+// Empty if a cell holds anything else, or none a date.
+std::optional<Dates> dates_in(const Table& table, const Column& column) {
+  Dates dates;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const std::string cell = cell_word(column, row);
+    if (cell.empty()) continue;
+    const auto period = period_in(cell);
+    if (!period || !period->calendar) return {};
+    dates.first = dates.cells == 0 ? period->number : std::min(dates.first, period->number);
+    dates.last = dates.cells == 0 ? period->number : std::max(dates.last, period->number);
+    ++dates.cells;
+  }
+  if (dates.cells == 0) return {};
+  return dates;
+}
+
+bool has_any(const std::string& heading, std::initializer_list<const char*> words) {
+  const std::string folded = folded_word(heading);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return folded.find(word) != std::string::npos; });
+}
+
+bool names_a_sale(const std::string& heading) {
+  return has_any(heading, {"sold", "sale", "deliver", "ship", "install", "in service", "commission",
+                           "verkauf", "liefer", "inbetrieb", "vente", "vendu", "livr", "venta"});
+}
+
+bool names_a_return(const std::string& heading) {
+  return has_any(heading, {"return", "fail", "claim", "repair", "ausfall", "reklam", "rueck",
+                           "rück", "retour", "panne", "fallo", "devol"});
+}
+
+// One row for each unit: a date of sale, and a date of return that is empty for units still in use.
+std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
+  const Table& table = roles.table();
+  const Column *sold = nullptr, *returned = nullptr;
+  Dates sales, returns;
+  std::vector<std::string> unread;
+  for (const Column& each : table.columns) {
+    const auto dates = dates_in(table, each);
+    if (dates && names_a_sale(each.name) && dates->cells == table.rows && !sold) {
+      sold = &each;
+      sales = *dates;
+    } else if (dates && names_a_return(each.name) && !returned) {
+      returned = &each;
+      returns = *dates;
+    } else {
+      unread.push_back(each.name);
+    }
+  }
+  if (!sold || !returned) return {};
+  const int last = std::max(sales.last, returns.last);
+  const std::string until = month_text(last);
+  Scaffold study;
+  study.reading = "units with their dates of sale and of return, counted by month";
+  study.fit = roles.choices().columns.empty() ? ReadingFit::specific : ReadingFit::none;
+  study.taken = {fmt::format("sold: column '{}'", sold->name),
+                 fmt::format("returned: column '{}', empty for a unit that did not come back",
+                             returned->name)};
+  study.guesses = {
+      fmt::format("until {}, the last date of the table: state the last month that it covers if "
+                  "that is later",
+                  until)};
+  for (const std::string& each : unread)
+    study.guesses.push_back(fmt::format("column '{}' is not used", each));
+  study.text = fmt::format(
+      "title = {}\nmodel = \"formula\"\n\n{}"
+      "[data.returns]                           # a row is a unit; counted by month\n"
+      "sold     = {}\nreturned = {}\n"
+      "until    = {}                     # the last date of the table; later months without a date "
+      "count, too\n{}",
+      toml_text("Returns, from " + roles.file()), roles.data_section(), toml_text(sold->name),
+      toml_text(returned->name), toml_text(until), life_text(last - sales.first + 1, "month"));
+  return study;
+}
+
 }  // namespace
 
 std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
   const Table& table = roles.table();
   const auto columns = triangle_columns(table);
-  if (!columns) return {};
+  if (!columns) return first_units_study(roles);
   Scaffold study;
   study.reading = "returns triangle (Nevada table): units sold and their returns by period";
   study.fit = ReadingFit::specific;
@@ -59,22 +165,9 @@ std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
       "return\nsold     = {}\nquantity = {}\n{}"
       "ages     = \"middle\"                      # of the period of sale; or start, end, whole "
       "(docs/reference/warranty.md)\n"
-      "# warranty = \"36 {}\"                  # in use; later failures are not claimed\n\n"
-      "[likelihood.life]\nfamily = \"weibull\"                       # or lognormal, loglogistic, "
-      "gamma (docs/reference/formula-models.md)\n"
-      "scale  = \"characteristic\"                # 63.2 % have failed by then\nshape  = "
-      "\"slope\"\n\n"
-      "# Prior knowledge: PROPOSED as weak priors from the length of the table. Replace them with "
-      "what you know.\n[prior]\n"
-      "characteristic = {{ distribution = \"lognormal\", median = \"{} {}\", log_sd = 2 }}    # a "
-      "factor of 27 to either side\n"
-      "slope = {{ distribution = \"lognormal\", median = 1.2, log_sd = 0.5 }}    # below 1: early "
-      "failures, above: wear-out\n\n"
-      "[predict]\nnext = \"12 {}\"                        # returns to come\n"
-      "# cost_per_return = \"180 EUR\"\n"
-      "# planned_sales = {{ file = \"planned_sales.csv\" }}    # columns: period of sale, units\n",
+      "{}",
       toml_text("Returns, from " + roles.file()), roles.data_section(), toml_text(columns->period),
-      toml_text(columns->quantity), line, unit, rounded_up(10 * length_of(table)), unit, unit);
+      toml_text(columns->quantity), line, life_text(length_of(table), unit));
   return study;
 }
 
