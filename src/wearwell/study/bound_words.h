@@ -13,8 +13,9 @@ std::vector<std::string> bound_headings(const std::string& level, BoundSides sid
 /// The same in the report: "At least, 90 % confidence".
 std::vector<std::string> bound_columns(double level, BoundSides sides);
 
-/// What they mean, below the table.
-std::string bound_sentence(const std::string& level, BoundSides sides);
+/// What they mean, below the table of a population's quantities. Of a share that fails, a lower bound is none to design with.
+std::string bound_sentence(const std::vector<QuantitySummary>& quantities, const std::string& level,
+                           BoundSides sides);
 
 /// The first bounded quantity that is none of a population, whose bounds have a table of their own; null if
 /// there is none.

@@ -163,8 +163,8 @@ void add_tails(const std::vector<QuantitySummary>& quantities, bool bounds, Sect
 std::string design_values_text(const std::vector<QuantitySummary>& quantities) {
   const auto bounded = std::find_if(quantities.begin(), quantities.end(),
                                     [](const auto& each) { return each.best().predictive; });
-  return html::capital(
-             bound_sentence(given(100 * *bounded->credible_level) + " %", bounded->sides)) +
+  return html::capital(bound_sentence(quantities, given(100 * *bounded->credible_level) + " %",
+                                      bounded->sides)) +
          " 5, 50 and 95 % are quantiles of the same value. Next one: the value for the next item, "
          "averaged over the posterior (predictive). It has no margin for few tests.";
 }

@@ -251,7 +251,7 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   const std::string never = never_reached(quantities);
   return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
          tail_lines(quantities, true) + (never.empty() ? "" : wrapped(never, 2, 4)) +
-         wrapped(bound_sentence(level, sides), 2, 4) +
+         wrapped(bound_sentence(quantities, level, sides), 2, 4) +
          wrapped(
              "next one: the value for the next item, averaged over the posterior (predictive). It "
              "has no margin for few tests: do not design with it.",
