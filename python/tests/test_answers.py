@@ -113,6 +113,8 @@ def test_matplotlib_gets_the_same_numbers():
     assert [each.of("set_title")[0][0][0].split(",")[0] for each in both] == ["k", "sigma"] and both[0].of("bar")
     with pytest.raises(ww.InputError, match="1 axes for the 2 figures belief-k, belief-sigma"):
         fit_of("joint").plot("posterior", ax=Axes())
+    with pytest.raises(ww.InputError, match="ax: int is no axes of matplotlib"):
+        fit_of("weibull").plot("probability", ax=3)
 
 
 def test_numbers_of_axes():

@@ -119,7 +119,8 @@ def test_parquet_and_csv_files(usual, tmp_path):
     (lambda d: d.assign(F=pd.date_range("2026-01-01", periods=len(d))), "column 'F' holds dates or times"),
     (lambda d: d.assign(F=pd.date_range("2026-01-01", periods=len(d), tz="UTC")), "column 'F' holds dates, times or intervals \\(datetime64\\[ns, UTC"),
     (lambda d: d.assign(F=pd.Categorical(pd.date_range("2026-01-01", periods=len(d), tz="UTC"))), "column 'F' holds dates"),
-    (lambda d: d.assign(F=pd.to_timedelta(range(len(d)), unit="h")), "column 'F' holds dates or times"),
+    (lambda d: d.assign(F=pd.to_timedelta(range(len(d)), unit="h")),
+     "column 'F' holds dates or times \\(timedelta64\\[ns\\]\\); divided by pandas.Timedelta\\('1h'\\) they are hours"),
     (lambda d: d.assign(F=pd.period_range("2026", periods=len(d))), "column 'F' holds dates, times or intervals \\(period"),
     (lambda d: d.assign(F=pd.interval_range(0, len(d))), "column 'F' holds dates, times or intervals \\(interval"),
     (lambda d: {**d, "F": [pd.Timestamp("2026-01-01")] * len(d)}, "row 1, column 'F': Timestamp; dates and times"),
@@ -154,8 +155,8 @@ def test_parquet_and_csv_files(usual, tmp_path):
     (lambda d: {**d, "F": np.ones((len(d), 2))}, "column 'F' has 2 dimensions"),
     (lambda d: {**d, "F": "100 N"}, "column 'F' is str"),
     (lambda d: {**d, "F": [b"1"] * len(d)}, "column 'F' holds bytes"),
-    (lambda d: d.rename(columns={"F": 7}), "the heading 7 is int"),
-    (lambda d: [1, 2, 3], "list"),
+    (lambda d: d.rename(columns={"F": 7}), "the heading 7 is int; headings are texts \\(frame.columns = frame.columns.map\\(str\\)\\)"),
+    (lambda d: [1, 2, 3], "list.*path of a file \\(pandas.DataFrame\\(data\\)\\)"),
     (lambda d: 3.5, "float"),
 ])
 def test_what_is_no_table_is_refused_in_words(change, message):

@@ -10,6 +10,7 @@ import pytest
 
 import wearwell as ww
 from monitored import monitored
+from wearwell._monitor import _plain
 from test_follow import fit, fleet, in_time, messages_of  # noqa: F401  (fixtures)
 
 token = "0123456789abcdef0123"
@@ -136,3 +137,11 @@ def test_token(fleet, tmp_path):  # noqa: F811
         with pytest.raises(ww.InputError, match=address):
             ww.Monitor(address).fleet()
         assert ww.Monitor(address, token=token).fleet()["units"]["all"] == 0
+
+
+def test_times_of_numpy_are_times_and_durations_are_refused():
+    for each in (np.datetime64("2026-05-05T12:00", "ns"), np.datetime64("2026-05-05T12:00", "s"), pd.Timestamp("2026-05-05T12:00")):
+        assert _plain(each, "time", 1) == "2026-05-05T12:00:00"
+    assert _plain(np.datetime64("NaT"), "time", 1) is None and _plain(np.int32(7), "hours", 1) == 7
+    with pytest.raises(ww.InputError, match="readings, row 2, 'hours' is timedelta64; it is a number, a text or a time"):
+        _plain(np.timedelta64(7, "ns"), "hours", 2)

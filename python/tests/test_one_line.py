@@ -582,6 +582,18 @@ def of_fleet():
     (lambda f: f.survival_function(-5), "times is -5; lives of this study are 0 or more"),
     (lambda f: f.survival_function([1, "-5 h"]), "times holds '-5 h'; lives of this study are 0 or more"),
     (lambda f: f.hazard(np.array([-0.5])), "times is -0.5; lives of this study are 0 or more"),
+    (lambda f: f.survival_function(pd.to_timedelta([100], unit="h")), "times is Timedelta; it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: f.survival_function(pd.to_timedelta([100], unit="h").to_numpy()),  # 3.6e14 ns as a whole number, else
+     "times holds dates or times (timedelta64[ns]); it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: f.hazard(np.array(["2026-01-01"], dtype="datetime64[ns]")),
+     "times holds dates or times (datetime64[ns]); it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: f.conditional(np.timedelta64(100, "ns")),
+     "survived holds dates or times (timedelta64[ns]); it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: f.life(survived=np.timedelta64(100, "ns")),
+     "survived holds dates or times (timedelta64[ns]); it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: f.ask({"survival_to": np.array([100], dtype="timedelta64[ns]")}),
+     "predict.survival_to holds dates or times (timedelta64[ns]); it is a number, or a text with a unit, like '100 h'"),
+    (lambda f: ww.compare(f, 3), "fit 2 is int; it is a fit, or the folder of a result"),
     (lambda f: f.conditional(-1), "survived is -1; lives of this study are 0 or more"),
     (lambda f: f.life(survived="-1 h"), "survived is '-1 h'; lives of this study are 0 or more")])
 def test_questions_are_refused_in_the_words_of_arguments(ask, said):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from ._data import headings_of
 from ._errors import InputError
+from ._toml import of_numpy, quantity
 
 
 def tables_of(fit, models=("formula",)):
@@ -56,9 +57,15 @@ def axis_of(study, columns, along):
     return None
 
 
-def _written(value, unit):
-    if hasattr(value, "item"):
-        value = value.item()
+def _written(value, unit, what):
+    """A number with its unit, a text and a quantity of pint with their own."""
+    if hasattr(value, "total_seconds"):
+        raise InputError(f"{what} is {type(value).__name__}; it is a number, or a text with a unit, like '100 h'")
+    if hasattr(value, "magnitude") and hasattr(value, "units"):
+        return quantity(value, what)
+    if hasattr(value, "tolist"):
+        value = of_numpy(value, what)
+        value = value[0] if isinstance(value, list) and len(value) == 1 else value
     if isinstance(value, str) or not unit:
         return value
     return f"{value!r} {unit}"
@@ -69,7 +76,7 @@ def in_column(heading, value, names):
     match = None if heading in names or not isinstance(heading, str) else re.match(r"\s*(.*?)\s*[\[(](.*)[\])]\s*\Z", heading)
     if not match or match[1] not in names:
         return heading, value
-    return match[1], value if value is None or isinstance(value, (str, Mapping)) or value != value else _written(value, match[2])
+    return match[1], value if value is None or isinstance(value, (str, Mapping)) or value != value else _written(value, match[2], heading)
 
 
 def _frame_of(new):
@@ -170,9 +177,9 @@ def predict(fit, new, level, kind, along):
         each = dict(zip(asked, row))
         groups.setdefault((whose[position], *(each[c] for c in others)), []).append((position, each[axis]))
     for (_, *given), places in groups.items():
-        table = {"along": axis, "at": [_written(at, columns[axis]) for _, at in places]}
+        table = {"along": axis, "at": [_written(at, columns[axis], axis) for _, at in places]}
         if others:
-            table["given"] = {c: _written(v, columns[c]) for c, v in zip(others, given)}
+            table["given"] = {c: _written(v, columns[c], c) for c, v in zip(others, given)}
         for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]])):
             answers[position] = found
     if not all(answers[i] for i in range(len(rows))):

@@ -31,7 +31,8 @@ def _numbers(array, where):
     if kind in "fiub":
         return array
     if kind in "mM":
-        raise InputError(f"{where} holds dates or times ({array.dtype}); give a number with a unit, like hours since the start")
+        advice = "give a number with a unit, like hours since the start" if kind == "M" else "divided by pandas.Timedelta('1h') they are hours"
+        raise InputError(f"{where} holds dates or times ({array.dtype}); {advice}")
     if kind == "c":
         raise InputError(f"{where} holds complex numbers")
     return None
@@ -149,7 +150,7 @@ def _headings(names, where):
             raise InputError(f"{where}: the heading {name!r} has {len(name)} levels; columns have one name each "
                              "(frame.columns = ['_'.join(c) for c in frame.columns])")
         if not isinstance(name, str):
-            raise InputError(f"{where}: the heading {name!r} is {type(name).__name__}; headings are texts")
+            raise InputError(f"{where}: the heading {name!r} is {type(name).__name__}; headings are texts (frame.columns = frame.columns.map(str))")
 
 
 def table(data, *, units=None, name="data"):
@@ -223,7 +224,7 @@ def table_of(data, name="data", units=None, only=None):
     else:
         raise InputError(
             f"{name} is {type(data).__name__}; it may be a data frame, a dict of columns, a structured array, an Arrow "
-            "stream, or the path of a file"
+            "stream, or the path of a file" + (f" (pandas.DataFrame({name}))" if hasattr(data, "__len__") else "")
         )
     if units:
         table.add_units(units)

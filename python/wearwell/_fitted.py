@@ -39,6 +39,8 @@ def named_folders(fits, names):
                 path = os.path.join(folder, str(i))
                 _core.write_folder(path, list(each._files().items()))
             else:
+                if not isinstance(each, (str, os.PathLike)):
+                    raise InputError(f"{names[i] if names else f'fit {i + 1}'} is {type(each).__name__}; it is a fit, or the folder of a result")
                 path = usual = os.fspath(each)
             pairs.append((names[i] if names else usual, path))
         yield pairs

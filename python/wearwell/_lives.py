@@ -42,7 +42,7 @@ def _of_formula(study, limit, unit, survived, along):
             shown = columns_of(study)[measured]
             if not isinstance(table["survived"], str) and shown[:1].isdigit():  # "1e6 cycles": multiples, or cycles?
                 raise InputError(f"survived is {survived} without a unit, and {measured} is in '{shown}': write the number with its unit")
-            table["survived"] = _written(table["survived"], shown)
+            table["survived"] = _written(table["survived"], shown, "survived")
         return table
     columns = columns_of(study)
     if not isinstance(limit, dict):

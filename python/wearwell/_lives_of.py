@@ -83,7 +83,7 @@ def conditions(fit, study, given):
             elif isinstance(value, Mapping):  # a distribution over the units
                 values[key] = _toml.distribution(value, f"given.{key}")
             else:
-                values[key] = _written(value, columns[key])
+                values[key] = _written(value, columns[key], f"given: {key}")
         found.append((tuple(str(value) if isinstance(value, Mapping) else value for value in row.values()) if given is not None else tuple(row[key] for key in differ), {**usual, **values}))
     return differ, found
 
@@ -170,7 +170,7 @@ def survival_function(fit, times, given):
     keys = (*_quantiles, "predictive")
     rows = []
     for labels, values in found:
-        answers = [each for each in _asked_of(fit, values, {"survival_to": [_written(each, unit) for each in times]},
+        answers = [each for each in _asked_of(fit, values, {"survival_to": [_written(each, unit, "times") for each in times]},
                                                        {"survival_to": ("times", times, _units_of_lives(name, unit))})
                    if each["name"].startswith("survival to ")]
         rows += [(labels, at, {key: each[key] / 100 for key in keys}) for at, each in zip(times, answers, strict=True)]
@@ -185,7 +185,7 @@ def hazard(fit, times, given):
     differ, found = conditions(fit, study, given)
     rows, of = [], None
     for labels, values in found:
-        answers = [each for each in _asked_of(fit, values, {"hazard_at": [_written(each, unit) for each in times]},
+        answers = [each for each in _asked_of(fit, values, {"hazard_at": [_written(each, unit, "times") for each in times]},
                                                        {"hazard_at": ("times", times, _units_of_lives(name, unit))})
                    if each["name"].startswith("hazard at ")]
         rows += [(labels, at, {key: each[key] for key in _quantiles}) for at, each in zip(times, answers, strict=True)]
@@ -240,7 +240,7 @@ def conditional(fit, survived, b, given, confidence):
     keys = (*_quantiles, "predictive", "bound")
     rows = []
     for labels, values in found:
-        answers = _asked_of(fit, values, {"survived": _written(survived, unit), "b_lives": b, "mean_life": True, "credible_level": confidence},
+        answers = _asked_of(fit, values, {"survived": _written(survived, unit, "survived"), "b_lives": b, "mean_life": True, "credible_level": confidence},
                             {"survived": ("survived", survived, _units_of_lives(name, unit)), "credible_level": ("confidence", confidence, "")})
         require_determined(answers, "a new item", survived)
         wanted = [each for each in answers if each["name"].startswith("survival to ")]

@@ -371,7 +371,10 @@ def _plain(value, key, row):
     if hasattr(value, "isoformat"):
         return value.isoformat() if value == value else None  # NaT is missing
     if hasattr(value, "item"):
-        value = value.item()
+        kind = getattr(getattr(value, "dtype", None), "kind", "")
+        if kind == "M":  # of numpy; its nanoseconds would be a whole number
+            return value.astype("datetime64[us]").item().isoformat() if value == value else None
+        value = value if kind == "m" else value.item()
     if value is None or isinstance(value, (str, bool, int)):
         return value
     if isinstance(value, float):

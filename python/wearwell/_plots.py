@@ -116,7 +116,7 @@ class Plot:
         Raises
         ------
         InputError
-            If there are fewer axes than figures.
+            If there are fewer axes than figures, or ``ax`` is something else.
 
         Examples
         --------
@@ -136,6 +136,9 @@ class Plot:
         if len(axes) < len(self._figures):
             raise InputError(f"ax: {len(axes)} axes for the {len(self._figures)} figures {', '.join(self.figures)}; make them with "
                              f"matplotlib.pyplot.subplots(1, {len(self._figures)})")
+        other = next((each for each in axes if not hasattr(each, "fill_between")), None)
+        if other is not None:
+            raise InputError(f"ax: {type(other).__name__} is no axes of matplotlib; figure, ax = matplotlib.pyplot.subplots() makes them")
         for each, one in zip(self._figures, axes):
             draw(one, each["specification"], each["title"])
         return ax

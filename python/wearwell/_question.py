@@ -10,7 +10,7 @@ from . import _core
 from ._data import table_of
 from ._errors import InputError, missing_files
 from ._progress import reporter
-from ._toml import quantity
+from ._toml import of_numpy, quantity
 
 
 def _written(value, name):
@@ -24,7 +24,7 @@ def _written(value, name):
     if isinstance(value, Mapping):
         return {str(key): _written(each, name) for key, each in value.items()}
     if hasattr(value, "tolist"):  # a number or an array of numpy, a column of pandas
-        return _written(value.tolist(), name)
+        return _written(of_numpy(value, name), name)
     if isinstance(value, numbers.Integral):
         return int(value)
     if isinstance(value, numbers.Real):

@@ -20,6 +20,13 @@ def quantity(value, what):
     raise InputError(f"{what} is {type(value).__name__}; it is a number or a text with a unit, like '5 mm^3'")
 
 
+def of_numpy(value, what):
+    """A number or an array of numpy as Python has it. Dates and durations are refused: some would be whole numbers of nanoseconds."""
+    if getattr(getattr(value, "dtype", None), "kind", "") in ("m", "M"):
+        raise InputError(f"{what} holds dates or times ({value.dtype}); it is a number, or a text with a unit, like '100 h'")
+    return value.tolist()
+
+
 def distribution(value, what):
     """A distribution with its keys, as a study file writes it: numbers, texts, pint quantities and lists of them."""
     return {key: [quantity(one, f"{what}.{key}") for one in each] if isinstance(each, (list, tuple)) else quantity(each, f"{what}.{key}")
@@ -67,7 +74,7 @@ def value(item, what):
     if isinstance(item, (list, tuple)):
         return "[" + ", ".join(value(each, what) for each in item) + "]"
     if hasattr(item, "tolist"):  # a number or an array of numpy
-        return value(item.tolist(), what)
+        return value(of_numpy(item, what), what)
     if hasattr(item, "magnitude"):
         return _text(str(quantity(item, what)))
     raise InputError(f"{what} is {type(item).__name__}; a study holds texts, numbers, lists and dicts of them")
