@@ -305,11 +305,13 @@ async function large(browser) {
   await page.waitForFunction(() => document.getElementById('study').value.includes('0.12 mm'), null, {timeout: 60000});
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
   // What is typed into a field stays when the form is made again.
+  const made = page.waitForResponse((response) => response.url().endsWith('/api/form'), {timeout: 60000});
   await page.fill('#study', `${await page.inputValue('#study')}\n`);
   await page.focus('#key-title');
   await page.keyboard.press('End');
   await page.keyboard.type(' of liners');
-  await page.waitForTimeout(600);
+  await made;
+  await page.waitForFunction(() => !document.body.hasAttribute('aria-busy'), null, {timeout: 60000});
   check((await page.inputValue('#key-title')).endsWith(' of liners'), `large: a form that is made again has ${await page.inputValue('#key-title')}`);
   await page.keyboard.press('Tab');
   await page.waitForFunction(() => /^title = .* of liners"/m.test(document.getElementById('study').value), null, {timeout: 60000});
@@ -489,10 +491,12 @@ async function priors(browser, {name, ...options}) {
 
   await page.focus('#prior-characteristic-spread');
   const [, spread] = await written();
+  const livesFollow = page.waitForResponse((response) => response.url().endsWith('/api/priors'), {timeout: 60000});
   for (let i = 0; i < 3; ++i) await page.keyboard.press('ArrowRight');
   await page.waitForFunction((old) => !document.getElementById('study').value.includes(`log_sd = ${old} }`), spread, {timeout: 60000});
   await page.waitForFunction(() => { const at = /log_sd = ([0-9.]*)/.exec(document.getElementById('study').value)[1]; return document.getElementById('key-prior.characteristic.log_sd').value === at; }, null, {timeout: 60000});
-  await page.waitForTimeout(1500);  // no move follows: check and lives come then
+  await livesFollow;  // no move follows: check and lives come then
+  await page.waitForFunction(() => !document.body.hasAttribute('aria-busy'), null, {timeout: 60000});
   check(await page.evaluate(() => document.activeElement.id) === 'prior-characteristic-spread', `${name}: the handle loses the focus`);
   check(/^[0-9].* h$/.test(await page.getAttribute('#prior-characteristic-spread', 'aria-valuetext')), `${name}: the handle has no value in words`);
   const [middle, wider] = await written();
@@ -527,6 +531,89 @@ async function priors(browser, {name, ...options}) {
   faults.push(...complaints.map((each) => `${name}: ${each}`));
 }
 
+// The study and the table are corrected from the page: lines of headings and units by a click, a unit in its heading, and the advice of a check.
+async function corrections(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  writeFileSync(join(inside, 'wear.csv'), `part,hours,wear\n${['A', 'B', 'C', 'D'].flatMap((each, i) => [100, 200, 400, 700].map((at) => `${each},${at},${(0.05 + 0.01 * i) * at + (at % 3) / 10}\n`)).join('')}`);
+  writeFileSync(join(inside, 'rig.csv'), `Rig 4\nrun by Smith\n\nspecimen,hours,status\n,h,\n${hours.map((each, i) => `S${i},${each},${i < 11 ? 'failure' : 'running'}\n`).join('')}`);
+  writeFileSync(join(inside, 'controllers.csv'), readFileSync(new URL('../../examples/life/controllers.csv', import.meta.url)));
+  const {address, stop} = await serve(join(inside, 'wear.csv'));
+  const context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  const study = () => page.inputValue('#study');
+  const good = () => page.waitForSelector('.check[data-state="good"]', {state: 'attached', timeout: 60000});
+  const openTable = async (table) => {
+    await page.click('#step-data');
+    await page.selectOption('#in-folder', table);
+    await page.click('#panel-data .doors button');
+    await page.waitForFunction((file) => document.querySelector('#panel-data caption')?.textContent.startsWith(file), table, {timeout: 60000});
+  };
+
+  // The unit that the guess took stands in the heading, and is changed there.
+  await page.waitForFunction(() => document.getElementById('unit-2')?.value === 'um', null, {timeout: 60000});
+  await good();
+  await page.fill('#unit-2', 'mm');
+  await page.press('#unit-2', 'Enter');
+  await page.waitForFunction(() => document.getElementById('study').value.includes('column = "wear", unit = "mm"'), null, {timeout: 60000});
+  await page.waitForSelector('#panel-data .note:has-text("reads wear in this unit: mm")', {timeout: 60000});
+  await good();
+  await page.fill('#unit-2', 'kg');
+  await page.press('#unit-2', 'Enter');
+  await page.waitForSelector('#banners .callout:has-text("kg")', {timeout: 60000});
+  check(await page.inputValue('#unit-2') === 'mm' && (await study()).includes('unit = "mm"'), `${name}: a unit that is refused stays`);
+  await looks(page, `${name} unit`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-unit.png`), fullPage: true});
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await page.click('#banners button');
+
+  // Lines of the file become headings and units.
+  await openTable('rig.csv');
+  const head = () => page.$$eval('#panel-data thead th span', (all) => all.map((each) => each.textContent).join());
+  const heads = (wanted) => page.waitForFunction((text) => [...document.querySelectorAll('#panel-data thead th span')].map((each) => each.textContent).join() === text, wanted, {timeout: 60000});
+  check(await head() === 'specimen,hours,status', `${name}: headings are ${await head()}`);
+  const rows = await page.textContent('#panel-data caption');
+  await page.click('#line-6');
+  await looks(page, `${name} line`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-line.png`), fullPage: true});
+  await page.click('#heading-lines button:has-text("There is no line of units")');
+  await page.waitForFunction((before) => document.querySelector('#panel-data caption').textContent !== before, rows, {timeout: 60000});
+  check((await page.textContent('#panel-data caption')).includes('16 rows'), `${name}: without a line of units there are ${await page.textContent('#panel-data caption')}`);
+  await page.click('#line-5');
+  await page.click('#heading-lines button:has-text("These are units")');
+  await page.waitForFunction((before) => document.querySelector('#panel-data caption').textContent === before, rows, {timeout: 60000});
+  check(await page.inputValue('#setting-header_row') === '4' && await page.inputValue('#setting-units_row') === 'below', `${name}: the settings are not those of the click`);
+  await page.click('#heading-lines summary');
+  await page.click('#heading-lines li:nth-child(6) button');
+  await page.click('#heading-lines button:has-text("These are the headings")');
+  await heads('S0,212.5,failure');
+  await page.click('#heading-lines li:nth-child(4) button');
+  await page.click('#heading-lines button:has-text("These are the headings")');
+  await heads('specimen,hours,status');
+
+  // The advice of a check is followed by a click: a mixture, under a name of its own.
+  await openTable('controllers.csv');
+  await page.click('#notice button:has-text("Guess")', {timeout: 5000}).catch(() => {});
+  await page.waitForFunction(() => document.getElementById('study').value.includes('controllers.csv'), null, {timeout: 60000});
+  await good();
+  await page.click('#step-fit');
+  await page.click('#panel-fit button');
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  await looks(page, `${name} advice`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-advice.png`), fullPage: true});
+  await page.click('.checks button:has-text("Fit a mixture")');
+  await page.waitForFunction(() => document.getElementById('study').value.includes('[subpopulations]'), null, {timeout: 60000});
+  await good();
+  check(await page.inputValue('#study-file') === 'controllers-mixture.toml' && (await study()).includes('"characteristic[subpopulation]"'), `${name}: the mixture is ${await study()}`);
+  await page.click('button:has-text("Undo")');
+  check(!(await study()).includes('[subpopulations]') && await page.inputValue('#study-file') === 'controllers.toml', `${name}: undo leaves the mixture`);
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await context.close();
+  await stop();
+  // The unit that is refused is a check that finds a problem, not a failed request.
+  faults.push(...complaints.map((each) => `${name}: ${each}`));
+}
+
 mkdirSync(screenshots, {recursive: true});
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -545,6 +632,7 @@ for (const each of [
   {name: 'priors-wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
   {name: 'priors-narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
 ]) await priors(browser, each);
+await corrections(browser, {name: 'corrections-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'});
 await errors(browser);
 await tabs(browser);
 await readings(browser);

@@ -58,6 +58,8 @@
     if (state === 'failed') wearwell.quietly(() => { throw new Error(problem); });
   }
 
+  const readWith = (wanted) => opens(() => wearwell.post('/api/table', {...named(), settings: wanted}));
+
   function sheets({file, sheets: names}) {
     place.sheets.replaceChildren(element('fieldset', {class: 'choices'}, element('legend', {}, strings.sheetTitle(file)),
         ...names.map((name) => wearwell.button(name, () => open(file, {sheet: name}), 'plain'))));
@@ -65,9 +67,10 @@
   }
 
   function head(column, index) {
-    const notes = [strings.kinds[column.kind], wearwell.unit(column.unit) || (column.kind === 'number' ? strings.noUnit : '')];
+    const isNumber = column.kind === 'number' || column.refused !== undefined, notes = [strings.kinds[column.kind], isNumber ? '' : wearwell.unit(column.unit)];
     if (column.empty) notes.push(strings.empty(column.empty));
     return element('th', {scope: 'col', 'data-column': index}, element('span', {}, column.name), element('small', {}, notes.filter(Boolean).join(', ')),
+        isNumber ? wearwell.unitField(column, index, (name, unit) => { place.moved.textContent = strings.unitChanged(name, unit || strings.noUnit); }) : null,
         column.refused ? element('small', {class: 'bad'}, strings.refused(column.refused)) : null,
         column.doubt ? element('small', {class: 'bad'}, column.doubt) : null);
   }
@@ -87,7 +90,7 @@
     place.grid.replaceChildren(
         element('caption', {}, strings.tableCaption(table.file, wearwell.count(table.rows), wearwell.count(table.columns.length))),
         element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, strings.row), ...columns.map((each, i) => head(each, fromColumn + i)))),
-        element('tbody', {}, ...found.map((each) => element('tr', {}, element('th', {scope: 'row'}, wearwell.count(each.row)),
+        element('tbody', {}, ...found.map((each) => element('tr', {}, place.lines.cell(each),
             ...each.cells.map((value, i) => cell(value, each.refused?.[fromColumn + i], fromColumn + i))))));
     place.rowsShown.textContent = strings.rowsShown(wearwell.count(from + 1), wearwell.count(from + found.length), wearwell.count(table.rows));
     place.earlier.disabled = from === 0;
@@ -112,7 +115,7 @@
       event.preventDefault();
       const wanted = {};
       for (const [key, field] of inputs) { const {value} = field.querySelector('input'); if (value) wanted[key] = value; }
-      opens(() => wearwell.post('/api/table', {...named(), settings: wanted}));
+      readWith(wanted);
     });
   }
 
@@ -157,6 +160,7 @@
     place.wide.hidden = !table.wide;
     place.wide.textContent = table.wide ? `${wearwell.capital(table.wide)}.` : '';
     settings();
+    place.lines.show(table);
     await rows();
     if (table !== next) return;
     plotChoices();
@@ -178,6 +182,7 @@
     });
     place.sheets = element('div', {});
     place.reading = wearwell.reading(ended);
+    place.lines = wearwell.headingLines(readWith);
     place.grid = element('table', {});
     place.settings = element('details', {});
     place.rowsShown = element('p', {role: 'status'});
@@ -202,7 +207,7 @@
         element('div', {class: 'field'}, element('label', {for: 'plot-by'}, strings.colourBy), place.by)), place.plot);
     place.moved = element('p', {class: 'note', role: 'status'});
     place.wide = element('p', {class: 'note', hidden: true});
-    place.table = element('div', {hidden: true}, place.wide, place.settings, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
+    place.table = element('div', {hidden: true}, place.wide, place.settings, place.lines.panel, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
         element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
     panel.append(element('h2', {}, strings.dataTitle),
         element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
@@ -229,6 +234,9 @@
     catchUp();
   }
 
+  // The study states other units, or none.
+  const unitsChanged = () => place.grid.querySelectorAll('input').forEach((each) => each.update());
+
   // A page that is opened again shows what the program has open.
-  wearwell.data = {build, files, session, has, openNamed, ofTable, named, restore: reload, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(() => ofTable(plot)); }};
+  wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(() => ofTable(plot)); }};
 })();

@@ -34,13 +34,13 @@
 
   const ofProgram = (found) => wearwell.table({...found, lang: 'en'});
 
-  function checks(all) {
+  function checks(all, folder) {
     const advised = all.some((each) => each.advice);
     const heads = [strings.check, strings.verdict, strings.finding, ...(advised ? [strings.advice] : [])];
     return element('div', {class: 'scroll whole', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
         element('thead', {}, element('tr', {}, ...heads.map((each) => element('th', {scope: 'col'}, each)))),
         element('tbody', {}, ...all.map((each) => element('tr', {}, element('th', {scope: 'row'}, each.name),
-            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {lang: 'en'}, each.detail), advised ? element('td', {lang: 'en'}, each.advice) : null)))));
+            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {lang: 'en'}, each.detail), advised ? wearwell.adviceCell(each.advice ?? '', folder) : null)))));
   }
 
   async function result() {
@@ -53,7 +53,7 @@
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
     place.result.replaceChildren(element('h3', {lang: 'en'}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks),
+        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks, found.folder),
         element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),
         details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)),
         ...wearwell.sameLines(found));

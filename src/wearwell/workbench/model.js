@@ -1,4 +1,5 @@
 'use strict';
+// Longer than others: one part of the page, with its state.
 // The step Model: how a table can be read, the study as a form and as text. The text is the study; the form is made from it.
 (() => {
   const {element, strings} = wearwell;
@@ -44,6 +45,16 @@
     changed();
   }
 
+  // A text that is a study of its own, not saved yet.
+  function becomes(name, next) {
+    remember();
+    place.name.value = name;
+    place.text.value = next;
+    hideGuess();
+    changed();
+    place.text.focus();
+  }
+
   function hideGuess() {
     [questions, unread] = [[], false];
     place.readings.hidden = true;
@@ -83,6 +94,7 @@
     if (checked !== text()) return false;
     keys = found.keys;
     form.show(keys);
+    wearwell.data.unitsChanged();
     compare();
     if (!found.problem) {
       place.check.dataset.state = 'checking';
@@ -113,6 +125,9 @@
 
   // The study, for the parts below the form: what they ask of it and how they change it.
   const study = {text, replace: (next) => replace(next, true), remember, changed,
+    keys: () => keys,
+    name: () => place.name.value,
+    readsTable: () => table !== null && itsTable() === table.file,
     asked: () => ({file: place.name.value || 'study.toml', text: text()}),
     isGood: () => place.check.dataset.state === 'good',
     // Of one of the columns of .priors and .papers.
@@ -344,5 +359,5 @@
     marks();
   }
 
-  wearwell.model = {build, leave, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
+  wearwell.model = {build, leave, study, becomes, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
 })();

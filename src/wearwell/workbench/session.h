@@ -27,7 +27,7 @@ struct OpenTable {
   std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes,
   Table as_stored = {};                ///< and this is the table before it
   std::uint64_t number = 0;            ///< of its reading: a request names the one it means
-  nlohmann::ordered_json shown = {};   ///< its `table_json`
+  nlohmann::ordered_json shown = {};   ///< its `table_json`, and the first lines of its file
 };
 
 enum class ReadState { none, running, done, sheets, failed, stopped };

@@ -63,6 +63,7 @@ void read_in_thread(Session& session, const std::string& file, const Settings& s
       open = std::make_shared<OpenTable>(open_table(session.folder, file, settings));
       open->number = number;
       open->shown = table_json(*open);
+      open->shown["first_lines"] = first_lines(path_in(session.folder, file));
     });
     end_reading(session, number, ReadState::done, [&] {
       session.table = open;
