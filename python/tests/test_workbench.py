@@ -59,7 +59,13 @@ def served(tmp_path_factory):
     folder.mkdir()
     (folder / "pumps.csv").write_text(table)
     with opened(folder) as ask:
-        session = ask("/api/open", {"file": "pumps.csv"}) and ask("/api/session")
+        ask("/api/open", {"file": "pumps.csv"})
+        for _ in range(1200):  # a table is read beside the answers
+            session = ask("/api/session")
+            if session["reading"]["state"] != "running":
+                break
+            time.sleep(0.05)
+        assert session["reading"]["state"] == "done", session["reading"]
         study = ask("/api/guess", {"file": "pumps.csv", "number": session["table_number"]})["readings"][0]["text"]
         for name, family in (("pumps", "weibull"), ("other", "gamma")):
             text = study.replace('family = "weibull"', f'family = "{family}"')

@@ -73,7 +73,7 @@ column = "mode"
 family = "exponential"
 mean = "m[mode]"
 [prior]
-m = { distribution = "flat" }
+m = { distribution = "flat", unit = "h" }
 [predict]
 survival_to = "100 h"
 )toml";

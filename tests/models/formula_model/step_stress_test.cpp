@@ -117,13 +117,6 @@ TEST_F(StepStressTest, EquivalentAgesAreThoseOfOneStress) {
               near(hours(used(10, 10) + used(10, 12) + used(5.5, 14))), near(hours(used(4.5, 10))),
               near(hours(used(10, 10) + used(21, 12))), near(hours(used(12, 11) + used(8, 13)))));
   EXPECT_THAT(until, ::testing::ElementsAre(near(hours(used(12, 11) + used(28, 13)))));
-  // Of a shape that depends on the stress no age is equivalent.
-  std::string bent = with_interval;
-  bent.replace(bent.find("\"beta\""), 6, "\"beta * voltage / (10 [kV])\"");
-  const auto other = model(table_of_steps, bent);
-  EXPECT_TRUE(exposure_lives(FormulaRows(other, other->data.table.rows),
-                             *exposure_reference(*other), x.data())
-                  .empty());
 }
 
 TEST_F(StepStressTest, GradientIsThatOfDifferences) {
