@@ -146,6 +146,9 @@ TEST_F(LivesFleet, BadRowsAreRefusedOrReported) {
   const json summary = json::parse(run.out);
   EXPECT_EQ(summary["fleet"]["units"], 2);
   EXPECT_EQ(summary["left_out"]["rows"], 3);
+  // A decimal comma between commas: 1.5, not 1.
+  refused(fit("life") + " " + file("long.csv", good + "C,1,5\n") + " --skip-bad",
+          "a line has 3 values, but the heading has 2");
 }
 
 TEST_F(LivesFleet, NamesWhatIsWrong) {

@@ -125,7 +125,9 @@ class Survey {
 
  private:
   void look(std::size_t i) {
-    layouts_.push_back(layout_of(TableFile(files_.names[i]), skip_bad_));
+    const TableFile file(files_.names[i]);
+    layouts_.push_back(layout_of(file, skip_bad_));
+    if (skip_bad_ && i == 0) files_.headings = find_heading(file, {}, Encoding::utf8).names.size();
     marks_.push_back(marks_of(layouts_.back()));
     if (skip_bad_ && (!marks_.back() || *marks_.back() != *marks_.front())) {
       // Cells that are no numbers, missing ones, are what is to be skipped.

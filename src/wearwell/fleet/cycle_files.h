@@ -13,6 +13,7 @@ struct CycleFiles {
   bool csv = false;
   char delimiter = ',', decimal = '.';
   bool all_text = false;             ///< every column of CSV is read as text
+  std::size_t headings = 0;          ///< of the first file, if `all_text`
   std::vector<std::string> names;    ///< as given, absolute
   std::vector<std::string> paths;    ///< that DuckDB reads, beside `names`
   std::string layout;                ///< "semicolons, decimal comma"; empty for standard CSV

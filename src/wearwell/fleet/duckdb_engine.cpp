@@ -217,6 +217,13 @@ std::vector<EngineColumn> DuckdbEngine::columns() {
   Answer answer;
   execute("select * from cycles limit 0", answer);
   std::vector<EngineColumn> found;
+  // DuckDB gives the values beyond the heading a column of their own where short lines are padded.
+  if (files_.all_text && duckdb_column_count(&answer.result) > files_.headings)
+    throw InputError(fmt::format(
+        "{}{}: a line has {} values, but the heading has {}; --skip-bad leaves out no line that is "
+        "too long: a decimal comma may have cut a number in two",
+        printable(files_.names.front()), files_.names.size() > 1 ? " or another file" : "",
+        duckdb_column_count(&answer.result), files_.headings));
   for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) {
     const duckdb_type type = duckdb_column_type(&answer.result, c);
     found.push_back(
