@@ -360,7 +360,7 @@ TEST_F(Sparkplug, AMetricMayNameTheMachine) {
                    payload(2, metric(1, 1500, number(2000)) + metric(4, 1500, "long_value: 12"))),
               ElementsAre("S-7 12 0.002 7200"));
   EXPECT_THAT(tell("DDATA/E/pump", payload(3, metric(1, 1600, number(2000)))),
-              ElementsAre("Count must be a whole number"));  // it does not hold
+              ElementsAre("Count is missing"));  // it does not hold
   EXPECT_THAT(tell("DDATA/E/pump", payload(4, metric(3, 1600, "string_value: 'S-8'"))), IsEmpty());
   EXPECT_THAT(tell("DDATA/E/pump",
                    payload(5, metric(1, 1700, number(2000)) + metric(4, 1700, "long_value: 1"))),
