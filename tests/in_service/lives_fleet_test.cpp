@@ -140,15 +140,15 @@ TEST_F(LivesFleet, BadRowsAreRefusedOrReported) {
   const std::string good = "unit,age [1e6 cycles]\nA,10\nB,20\n";
   const std::string bad = file("bad.csv", good + "C,-3\n,5\nD,\n");
   refused(fit("life") + " " + bad, "age is negative");
+  // A decimal comma between commas: 1.5, not 1.
+  refused(fit("life") + " " + file("long.csv", good + "C,1,5\n") + " --skip-bad",
+          "a line has 3 values, but the heading has 2");
   const CommandResult run =
       run_wearwell("fleet " + fit("life") + " " + bad + " --skip-bad --json" + output());
   EXPECT_EQ(run.exit_code, 1);  // 60 % of the rows
   const json summary = json::parse(run.out);
   EXPECT_EQ(summary["fleet"]["units"], 2);
   EXPECT_EQ(summary["left_out"]["rows"], 3);
-  // A decimal comma between commas: 1.5, not 1.
-  refused(fit("life") + " " + file("long.csv", good + "C,1,5\n") + " --skip-bad",
-          "a line has 3 values, but the heading has 2");
 }
 
 TEST_F(LivesFleet, NamesWhatIsWrong) {

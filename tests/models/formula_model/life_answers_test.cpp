@@ -84,7 +84,7 @@ survival_to = "100 h"
     ADD_FAILURE() << mode;
     return result.quantities.front();
   };
-  const double leaks = 5 - 1, wears = 3 - 1, both = leaks + wears;
+  const double leaks = 6 - 1, wears = 2 - 1, both = leaks + wears;
   const double predictive = 100 * (1 - std::pow(1 + 100 / total, -both)) * leaks / both;
   const QuantitySummary lower = failed("", "leak"),
                         two = failed("level = 0.9\nsides = \"both\"\n", "leak"),
