@@ -1,10 +1,10 @@
 #include "wearwell/models/formula_model/exposure_lives.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "wearwell/models/formula_model/life_groups.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -16,28 +16,11 @@ bool is_of_test(const FormulaModel& model, const std::string& name) {
          name == model.ramp->start;
 }
 
-Conditions last_conditions(const FormulaModel& model, std::size_t row) {
-  const formula::Program& program = model.measured.front().program;
-  Conditions found;
-  std::vector<std::string> words;
-  for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
-    const std::string& name = model.row_symbols.columns[c].name;
-    if (!program.uses_column(c) || is_of_test(model, name)) continue;
-    const NumberColumn& column = *model.data.number(name);
-    found.numbers[name] = column.values[row];
-    const Unit& unit = column.unit.unit;
-    words.push_back(fmt::format("{} = {:.4g}{}", name, from_si(unit, column.values[row]),
-                                unit.text == "1" ? "" : " " + unit.text));
-  }
-  for (std::size_t c = 0; c < model.row_symbols.labels.size(); ++c) {
-    if (!program.uses_label(c)) continue;
-    const LabelColumn& column = *model.data.label(model.row_symbols.labels[c].name);
-    found.labels[column.name] = column.at[row];
-    words.push_back(fmt::format("{} = {}", column.name,
-                                column.levels[static_cast<std::size_t>(column.at[row])]));
-  }
-  found.words = fmt::format("{}", fmt::join(words, ", "));
-  return found;
+UsedColumns columns_of_conditions(const FormulaModel& model) {
+  UsedColumns used = used_columns(model);
+  std::erase_if(used.numbers,
+                [&](const NumberColumn* column) { return is_of_test(model, column->name); });
+  return used;
 }
 
 std::size_t parameter_named(const ResponseForm& form, const std::string& name) {
@@ -51,10 +34,12 @@ std::size_t parameter_named(const ResponseForm& form, const std::string& name) {
 std::optional<ExposureReference> exposure_reference(const FormulaModel& model) {
   const Measured& measured = model.measured.front();
   if (model.measured.size() != 1 || !measured.life.plain() || model.by_unit()) return {};
+  constexpr int digits = 4;  // of a stress that was read or computed at a failure
+  const UsedColumns used = columns_of_conditions(model);
   std::vector<ExposureReference> failed;
   for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
     if (measured.observed.responses[i].seen != Censoring::right)
-      failed.push_back({i, last_conditions(model, measured.observed.rows[i])});
+      failed.push_back({i, conditions_of_row(used, measured.observed.rows[i], digits)});
   }
   if (failed.empty()) return {};
   const auto middle = failed.begin() + static_cast<std::ptrdiff_t>(failed.size() / 2);

@@ -10,13 +10,6 @@
 #include "wearwell/base/stop_scope.h"
 
 namespace wearwell::formula_model {
-namespace {
-
-// The columns that the formula depends on.
-struct UsedColumns {
-  std::vector<const NumberColumn*> numbers;
-  std::vector<const LabelColumn*> labels;
-};
 
 UsedColumns used_columns(const FormulaModel& model) {
   const auto any = [&](auto uses) {
@@ -35,22 +28,14 @@ UsedColumns used_columns(const FormulaModel& model) {
   return used;
 }
 
-// The values of these columns in a row: rows of one group have the same.
-std::vector<double> values_of_row(const UsedColumns& used, std::size_t row) {
-  std::vector<double> values;
-  for (const NumberColumn* column : used.numbers) values.push_back(column->values[row]);
-  for (const LabelColumn* column : used.labels) values.push_back(column->at[row]);
-  return values;
-}
-
-Conditions conditions_of_row(const UsedColumns& used, std::size_t row) {
+Conditions conditions_of_row(const UsedColumns& used, std::size_t row, int digits) {
   Conditions found;
   std::vector<std::string> words;
   for (const NumberColumn* column : used.numbers) {
     found.numbers[column->name] = column->values[row];
     const std::string& unit = column->unit.unit.text;
-    words.push_back(fmt::format("{} = {:.6g}{}", column->name,
-                                from_si(column->unit.unit, column->values[row]),
+    words.push_back(fmt::format("{} = {:.{}g}{}", column->name,
+                                from_si(column->unit.unit, column->values[row]), digits,
                                 unit == "1" ? "" : " " + unit));
   }
   for (const LabelColumn* column : used.labels) {
@@ -60,6 +45,16 @@ Conditions conditions_of_row(const UsedColumns& used, std::size_t row) {
   }
   found.words = fmt::format("{}", fmt::join(words, ", "));
   return found;
+}
+
+namespace {
+
+// The values of these columns in a row: rows of one group have the same.
+std::vector<double> values_of_row(const UsedColumns& used, std::size_t row) {
+  std::vector<double> values;
+  for (const NumberColumn* column : used.numbers) values.push_back(column->values[row]);
+  for (const LabelColumn* column : used.labels) values.push_back(column->at[row]);
+  return values;
 }
 
 }  // namespace

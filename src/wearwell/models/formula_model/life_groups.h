@@ -43,4 +43,14 @@ std::shared_ptr<const LifeDistribution> life_of_subpopulation(
     const TomlReader& table, const std::string& key,
     const std::shared_ptr<const FormulaModel>& model, const Conditions& conditions, std::size_t k);
 
+/// The columns that the formulas of a model depend on.
+struct UsedColumns {
+  std::vector<const NumberColumn*> numbers;
+  std::vector<const LabelColumn*> labels;
+};
+UsedColumns used_columns(const FormulaModel& model);
+
+/// The values of these columns in a row of the table, and as words, with so many digits.
+Conditions conditions_of_row(const UsedColumns& used, std::size_t row, int digits = 6);
+
 }  // namespace wearwell::formula_model

@@ -97,11 +97,13 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
   Dates sales, returns;
   std::vector<std::string> unread;
   for (const Column& each : table.columns) {
-    const auto dates = dates_in(table, each);
-    if (dates && names_a_sale(each.name) && dates->cells == table.rows && !sold) {
+    const bool may_be_sale = !sold && names_a_sale(each.name),
+               may_be_return = !returned && names_a_return(each.name);
+    const auto dates = may_be_sale || may_be_return ? dates_in(table, each) : std::nullopt;
+    if (dates && may_be_sale && dates->cells == table.rows) {
       sold = &each;
       sales = *dates;
-    } else if (dates && names_a_return(each.name) && !returned) {
+    } else if (dates && may_be_return) {
       returned = &each;
       returns = *dates;
     } else {

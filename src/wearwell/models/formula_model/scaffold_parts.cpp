@@ -1,5 +1,4 @@
 #include "wearwell/models/formula_model/scaffold_parts.h"
-#include "wearwell/base/unit_system.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "wearwell/base/unit_system.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/study/column_values.h"
 #include "wearwell/study/heading_words.h"
