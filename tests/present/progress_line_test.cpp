@@ -28,6 +28,10 @@ TEST(ProgressLine, SaysHowFarAndWipesItself) {
   EXPECT_EQ(shown(0, {{"iterations", 100, 0, 2}}), "\r  100 iterations, 50 a second\033[K\r\033[K");
 }
 
+TEST(ProgressLine, NamesAPartThatBegins) {
+  EXPECT_EQ(shown(0, {{"leave-one-out", 0, 0, 0}}), "\r  leave-one-out\033[K\r\033[K");
+}
+
 TEST(ProgressLine, ShowsNothingOfShortWork) {
   EXPECT_EQ(shown(0.5, {{"iterations", 100, 400, 0.4}}), "");
 }

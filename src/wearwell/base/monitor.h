@@ -9,10 +9,10 @@ namespace wearwell {
 
 /// The progress of a long computation.
 struct Step {
-  std::string_view what;  ///< the steps: "iterations"
-  long long done = 0;
+  std::string_view what;  ///< the steps, "iterations", or the part of the work, "leave-one-out"
+  long long done = 0;     ///< 0: a part begins
   long long total = 0;  ///< 0 if unknown
-  double seconds = 0;   ///< since the start
+  double seconds = 0;   ///< since the start of this part of the work
 };
 
 /// The caller's control of a long computation: progress reports, stop request and number of

@@ -8,8 +8,8 @@
 
 namespace wearwell {
 
-/// Counts the steps of a long computation: reports to a monitor ten times a second, and throws
-/// `Cancelled` once it requests a stop. Thread-safe.
+/// Counts the steps of a long computation, part by part: reports to a monitor ten times a second,
+/// and throws `Cancelled` once it requests a stop. Thread-safe.
 class Progress {
  public:
   /// `what`: the steps, "iterations".
@@ -17,8 +17,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Sets the total number of steps.
-  void expect(long long total);
+  /// The next part of the work, reported at once: its steps are counted and timed from here.
+  /// `total`: 0 if unknown.
+  void begin(std::string what, long long total = 0);
 
   void advance(long long steps);
 
@@ -31,7 +32,7 @@ class Progress {
   std::mutex mutex_;
   const Monitor& monitor_;
   std::string what_;
-  Clock::time_point start_, next_;
+  Clock::time_point start_, next_;  // of the part; of the next report
   long long total_ = 0, done_ = 0;
 };
 

@@ -192,6 +192,7 @@ void BoxIntegrator::refine() {
   for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace(priority(cells_[i]), i);
   while (failure_.empty() && !queue.empty()) {
     if (settings_.stop.stop_requested()) throw Cancelled();
+    const long before = evaluations_;
     const auto [urgency, i] = queue.top();
     if (error_ <= settings_.tolerance * control_ && urgency <= most) break;
     if (evaluations_ >= settings_.max_evaluations) {
@@ -200,6 +201,7 @@ void BoxIntegrator::refine() {
     }
     queue.pop();
     halve(i);
+    if (settings_.progress) settings_.progress->advance(evaluations_ - before);
     if (overflowed_) {
       overflowed_ = false;
       forget_moments();

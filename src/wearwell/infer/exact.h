@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/base/progress.h"
 #include "wearwell/bayes/draws.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/bayes/weighted_draws.h"
@@ -21,7 +22,8 @@ struct ExactSettings {
   long max_evaluations = 20'000'000;  ///< of the density; more is a failure
   /// The coordinates of a lattice in which the posterior is rounder, if a similar posterior has shown it.
   std::optional<bool> along_ridge = {};
-  std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
+  std::stop_token stop = {};     ///< once requested, the integration throws `Cancelled`
+  Progress* progress = nullptr;  ///< receives every evaluation of the density; may be null
   /// Other local maxima than that of the whitening (maxima.h), on the real line; the region must
   /// cover them.
   std::vector<Mode> maxima = {};

@@ -178,8 +178,13 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
                             fit.method == Method::nuts && !fit.maxima.several();
   for (int doubling = 0;; ++doubling) {
     fit.run = longer.run;
+    const bool continues = independence && doubling > 0;
+    if (longer.run.progress && fit.method != Method::exact) {
+      const long long each = longer.run.draws + (continues ? 0 : longer.run.warmup);
+      longer.run.progress->begin("iterations", each * longer.run.chains);
+    }
     fit.draws = !independence ? draw(posterior, fit, longer)
-                : doubling == 0
+                : !continues
                     ? run_nuts_or_independence(posterior, fit.whitening, longer.nuts, longer.run)
                     : run_independence(posterior, fit.draws, longer.nuts, longer.run);
     fit.pooled = pool(fit.draws);
@@ -195,7 +200,6 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     else
       longer.run.warmup *= 2;
     if (!independence || doubling > 0) longer.run.draws *= 2;
-    longer.run.progress = nullptr;
   }
 }
 
@@ -206,7 +210,6 @@ void redraw_where_they_disagree(const Posterior& posterior, FitSettings settings
   if (!fit.exact || fit.method == Method::exact || !(fit.exact->error <= largest_error)) return;
   if (disagreements(fit, settings.redraw_level).empty()) return;
   settings.run.first_stream += 1ULL << 45;
-  settings.run.progress = nullptr;
   draw_enough(posterior, settings, fit);
   fit.redrawn = true;
 }
@@ -259,6 +262,7 @@ Fit fit(const Posterior& whole, const FitSettings& requested) {
     ExactSettings exact = settings.exact;
     exact.maxima = fit.other_maxima();
     exact.second_moments = all([](const Tail& t) { return t.has_moment(2); });
+    if (exact.progress) exact.progress->begin("evaluations of the density");
     integral = integrate(posterior, fit.whitening, exact);
     integral.error = std::max(integral.error, fit.quick_error);
     if (integral.failure.empty()) {

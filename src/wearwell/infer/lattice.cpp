@@ -167,7 +167,7 @@ class Lattice {
   }
 
   // Empty, or the reason for stopping.
-  std::string fill(long most) {
+  std::string fill(long most, Progress* progress) {
     constexpr long most_kept = 1'500'000;  // some tens of megabytes
     std::vector<Line> ring(1);
     known_.emplace(key(ring.front().index), 0);
@@ -176,10 +176,12 @@ class Lattice {
         Sides sides;
         for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i], sides);
       });
+      const long nodes = nodes_;
       for (const Line& line : ring) {
         nodes_ += static_cast<long>(line.values.size());
         highest_ = std::max(highest_, line.highest);
       }
+      if (progress) progress->advance(nodes_ - nodes);
       const std::size_t before = lines_.size();
       std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
       ring.clear();
@@ -681,7 +683,7 @@ struct Filled {
   Filled(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
          double log_negligible, long most, const ExactSettings& settings)
       : lattice(std::make_unique<Lattice>(posterior, chart, steps, log_negligible)),
-        failure(lattice->fill(most)) {
+        failure(lattice->fill(most, settings.progress)) {
     if (!failure.empty()) return;
     error_estimates = lattice->error_estimates(settings.second_moments);
     error = error_estimates.steps + error_estimates.beyond;

@@ -3,8 +3,24 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 namespace wearwell {
+namespace {
+
+std::string described(const Step& step) {
+  if (step.done == 0) return std::string(step.what);
+  const auto done = static_cast<double>(step.done), total = static_cast<double>(step.total);
+  const double rate = done / step.seconds;
+  std::string line = fmt::format("{} {}, {:.0f} a second", step.done, step.what, rate);
+  if (step.total >= step.done) {
+    line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * done / total,
+                        std::ceil((total - done) / rate));
+  }
+  return line;
+}
+
+}  // namespace
 
 ProgressLine::~ProgressLine() {
   if (!shown_) return;
@@ -13,15 +29,10 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const Step& step) {
-  if (!terminal_ || step.seconds < patience_ || step.done == 0) return;
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  if (!terminal_ || passed.count() < patience_) return;
   shown_ = true;
-  const auto done = static_cast<double>(step.done), total = static_cast<double>(step.total);
-  const double rate = done / step.seconds;
-  std::string line = fmt::format("\r  {} {}, {:.0f} a second", step.done, step.what, rate);
-  if (step.total >= step.done)
-    line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * done / total,
-                        std::ceil((total - done) / rate));
-  std::fputs((line + "\033[K").c_str(), terminal_);
+  std::fputs(("\r  " + described(step) + "\033[K").c_str(), terminal_);
   std::fflush(terminal_);
 }
 

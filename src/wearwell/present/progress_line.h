@@ -1,13 +1,14 @@
 #pragma once
 
+#include <chrono>
 #include <cstdio>
 
 #include "wearwell/base/monitor.h"
 
 namespace wearwell {
 
-/// A progress line on a terminal with progress, speed and remaining time, rewritten in place and
-/// erased at the end. Not shown for work that ends within `patience` seconds.
+/// A progress line on a terminal: the part of the work, or its progress, speed and remaining time,
+/// rewritten in place and erased at the end. Not shown for work that ends within `patience` seconds.
 class ProgressLine {
  public:
   /// `terminal`: the output; nullptr for none.
@@ -22,6 +23,7 @@ class ProgressLine {
  private:
   std::FILE* terminal_;
   double patience_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool shown_ = false;
 };
 

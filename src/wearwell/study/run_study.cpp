@@ -76,15 +76,6 @@ Draws in_units(const PosteriorStudy& study, Draws draws) {
   return draws;
 }
 
-// The total number of the sampler's iterations.
-long long iterations(const PosteriorStudy& study, const FitSettings& settings) {
-  if (settings.method == Method::exact) return 0;
-  const RunSettings& run = settings.run;
-  const long long fits =
-      study.stages && study.data_rows <= most_stages ? static_cast<long long>(study.data_rows) : 1;
-  return fits * run.chains * (run.warmup + run.draws);
-}
-
 std::optional<LooSummary> left_out_one_by_one(const PosteriorStudy& study,
                                               const Posterior& posterior, const Fit& fit,
                                               const std::stop_token& stop) {
@@ -162,7 +153,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
 
 // One fit for each data set except the last, whose stage is `final`. `plots`, if given, receives
 // the densities.
-void add_stages(const PosteriorStudy& study, const FitSettings& settings, const Fit& final,
+void add_stages(const PosteriorStudy& study, FitSettings settings, const Fit& final,
                 PosteriorSummary& result, std::optional<Plots>& plots) {
   if (study.data_rows > most_stages) {
     result.checks.push_back(
@@ -177,8 +168,12 @@ void add_stages(const PosteriorStudy& study, const FitSettings& settings, const 
   result.stages[last] =
       summarize_stage(study, study.data_rows, result.parameters, result.checks, final);
   std::vector<WeightedDraws> densities(plots ? study.data_rows : 0);
+  settings.exact.progress = nullptr;
+  Progress* const progress = std::exchange(settings.run.progress, nullptr);
+  if (progress) progress->begin("data sets", static_cast<long long>(last));
   tbb::parallel_for(std::size_t{0}, last, [&](std::size_t i) {
     result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
+    if (progress) progress->advance(1);
   });
   if (!plots) return;
   densities[last] = final.exact ? final.exact->nodes : final.pooled;
@@ -258,8 +253,8 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   const bool wants_quadrature = settings.method == Method::exact;
   if (!method_note(study, choice).empty()) settings.method = Method::nuts;
   Progress progress(monitor, "iterations");
-  progress.expect(iterations(study, settings));
   settings.run.progress = &progress;
+  settings.exact.progress = &progress;
   settings.exact.stop = monitor.stop;
 
   const Posterior whole(study.parameters, study.likelihood(study.data_rows));
@@ -268,8 +263,9 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   const Posterior& posterior = quick ? *quick : whole;
   require_no_stop(monitor);
   std::optional<Plots> plots;
+  progress.begin("curves");
   if (with_plots) plots = plot_study(study, posterior, final);
-  require_no_stop(monitor);
+  progress.begin("leave-one-out");
   std::optional<LooSummary> loo = left_out_one_by_one(study, posterior, final, monitor.stop);
   require_no_stop(monitor);
   const NaturalMode natural = constrained_mode(posterior, final);
@@ -277,7 +273,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
     final.stage_diagnostics.push_back(std::move(each));
   }
 
-  require_no_stop(monitor);
+  progress.begin("predictions and checks");
   PosteriorSummary result = described(study, settings, posterior, final);
   if (wants_quadrature) result.method_note = sampler_instead(final.no_exact);
   result.mode =

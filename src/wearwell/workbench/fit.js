@@ -13,7 +13,7 @@
     place.progress.replaceChildren();
     if (running) {
       if (fit.total) { place.bar.max = fit.total; place.bar.value = fit.done; } else { place.bar.removeAttribute('value'); }
-      const steps = fit.total ? strings.steps_of(wearwell.count(fit.done), wearwell.count(fit.total), fit.what) : fit.what ? strings.steps_(wearwell.count(fit.done), fit.what) : '';
+      const steps = fit.total ? strings.steps_of(wearwell.count(fit.done), wearwell.count(fit.total), fit.what) : fit.done ? strings.steps_(wearwell.count(fit.done), fit.what) : fit.what;
       place.progress.append([strings.running(fit.study), steps, strings.seconds(Math.round(fit.seconds))].filter(Boolean).join(', '));
     }
     if (fit.state === 'stopped') place.progress.append(strings.stopped);
