@@ -25,7 +25,8 @@
 ///
 /// and optionally:
 ///
-///   row<sloped>(u, s)    log density and slopes of one of many observations, optimized
+///   row<sloped>(u, s, log_s)    log density and slopes of one of many observations, optimized; log_s has
+///                     log_of_first(s[0]) and log_of_second(s[1]), computed once where all rows share them
 ///   log_kernel(x, c), log_integral(c), tails(c)    for fixed parameters, as in a prior: the log density
 ///                     up to a constant, the log of its integral over the support of `tails`, and
 ///                     probabilities (tails.h); c = prepared(s) if defined, else s
@@ -62,9 +63,9 @@ struct Row {
 };
 
 /// For the normal distribution of u.
-inline Row normal_row(double u, double location, double scale) {
+inline Row normal_row(double u, double location, double scale, double log_scale) {
   const double inverse = 1 / scale, z = (u - location) * inverse;
-  return {-0.5 * z * z - std::log(scale) - half_log_two_pi, {z * inverse, (z * z - 1) * inverse}};
+  return {-0.5 * z * z - log_scale - half_log_two_pi, {z * inverse, (z * z - 1) * inverse}};
 }
 
 }  // namespace wearwell::families

@@ -47,9 +47,11 @@ struct Lognormal : OfNormalLogarithm {
   static double inverse(double z, const double* s) { return s[0] * std::exp(s[1] * z); }
   static double mean(const double* s) { return s[0] * std::exp(0.5 * s[1] * s[1]); }
 
+  static double log_of_first(double median) { return std::log(median); }
+  static double log_of_second(double log_sd) { return std::log(log_sd); }
   template <bool sloped>
-  static Row row(double log_y, const double* s) {
-    const Row row = normal_row(log_y, std::log(s[0]), s[1]);
+  static Row row(double log_y, const double* s, const double* log_s) {
+    const Row row = normal_row(log_y, log_s[0], s[1], log_s[1]);
     return {row.value - log_y, {row.slope[0] / s[0], row.slope[1]}};
   }
   static std::array<double, most_response_parameters> prepared(const double* s) {
@@ -109,9 +111,11 @@ struct Log10Normal : OfNormalLogarithm {
   static double inverse(double z, const double* s) { return s[0] * std::exp(ln10 * s[1] * z); }
   static double mean(const double* s) { return s[0] * std::exp(0.5 * ln10 * ln10 * s[1] * s[1]); }
 
+  static double log_of_first(double median) { return std::log(median); }
+  static double log_of_second(double log10_sd) { return std::log(ln10 * log10_sd); }
   template <bool sloped>
-  static Row row(double log_y, const double* s) {
-    const Row row = normal_row(log_y, std::log(s[0]), ln10 * s[1]);
+  static Row row(double log_y, const double* s, const double* log_s) {
+    const Row row = normal_row(log_y, log_s[0], ln10 * s[1], log_s[1]);
     return {row.value - log_y, {row.slope[0] / s[0], ln10 * row.slope[1]}};
   }
   static std::array<double, most_response_parameters> prepared(const double* s) {

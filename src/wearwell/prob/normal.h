@@ -29,9 +29,11 @@ struct Normal : OnLine {
   static double inverse(double z, const double* s) { return s[0] + s[1] * z; }
   static double mean(const double* s) { return s[0]; }
 
+  static double log_of_first(double) { return 0; }
+  static double log_of_second(double sd) { return std::log(sd); }
   template <bool sloped>
-  static Row row(double y, const double* s) {
-    return normal_row(y, s[0], s[1]);
+  static Row row(double y, const double* s, const double* log_s) {
+    return normal_row(y, s[0], s[1], log_s[1]);
   }
 
   template <class X>

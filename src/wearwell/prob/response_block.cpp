@@ -26,13 +26,16 @@ void exact_rows(const ResponseColumn& column, std::size_t begin,
                 std::span<double> slope) {
   const std::size_t n = value.size();
   const double* at = (F::positive ? column.log_at : column.at).data() + begin;
+  double log_s[2] = {};
   for (std::size_t i = 0; i < n; ++i) {
     const double s[] = {family_parameters[0][i], family_parameters[1][i]};
+    if (i == 0 || !family_parameters[0].uniform) log_s[0] = F::log_of_first(s[0]);
+    if (i == 0 || !family_parameters[1].uniform) log_s[1] = F::log_of_second(s[1]);
     if (!families::allowed<F>(s)) {
       refuse(i, family_parameters.size(), value, slope);
       continue;
     }
-    const families::Row row = F::template row<sloped>(at[i], s);
+    const families::Row row = F::template row<sloped>(at[i], s, log_s);
     value[i] = row.value;
     if constexpr (sloped) {
       slope[i] = row.slope[0];

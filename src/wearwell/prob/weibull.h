@@ -23,10 +23,12 @@ struct Weibull : OnPositive {
   static double inverse(double z, const double* s) { return s[0] * std::exp(z / s[1]); }
   static double mean(const double* s) { return s[0] * std::tgamma(1 + 1 / s[1]); }
 
+  static double log_of_first(double scale) { return std::log(scale); }
+  static double log_of_second(double shape) { return std::log(shape); }
   template <bool sloped>
-  static Row row(double log_y, const double* s) {
-    const double off = log_y - std::log(s[0]), z = s[1] * off, e = std::exp(z);
-    Row row{z - e + std::log(s[1]) - log_y, {}};
+  static Row row(double log_y, const double* s, const double* log_s) {
+    const double off = log_y - log_s[0], z = s[1] * off, e = std::exp(z);
+    Row row{z - e + log_s[1] - log_y, {}};
     if constexpr (sloped) {
       row.slope[0] = (e - 1) * s[1] / s[0];
       row.slope[1] = (1 - e) * off + 1 / s[1];
