@@ -3,7 +3,7 @@
 (() => {
   const {element, strings} = wearwell;
   const atOnce = 50, columnsAtOnce = 20;
-  let table = null, from = 0, fromColumn = 0, opening = 0, announced = 0;
+  let table = null, from = 0, fromColumn = 0, opening = 0, announced = 0, drawnIn = 0;
   const place = {};
 
   async function opened(answer) {
@@ -128,6 +128,7 @@
     const log = [place.logX.checked, place.logY.checked], asked = table;
     const found = await wearwell.get('/api/plot', {...named(), ...(x === '' ? {} : {x}), ...(by === '' ? {} : {by}), y, log_x: Number(log[0]), log_y: Number(log[1])});
     if (asked !== table) return;
+    drawnIn = place.plot.clientWidth;
     const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
     const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
     if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
@@ -136,7 +137,7 @@
       points: found.points, labels: found.labels.map(labelled), others: strings.otherLabels, lifeUp: !isLife(table.columns[x]) && isLife(table.columns[y]), x: {name: names[0], log: log[0]}, y: {name: names[1], log: log[1]},
       description: strings.plotDescription(names[1], names[0]), hint: strings.plotHint,
       read: ([a, b, row, label]) => [strings.point(wearwell.count(row), wearwell.given(a), wearwell.given(b)), by === '' ? '' : found.labels[label]?.text ?? strings.otherLabels].filter(Boolean).join(', '),
-    }, Math.min(760, Math.max(280, place.plot.clientWidth || 600))), element('p', {class: 'note'}, notes.join(' ')));
+    }, Math.min(760, Math.max(280, drawnIn || 600))), element('p', {class: 'note'}, notes.join(' ')));
   }
 
   function plotChoices() {
@@ -238,5 +239,5 @@
   const unitsChanged = () => place.grid.querySelectorAll('input').forEach((each) => each.update());
 
   // A page that is opened again shows what the program has open.
-  wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden) wearwell.quietly(() => ofTable(plot)); }};
+  wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};
 })();
