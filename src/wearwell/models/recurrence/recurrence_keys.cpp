@@ -20,7 +20,10 @@ StudyKeys study_keys() {
             {"data.columns.event.end", "\"retired\"", "your word for the end of observation"},
             {"data.columns.count", "\"count\"",
              "number of failures of the unit at that age, if a row is several; needs "
-             "`data.rounding`; 1, 0 or empty at an end of observation"},
+             "`data.rounding` or `data.grouped`; 1, 0 or empty at an end of observation"},
+            {"data.grouped", "true",
+             "`count` is the number of failures since the row before of the unit, at unknown ages "
+             "(false)"},
             {"data.unused", "[\"count\"]",
              "headings of columns that look like a number of failures but are not"},
             {"data.columns.start", "{ column = \"start\", unit = \"day\" }",
