@@ -75,6 +75,16 @@ TEST_F(NewLifeTables, DatesThatCannotBeRead) {
               AllOf(HasSubstr("row 2, column 'sale date'"), HasSubstr("no date of sale")));
 }
 
+// ReliaSoft's page names months without a year: they have no order.
+TEST_F(NewLifeTables, TrianglesOfMonthsWithoutAYear) {
+  write("months.csv",
+        "shipped,quantity,July,August,September\nJune,100,3,3,5\nJuly,140,,2,4\nAugust,150,,,4\n");
+  const CommandResult run = here("new --from months.csv none");
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("'shipped' and the headings 'July' to 'September'"),
+                             HasSubstr("July 2024")));
+}
+
 // What is like one, but is none: a failure before the last row, a condition that was read, ages that do not rise.
 TEST_F(NewLifeTables, TablesThatAreNoSteps) {
   for (const char* rows :

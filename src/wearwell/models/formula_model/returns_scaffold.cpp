@@ -53,6 +53,31 @@ std::string life_text(double periods, const std::string& unit) {
       unit, rounded_up(10 * periods), unit, unit);
 }
 
+// "July": a month, but of no year.
+bool is_month_without_year(const std::string& text) {
+  const auto with_year = period_in(text + " 2024");
+  return !period_in(text) && with_year && with_year->calendar;
+}
+
+// A triangle by names of months has no order without their years.
+void refuse_months_without_year(const Table& table) {
+  const Column* months = nullptr;
+  std::vector<std::string> headings;
+  for (const Column& each : table.columns) {
+    if (is_month_without_year(each.name)) headings.push_back(each.name);
+    if (each.is_number || months) continue;
+    bool all = table.rows > 0;
+    for (std::size_t row = 0; all && row < table.rows; ++row)
+      all = is_month_without_year(cell_word(each, row));
+    if (all) months = &each;
+  }
+  if (!months || headings.size() < 2) return;
+  throw InputError(fmt::format(
+      "{}: '{}' and the headings '{}' to '{}' are months without a year; a returns triangle needs "
+      "it: write '{} 2024' or 2024-07, in the cells and in the headings",
+      table.source, months->name, headings.front(), headings.back(), headings.front()));
+}
+
 // Dates of one column: how many cells have one, the first and the last month, and cells that hold anything else.
 struct Dates {
   std::size_t cells = 0, others = 0;
@@ -153,7 +178,10 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
 std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
   const Table& table = roles.table();
   const auto columns = triangle_columns(table);
-  if (!columns) return first_units_study(roles);
+  if (!columns) {
+    refuse_months_without_year(table);
+    return first_units_study(roles);
+  }
   Scaffold study;
   study.reading = "returns triangle (Nevada table): units sold and their returns by period";
   study.fit = ReadingFit::specific;

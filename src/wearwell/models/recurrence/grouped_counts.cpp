@@ -28,9 +28,14 @@ std::vector<std::size_t> read_counts(const TomlReader& columns, Table table,
                                      const std::optional<EventWords>& words) {
   const std::string heading = read_column(columns, "count", "1", table)->column;
   for (Column& column : table.columns) {
-    if (column.name != heading || column.is_number || !words) continue;
-    for (std::size_t row = 0; row < table.rows; ++row)
-      if (column.text[row].empty() && !read_event(table, *words, row)) column.text[row] = "0";
+    if (column.name != heading || !words) continue;
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      if (!cell_word(column, row).empty() || read_event(table, *words, row)) continue;
+      if (column.is_number)
+        column.numbers[row] = 0;
+      else
+        column.text[row] = "0";
+    }
   }
   const auto choice = read_column(columns, "count", "1", table);
   const std::vector<double> numbers = si_numbers(table, *choice);
