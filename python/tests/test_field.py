@@ -184,3 +184,16 @@ def test_counts_are_failures_of_one_age(valve_seats):
     with pytest.warns(ww.CheckWarning, match="column 'n' looks like a number of equal rows and is not used: write count=\"n\""):
         repairs(counted, rounding="1 day")
     assert "column 'n': 1.5 ends of observation of one unit" in refusal(ww.repairable, counted.assign(n=1.5), "age", unit="engine", event="event", count="n", units={"age": "day"})
+
+
+def test_grouped_counts_are_those_of_the_study_file():
+    frame = table_of("repairable/grouped.csv")
+    arguments = dict(unit="helicopter", count="count", grouped=True, units={"age": "h"}, **quick)
+    priors = study_of("repairable/grouped.toml")["prior"]
+    found = ww.repairable(frame, "age", classical=True, ahead="20 h", predict={"level": 0.9, "sides": "both"}, priors=priors, **arguments)
+    own = ww.fit(os.path.join(source, "examples", "repairable", "grouped.toml"), **quick)
+    assert found.results["classical"] == own.results["classical"]
+    assert found.results["repairable"]["tests"]["chi_square"]["statistic"] == pytest.approx(5.45, abs=0.005)  # MIL-HDBK-189: 5.5
+    assert "event is missing" in refusal(ww.repairable, frame, "age", unit="helicopter", count="count")
+    assert "grouped needs count" in refusal(ww.repairable, frame, "age", unit="helicopter", grouped=True)
+    assert "grouped is 1" in refusal(ww.repairable, frame, "age", unit="helicopter", count="count", grouped=1)

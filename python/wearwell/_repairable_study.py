@@ -12,7 +12,7 @@ _processes = ("power_law", "renewal", "phases")
 
 
 @fits
-def repairable(data, age, *, unit, event, start=None, count=None, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
+def repairable(data, age, *, unit, event=None, start=None, count=None, grouped=False, process="power_law", end=None, rounding=None, phase_ends=None, reference_age=None,
                mode=None, fixes=None, at=None, ahead=None, units=None, priors=None, classical=False, predict=None, unused=None, title=None, seed=None, method=None, chains=None,
                warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the failures of units that are repaired: minimal repair (Crow-AMSAA), renewal, or phases of a growth test.
@@ -25,14 +25,17 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
         Column of the unit's age at the event: a time, a distance or cycles, with its unit.
     unit : str
         Column of the units.
-    event : str or dict
+    event : str or dict, optional
         Column that says what happened: "failure" or "end", or True or 1 at a failure and False or 0 at the end of observation.
-        A dict says what codes and words mean: ``{"column": "event", "failure": "repaired", "end": "today"}``.
+        A dict says what codes and words mean: ``{"column": "event", "failure": "repaired", "end": "today"}``. Needed unless
+        ``grouped``, where the last row of a unit ends its observation.
     start : str, optional
         Column of the age at which observation of the unit began; by default 0.
     count : str, optional
         Column of the number of failures of the unit at that age; larger numbers than 1 need ``rounding``. In the row of an end
         it is 1, 0 or missing.
+    grouped : bool
+        Whether ``count`` is the number of failures since the row before of the unit, at unknown ages; 0 is a count.
     process : {"power_law", "renewal", "phases"}
         ``power_law``: minimal repair, a unit is as bad as old. ``renewal``: as good as new. ``phases``: a growth test whose
         intensity changes between phases.
@@ -83,10 +86,17 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
     """
     if process not in _processes:
         raise InputError(f"process is {process!r}; it is {', '.join(_processes)}")
+    if not isinstance(grouped, bool):
+        raise InputError(f"grouped is {grouped!r}; it is True or False")
+    if grouped and count is None:
+        raise InputError("grouped needs count: the column of the number of failures since the row before")
+    if event is None and not grouped:
+        raise InputError('event is missing: the column that says "failure" or "end"')
     study = Preset("repairable", data, units)
     study.column("unit", "unit", unit)
     study.column("age", "age", age)
-    study.rows["event"] = repairs_of(study.columns, event)
+    if event is not None:
+        study.rows["event"] = repairs_of(study.columns, event)
     study.column("start", "start", start)
     study.column("count", "count", count)
     study.column("mode", "mode", mode)
@@ -94,10 +104,12 @@ def repairable(data, age, *, unit, event, start=None, count=None, process="power
     for key, value in (("end", end), ("rounding", rounding)):
         if value is not None:
             study.of_data[key] = _toml.quantity(value, key)
+    if grouped:
+        study.of_data["grouped"] = True
     for key, value in (("reference_age", reference_age), ("phase_ends", quantities(phase_ends, "phase_ends"))):
         if value is not None:
             study.conditions[key] = value if isinstance(value, list) else _toml.quantity(value, key)
-    study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "predict.age": "at", "predict.next": "ahead",
+    study.arguments.update({"data.columns.event": "event", "data.end": "end", "data.rounding": "rounding", "data.grouped": "grouped", "predict.age": "at", "predict.next": "ahead",
                             "conditions.phase_ends": "phase_ends", "conditions.reference_age": "reference_age"})
     asked = {"age": quantities(at, "at"), "next": quantities(ahead, "ahead"), **classical_key(classical), **(predict or {})}
     made = study.study(title or f"Failures along {age}", _fix_tables(mode, fixes, study.arguments), priors, asked, unused, may_have_counts=True)

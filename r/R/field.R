@@ -1,28 +1,32 @@
 # Data from the field in one line: units that are repaired, and warranty returns. And lives of two fits against each other.
 
-ww_repairable <- function(data, age, unit, event, start = NULL, count = NULL, process = c("power_law", "renewal", "phases"), end = NULL, rounding = NULL,
-                          phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
+ww_repairable <- function(data, age, unit, event = NULL, start = NULL, count = NULL, grouped = FALSE, process = c("power_law", "renewal", "phases"),
+                          end = NULL, rounding = NULL, phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
                           title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_repairable")
   require_options("ww_repairable", ..., own = names(formals(ww_repairable)))
   if (missing(process)) process <- process[1]
   kinds <- eval(formals(ww_repairable)$process)
   if (!is_path(process) || !process %in% kinds) stop_input("process is ", shown_value(process), "; it is one of ", words(kinds))
+  if (one_truth(grouped, "grouped") && is.null(count)) stop_input("grouped needs count: the column of the number of failures since the row before")
+  if (is.null(event) && !grouped) stop_input("event is missing: the column that says \"failure\" or \"end\"")
   columns <- frame_columns(data, units)
   study <- preset_study(columns, list(unit = unit, age = age, start = start, count = count, mode = mode))
   if (!is.null(study$mode) && !is.character(study$mode$values)) study$mode$values <- number_text(study$mode$values)
   if (!is.character(study$unit$values)) study$unit$values <- number_text(study$unit$values)
-  event <- if (is.list(event)) event else list(column = event)
+  if (!is.null(event) && !is.list(event)) event <- list(column = event)
   unknown <- setdiff(c(names(event), if (is.null(names(event))) ""), c("column", "failure", "end"))
-  if (length(unknown) || is.null(event$column)) {
+  if (is.null(event)) unknown <- character()
+  if (length(unknown) || (!is.null(event) && is.null(event$column))) {
     stop_input("event is ", shown_value(event), "; it is the name of a column, or like list(column = \"event\", failure = \"repaired\")")
   }
-  study$event <- event_column(event, columns)
+  if (!is.null(event)) study$event <- event_column(event, columns)
   look_at_unused(columns, c(age, unit, event$column, start, count, mode), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
   text <- c(toml_table("", list(title = if (is.null(title)) paste("Failures along", age) else one_text(title, "title"), model = "repairable",
                                 process = process)),
             toml_table("data", c(list(file = "data"), given_arguments(end = if (!is.null(end)) one_text(end, "end"),
-                                                                      rounding = if (!is.null(rounding)) quantity(rounding, "rounding")))),
+                                                                      rounding = if (!is.null(rounding)) quantity(rounding, "rounding"),
+                                                                      grouped = if (grouped) TRUE))),
             columns_table(study, list(event = if (length(event) > 1) c(list(column = "event"), lapply(event[setdiff(names(event), "column")], as.character)))))
   constants <- given_arguments(reference_age = if (!is.null(reference_age)) quantity(reference_age, "reference_age"),
                                phase_ends = if (!is.null(phase_ends)) as.list(phase_ends))

@@ -55,6 +55,36 @@ TEST_F(NewLifeTables, UnitsWithDatesOfSaleAndReturn) {
   EXPECT_NEAR(middle("slope"), 1.2, 0.5);
 }
 
+// A cell that is no date is named, with what is allowed; the same of a unit without a date of sale.
+TEST_F(NewLifeTables, DatesThatCannotBeRead) {
+  const auto refused = [&](const std::string& rows) {
+    write("dates.csv", "serial,sale date,return date\n" + rows);
+    const CommandResult run = here("new --from dates.csv none");
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
+    return run.err;
+  };
+  EXPECT_THAT(refused("1,2024-01-05,\n2,2024-02-30,2024-05-01\n3,2024-03-01,2024-06-01\n"),
+              AllOf(HasSubstr("dates.csv, row 2, column 'sale date'"), HasSubstr("'2024-02-30'"),
+                    HasSubstr("2024-01-31")));
+  EXPECT_THAT(refused("1,2024-01-05,\n2,2024-02-03,soon\n3,2024-03-01,2024-06-01\n4,2024-03-01,"
+                      "2024-07-01\n"),
+              AllOf(HasSubstr("row 2, column 'return date'"), HasSubstr("'soon'"),
+                    HasSubstr("leave the cell")));
+  EXPECT_THAT(refused("1,2024-01-05,\n2,,2024-05-01\n3,2024-03-01,2024-06-01\n"),
+              AllOf(HasSubstr("row 2, column 'sale date'"), HasSubstr("no date of sale")));
+}
+
+// ReliaSoft's page names months without a year: they have no order.
+TEST_F(NewLifeTables, TrianglesOfMonthsWithoutAYear) {
+  write("months.csv",
+        "shipped,quantity,July,August,September\nJune,100,3,3,5\nJuly,140,,2,4\nAugust,150,,,4\n");
+  const CommandResult run = here("new --from months.csv none");
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("'shipped' and the headings 'July' to 'September'"),
+                             HasSubstr("July 2024")));
+}
+
 // What is like one, but is none: a failure before the last row, a condition that was read, ages that do not rise.
 TEST_F(NewLifeTables, TablesThatAreNoSteps) {
   for (const char* rows :

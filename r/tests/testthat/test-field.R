@@ -44,6 +44,20 @@ test_that("delayed fixes in one line are those of the study file", {
   refused(projected(fixes, NULL), "mode needs fixes")
 })
 
+test_that("failures counted by interval in one line are those of the study file", {
+  frame <- read.csv(example("repairable", "grouped.csv"), check.names = FALSE)
+  asked <- function(...) {
+    quiet(ww_repairable(frame, age = "age", unit = "helicopter", priors = list(M_T = ww_lognormal(50, log_sd = 3)), units = c(age = "h"), ahead = "20 h",
+                        predict = list(level = 0.9, sides = "both", classical = TRUE), seed = 1, method = "exact", draws = 50, chains = 2,
+                        report = FALSE, ...))
+  }
+  file <- quiet(ww_fit(example("repairable", "grouped.toml"), seed = 1, method = "exact", draws = 50, chains = 2, report = FALSE))
+  expect_equal(asked(count = "count", grouped = TRUE)$summary$classical, file$summary$classical, tolerance = 1e-12)
+  refused(asked(count = "count"), "event is missing")
+  refused(asked(grouped = TRUE), "grouped needs count")
+  refused(asked(count = "count", grouped = NA), "it is TRUE or FALSE")
+})
+
 test_that("returns in one line are those of the study file", {
   triangle <- read.csv(example("warranty", "returns.csv"), check.names = FALSE)
   planned <- read.csv(example("warranty", "planned_sales.csv"))

@@ -312,6 +312,20 @@ const std::vector<RoleForm>& role_forms() {
   return forms;
 }
 
+const std::vector<std::string_view>& sale_words() {
+  static const std::vector<std::string_view> words = {
+      "sold",    "sale",   "deliver",   "ship",  "install", "in service", "commission",
+      "verkauf", "liefer", "inbetrieb", "vente", "vendu",   "livr",       "venta"};
+  return words;
+}
+
+const std::vector<std::string_view>& return_words() {
+  static const std::vector<std::string_view> words = {"return",  "fail",   "claim", "repair",
+                                                      "ausfall", "reklam", "rueck", "rück",
+                                                      "retour",  "panne",  "fallo", "devol"};
+  return words;
+}
+
 const RoleForm& role_form(std::string_view name) {
   const auto& forms = role_forms();
   const auto found = std::find_if(forms.begin(), forms.end(),

@@ -28,6 +28,9 @@ struct RoleForm {
 };
 
 const std::vector<RoleForm>& role_forms();
+/// Words of headings of a date of sale, and of a date of return, in a table with a row for each unit.
+const std::vector<std::string_view>& sale_words();
+const std::vector<std::string_view>& return_words();
 const RoleForm& role_form(std::string_view name);
 
 }  // namespace wearwell

@@ -52,6 +52,43 @@ TEST(Process, FactorsSumToTheLikelihoodAndGradientIsOfDifferences) {
   }
 }
 
+// Failures that are counted by interval: factors are Poisson probabilities, gradients those of differences, and a sum over
+// intervals of one failure each tends to the likelihood of exact ages.
+TEST(Process, CountsByIntervalHavePoissonProbabilities) {
+  RecurrenceData data;
+  data.units = {{"a", 0, 200, {50, 50, 120}, false, true}};
+  data.gaps = {
+      {0, 0, 50, false, true, 2}, {0, 50, 120, false, false, 1}, {0, 120, 200, false, false, 0}};
+  const Process phases{ProcessKind::phases, 1, 0, {120}};
+  for (const Process& process : {power, phases}) {
+    const auto likelihood = process_likelihood(process, data);
+    const double x[] = {0.8, process.kind == ProcessKind::phases ? 14.0 : 11.0};
+    const double until[] = {process.mean_by(x, 50), process.mean_by(x, 120),
+                            process.mean_by(x, 200)};
+    const auto poisson = [](int n, double mean) {
+      return n * std::log(mean) - mean - std::lgamma(n + 1.0);
+    };
+    const std::vector<double> terms = likelihood->pointwise(x);
+    EXPECT_NEAR(terms[0], poisson(2, until[0]), 1e-12);
+    EXPECT_NEAR(terms[1], poisson(1, until[1] - until[0]), 1e-12);
+    EXPECT_NEAR(terms[2], poisson(0, until[2] - until[1]), 1e-12);
+    EXPECT_NEAR(likelihood->value(x), terms[0] + terms[1] + terms[2], 1e-10);
+    double gradient[2];
+    likelihood->value_and_gradient(x, gradient);
+    for (int i = 0; i < 2; ++i) {
+      double up[] = {x[0], x[1]}, down[] = {x[0], x[1]};
+      up[i] += 1e-6;
+      down[i] -= 1e-6;
+      EXPECT_NEAR(gradient[i], (likelihood->value(up) - likelihood->value(down)) / 2e-6, 1e-6);
+    }
+    const auto scores = process_scores(process, data)(x);
+    EXPECT_NEAR(normal_cdf(scores[1].high),
+                std::exp(poisson(0, until[1] - until[0])) + std::exp(terms[1]), 1e-10);
+    EXPECT_NEAR(normal_cdf(scores[1].low), std::exp(poisson(0, until[1] - until[0])), 1e-10);
+    EXPECT_FALSE(std::isfinite(scores[2].low));
+  }
+}
+
 // By hand: 2 failures in 2 x 50 units of age of the first phase, 1 in 100 of the second.
 TEST(Phases, CountFailuresAndTimeOfEachPhase) {
   Process phases{ProcessKind::phases, 1, 0, {50}};

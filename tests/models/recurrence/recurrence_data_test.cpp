@@ -9,6 +9,7 @@
 namespace wearwell::recurrence {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class RecurrenceDataTest : public ScratchTest {
@@ -170,6 +171,41 @@ TEST_F(RecurrenceDataTest, LateStarts) {
               HasSubstr("before the start"));
   EXPECT_THAT(refusal("a,5,failure,5\na,15,end,5\n", "", columns, heading),
               HasSubstr("very start"));
+}
+
+// data.grouped: a row has the failures since the row before; the last row ends the observation, with or without a word for it.
+TEST_F(RecurrenceDataTest, FailuresCountedByInterval) {
+  const std::string grouped = "grouped = true\n", heading = "unit,age [h],count",
+                    counted = "count = \"count\"\n";
+  const RecurrenceData data = read("a,10,3\na,40,0\na,50,2\nb,30,1\n", grouped, counted, heading);
+  ASSERT_EQ(data.gaps.size(), 4U);
+  EXPECT_EQ(data.failures(), 6U);
+  EXPECT_EQ(data.units[0].end, 180'000);
+  EXPECT_EQ(data.gaps[2].from, 144'000);
+  EXPECT_EQ(data.gaps[2].count, 2U);
+  EXPECT_EQ(data.gaps[1].count, 0U);
+  EXPECT_TRUE(data.units[1].grouped);
+  const std::string with_ends = "unit,age [h],event,count",
+                    events = "event = \"event\"\n" + counted;
+  const RecurrenceData ended =
+      read("a,10,failure,3\na,40,failure,0\na,50,end,2\nb,30,failure,1\nb,30,end,\n", grouped,
+           events, with_ends);
+  EXPECT_EQ(ended.failures(), 6U);
+  EXPECT_EQ(ended.units[0].end, 180'000);
+  EXPECT_EQ(ended.gaps.back().count, 0U);
+  const auto refused = [&](const std::string& rows) {
+    return refusal(rows, grouped, counted, heading);
+  };
+  EXPECT_THAT(refused("a,10,1.5\n"),
+              AllOf(HasSubstr("row 1, column 'count'"), HasSubstr("whole number from 0")));
+  EXPECT_THAT(refused("a,10,1\na,10,2\n"),
+              AllOf(HasSubstr("row 2, column 'age [h]'"), HasSubstr("without length")));
+  EXPECT_THAT(refused("a,10,1\na,5,2\n"), HasSubstr("must not go back"));
+  EXPECT_THAT(refusal("a,10,failure,1\na,20,end,\na,30,failure,1\n", grouped, events, with_ends),
+              HasSubstr("follows the end of observation"));
+  EXPECT_THAT(refusal("a,10,failure\n", grouped), HasSubstr("data.columns.count"));
+  EXPECT_THAT(refusal("a,10,1\n", grouped + "rounding = \"1 h\"\n", counted, heading),
+              HasSubstr("data.rounding"));
 }
 
 TEST_F(RecurrenceDataTest, AgesOfAnyKind) {

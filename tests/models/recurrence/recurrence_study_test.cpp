@@ -170,6 +170,11 @@ TEST_F(RecurrenceStudyTest, ClassicalEstimatesAreThoseOfReliaSoft) {
   EXPECT_NEAR(1 / number(per_failure["normal"]["upper"]), 0.02499, 5e-6);
   EXPECT_NEAR(1 / number(per_failure["normal"]["lower"]), 0.05039, 5e-6);
   EXPECT_NEAR(number(classical["unbiased"][0]["value"]), 0.6142104 * 20 / 22, 1e-6);
+  // Crow's bounds of lambda (RGA): quantiles of chi-square with 44 degrees of freedom over 2 T^beta.
+  const auto& given = classical["lambda_given_beta"];
+  EXPECT_EQ(given["name"], "lambda, t in h");
+  EXPECT_NEAR(number(given["lower"]), 29.78748 / 2 * 0.4239422 / 22, 1e-5);
+  EXPECT_NEAR(number(given["upper"]), 60.48089 / 2 * 0.4239422 / 22, 1e-5);
 }
 
 // With phases the maximum is time over failures; likelihood-ratio and exact bounds enclose it.
@@ -186,6 +191,56 @@ TEST_F(RecurrenceStudyTest, ClassicalEstimatesOfPhases) {
   EXPECT_NEAR(phase["exact"]["upper"].get<double>(), 150 / quantile(gamma_distribution<>(3), 0.05),
               1e-6);
   EXPECT_FALSE(classical.contains("unbiased"));
+  EXPECT_FALSE(classical.contains("lambda_given_beta"));
+}
+
+// Failures that are counted by interval. RGA's grouped example: beta 0.6315, lambda 0.0701. MIL-HDBK-189: beta 0.753, lambda
+// 1.53, chi-square 5.5 with three degrees of freedom.
+TEST_F(RecurrenceStudyTest, GroupedFailuresAreThoseOfReliaSoftAndTheHandbook) {
+  const auto fit = [&](const std::string& rows) {
+    write("d.csv", "unit,age [h],count\n" + rows);
+    write("study.toml",
+          "model = \"repairable\"\nprocess = \"power_law\"\n[data]\nfile = \"d.csv\"\ngrouped = "
+          "true\n[data.columns]\nunit = \"unit\"\nage = \"age\"\ncount = \"count\"\n[predict]\n"
+          "level = 0.9\nsides = \"both\"\nclassical = true\n");
+    return read_study(source_of(folder() / "study.toml"), all_models())
+        ->run({.sampler = {}, .report = false}, {})
+        .body;
+  };
+  const auto number = [](const auto& json) { return json.template get<double>(); };
+  const auto runs = fit("a,200,2\na,400,1\na,600,1\na,3000,7\n");
+  const auto& maximum = runs["classical"]["maximum_likelihood"];
+  EXPECT_NEAR(number(maximum["parameters"][0]["value"]), 0.6315, 5e-5);
+  EXPECT_NEAR(number(maximum["quantities"][0]["value"]), 0.0701, 5e-5);
+  EXPECT_FALSE(maximum["parameters"][0].contains("exact"));
+  EXPECT_TRUE(maximum["parameters"][1].contains("exact"));
+  EXPECT_FALSE(runs["classical"].contains("unbiased"));
+  EXPECT_TRUE(runs["repairable"]["tests"]["laplace"].contains("problem"));
+  EXPECT_TRUE(runs["repairable"]["tests"]["chi_square"].contains("problem"));
+  const auto handbook = fit("a,20,13\na,40,16\na,60,5\na,80,8\na,100,7\n");
+  const auto& estimates = handbook["classical"]["maximum_likelihood"];
+  EXPECT_NEAR(number(estimates["parameters"][0]["value"]), 0.753, 5e-4);
+  EXPECT_NEAR(number(estimates["quantities"][0]["value"]), 1.53, 5e-3);
+  const auto& test = handbook["repairable"]["tests"]["chi_square"];
+  EXPECT_NEAR(number(test["statistic"]), 5.45, 5e-3);
+  EXPECT_NEAR(number(test["p"]), 0.1416, 1e-3);  // R: pchisq(5.450432, 3, lower.tail = FALSE)
+  EXPECT_FALSE(handbook["repairable"]["tests"].contains("cramer_von_mises"));
+}
+
+// What needs the ages of the failures is refused, and phases that divide an interval.
+TEST_F(RecurrenceStudyTest, WhatCountsByIntervalDoNotAnswer) {
+  const auto refused = [&](const std::string& process, const std::string& more) {
+    write("d.csv", "unit,age [h],count\na,20,13\na,40,16\n");
+    write("study.toml", "model = \"repairable\"\nprocess = \"" + process +
+                            "\"\n[data]\nfile = \"d.csv\"\ngrouped = true\n[data.columns]\nunit = "
+                            "\"unit\"\nage = \"age\"\ncount = \"count\"\n" +
+                            more);
+    return message_of<InputError>(
+        [&] { read_study(source_of(folder() / "study.toml"), all_models()); });
+  };
+  EXPECT_THAT(refused("renewal", ""), HasSubstr("the age of each failure"));
+  EXPECT_THAT(refused("phases", "[conditions]\nphase_ends = [\"30 h\"]\n"),
+              HasSubstr("within the interval from 20 h to 40 h of unit 'a'"));
 }
 
 // A growth test of one unit with modes; `fixes` follows the columns.

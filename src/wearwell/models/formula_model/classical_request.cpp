@@ -55,6 +55,13 @@ bool has_masked_modes(const FormulaModel& model) {
 std::vector<LifeGroup> classical_groups(const AskedOfModes& asked,
                                         std::vector<std::string>& notes) {
   const FormulaModel& model = *asked.model;
+  if (model.has_exposure()) {
+    notes.push_back(
+        fmt::format("Of a {} test there is no rank regression and no nonparametric estimate: both "
+                    "need lives under constant conditions.",
+                    model.steps ? "step-stress" : "ramp"));
+    return {};
+  }
   std::vector<LifeGroup> groups = life_groups(model, most_classical_groups);
   if (groups.empty())
     notes.push_back(
@@ -87,10 +94,6 @@ void add_classical_estimates(const AskedOfModes& asked, PosteriorStudy& study) {
                        "that did not fail");
   if (model.measured.size() > 1 && !model.modes)
     asked.predict.fail("classical", "is for one measured life; this study has several");
-  if (model.has_exposure())
-    asked.predict.fail("classical",
-                       fmt::format("is for lives under constant conditions, not for a {} test",
-                                   model.steps ? "step-stress" : "ramp"));
   const ClassicalLevel level{asked.part.levels.credible_level,
                              asked.part.levels.sides == BoundSides::both};
   if (!(level.within() > 0))

@@ -36,7 +36,6 @@ void JointFailures::find_equal() {
   std::map<std::pair<double, double>, std::size_t> intervals;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     const JointFailure& each = joint_[i];
-    single_.push_back({each.from, each.until, {each.possible}, {i}});
     const auto [first, is_new] = seen.try_emplace({each.possible, each.from, each.until}, i);
     first_.push_back(first->second);
     if (!is_new) continue;
@@ -109,6 +108,10 @@ std::span<const double> JointFailures::evaluate(std::span<const double> x,
   if (joint_.empty()) return {};
   forward(x);
   const bool with_slopes = !gradient.empty();
+  if (!uniform_ && single_.empty()) {
+    for (std::size_t i = 0; i < joint_.size(); ++i)
+      single_.push_back({joint_[i].from, joint_[i].until, {joint_[i].possible}, {i}});
+  }
   for (const Interval& interval : uniform_ ? equal_ : single_) compute(interval, with_slopes);
   const std::size_t stride = families_.size() * most_response_parameters;
   for (std::size_t i = 0; i < joint_.size(); ++i) {

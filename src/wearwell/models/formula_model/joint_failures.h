@@ -49,7 +49,7 @@ class JointFailures {
   // Rows of a triangle of returns repeat ages: where no parameter depends on the row, equal failures are computed once.
   std::vector<std::size_t> first_;
   std::vector<Interval> equal_;   // where parameters are equal in all rows
-  std::vector<Interval> single_;  // one for each row
+  std::vector<Interval> single_;  // one for each row, once rows differ in their parameters
   bool uniform_ = false;
   std::vector<formula::Data> data_;  // by mode
   std::vector<formula::Workspace> workspaces_;

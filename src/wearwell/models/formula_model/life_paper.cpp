@@ -14,6 +14,7 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/prob/plotting_positions.h"
 #include "wearwell/prob/standard_distribution.h"
+#include "wearwell/prob/threshold_form.h"
 #include "wearwell/study/plot_study.h"
 
 // Longer than others: paper, points, lines and bands share one scale.
@@ -51,11 +52,6 @@ std::vector<LifeGroup> drawn_groups(const TomlReader& root,
   return groups;
 }
 
-// A test with changing stress has its family with a threshold; that follows the one without in the list of forms.
-const ResponseForm& without_threshold(const ResponseForm& form) {
-  return form_of(static_cast<ResponseFamily>(static_cast<int>(form.family) - 1));
-}
-
 class Drawing {
  public:
   Drawing(const FormulaModel& model, const std::vector<LifeGroup>& groups, std::size_t left_out,
@@ -66,6 +62,7 @@ class Drawing {
         groups_(groups),
         left_out_(left_out),
         equivalent_(equivalent),
+        // A test with changing stress has its family with a threshold.
         paper_(equivalent ? without_threshold(*measured_.form).paper : measured_.form->paper),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
     for (const LifeGroup& group : groups) {

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
+#include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/input/status_words.h"
 #include "wearwell/models/formula_model/returns_period.h"
 #include "wearwell/models/formula_model/returns_triangle.h"
+#include "wearwell/study/role_words.h"
 
 namespace wearwell::formula_model {
 namespace {
@@ -52,42 +53,76 @@ std::string life_text(double periods, const std::string& unit) {
       unit, rounded_up(10 * periods), unit, unit);
 }
 
-// Dates of one column: how many cells have one, and the first and the last month.
+// "July": a month, but of no year.
+bool is_month_without_year(const std::string& text) {
+  const auto with_year = period_in(text + " 2024");
+  return !period_in(text) && with_year && with_year->calendar;
+}
+
+// A triangle by names of months has no order without their years.
+void refuse_months_without_year(const Table& table) {
+  const Column* months = nullptr;
+  std::vector<std::string> headings;
+  for (const Column& each : table.columns) {
+    if (is_month_without_year(each.name)) headings.push_back(each.name);
+    if (each.is_number || months) continue;
+    bool all = table.rows > 0;
+    for (std::size_t row = 0; all && row < table.rows; ++row)
+      all = is_month_without_year(cell_word(each, row));
+    if (all) months = &each;
+  }
+  if (!months || headings.size() < 2) return;
+  throw InputError(fmt::format(
+      "{}: '{}' and the headings '{}' to '{}' are months without a year; a returns triangle needs "
+      "it: write '{} 2024' or 2024-07, in the cells and in the headings",
+      table.source, months->name, headings.front(), headings.back(), headings.front()));
+}
+
+// Dates of one column: how many cells have one, the first and the last month, and cells that hold anything else.
 struct Dates {
-  std::size_t cells = 0;
+  std::size_t cells = 0, others = 0;
   int first = 0, last = 0;
+  std::size_t other_row = 0;  // the first of the others
+  std::optional<std::size_t> empty_row = {};
 };
 
-// Empty if a cell holds anything else, or none a date.
+// Empty unless more cells hold dates than anything else.
 std::optional<Dates> dates_in(const Table& table, const Column& column) {
   Dates dates;
   for (std::size_t row = 0; row < table.rows; ++row) {
     const std::string cell = cell_word(column, row);
-    if (cell.empty()) continue;
+    if (cell.empty()) {
+      if (!dates.empty_row) dates.empty_row = row;
+      continue;
+    }
     const auto period = period_in(cell);
-    if (!period || !period->calendar) return {};
+    if (!period || !period->calendar) {
+      if (dates.others++ == 0) dates.other_row = row;
+      continue;
+    }
     dates.first = dates.cells == 0 ? period->number : std::min(dates.first, period->number);
     dates.last = dates.cells == 0 ? period->number : std::max(dates.last, period->number);
     ++dates.cells;
   }
-  if (dates.cells == 0) return {};
+  if (dates.cells <= dates.others) return {};
   return dates;
 }
 
-bool has_any(const std::string& heading, std::initializer_list<const char*> words) {
+bool has_any(const std::string& heading, const std::vector<std::string_view>& words) {
   const std::string folded = folded_word(heading);
   return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return folded.find(word) != std::string::npos; });
+                     [&](std::string_view word) { return folded.find(word) != std::string::npos; });
 }
 
-bool names_a_sale(const std::string& heading) {
-  return has_any(heading, {"sold", "sale", "deliver", "ship", "install", "in service", "commission",
-                           "verkauf", "liefer", "inbetrieb", "vente", "vendu", "livr", "venta"});
-}
-
-bool names_a_return(const std::string& heading) {
-  return has_any(heading, {"return", "fail", "claim", "repair", "ausfall", "reklam", "rueck",
-                           "rück", "retour", "panne", "fallo", "devol"});
+void require_dates(const Table& table, const Column& column, const Dates& dates, bool of_sale) {
+  if (dates.others > 0)
+    throw InputError(
+        fmt::format("{}: '{}' is not a date; use 2024-01-31, 31.01.2024, 01/2024 or Jan-24{}",
+                    place(table, column.name, dates.other_row), cell_word(column, dates.other_row),
+                    of_sale ? "" : ", and leave the cell of a unit that did not come back empty"));
+  if (of_sale && dates.empty_row)
+    throw InputError(fmt::format("{}: no date of sale; each row is a unit that was sold",
+                                 place(table, column.name, *dates.empty_row)));
 }
 
 // One row for each unit: a date of sale, and a date of return that is empty for units still in use.
@@ -97,10 +132,10 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
   Dates sales, returns;
   std::vector<std::string> unread;
   for (const Column& each : table.columns) {
-    const bool may_be_sale = !sold && names_a_sale(each.name),
-               may_be_return = !returned && names_a_return(each.name);
+    const bool may_be_sale = !sold && has_any(each.name, sale_words()),
+               may_be_return = !returned && has_any(each.name, return_words());
     const auto dates = may_be_sale || may_be_return ? dates_in(table, each) : std::nullopt;
-    if (dates && may_be_sale && dates->cells == table.rows) {
+    if (dates && may_be_sale) {
       sold = &each;
       sales = *dates;
     } else if (dates && may_be_return) {
@@ -111,6 +146,8 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
     }
   }
   if (!sold || !returned) return {};
+  require_dates(table, *sold, sales, true);
+  require_dates(table, *returned, returns, false);
   const int last = std::max(sales.last, returns.last);
   const std::string until = month_text(last);
   Scaffold study;
@@ -141,7 +178,10 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
 std::optional<Scaffold> first_returns_study(ColumnRoles& roles) {
   const Table& table = roles.table();
   const auto columns = triangle_columns(table);
-  if (!columns) return first_units_study(roles);
+  if (!columns) {
+    refuse_months_without_year(table);
+    return first_units_study(roles);
+  }
   Scaffold study;
   study.reading = "returns triangle (Nevada table): units sold and their returns by period";
   study.fit = ReadingFit::specific;

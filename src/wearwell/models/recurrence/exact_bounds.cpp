@@ -83,7 +83,9 @@ std::optional<PowerLawSample> power_law_sample(const std::vector<UnitHistory>& u
     if (unit.start > 0) return {};
     if (unit.end != sample.end) sample.end = std::numeric_limits<double>::quiet_NaN();
     sample.failures += unit.failures.size();
-    const std::size_t random = unit.failures.size() - (unit.ends_at_failure ? 1 : 0);
+    // Ages of grouped failures are not known.
+    const std::size_t random =
+        unit.grouped ? 0 : unit.failures.size() - (unit.ends_at_failure ? 1 : 0);
     for (std::size_t i = 0; i < random; ++i) sample.logs += std::log(unit.end / unit.failures[i]);
     sample.random += random;
     sample.time_ended = sample.time_ended && !unit.ends_at_failure;

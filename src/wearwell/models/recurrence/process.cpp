@@ -1,6 +1,7 @@
 #include "wearwell/models/recurrence/process.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <limits>
 
 #include "wearwell/base/stop_scope.h"
@@ -31,6 +32,10 @@ T log_factor(const Process& process, const Gap& gap, const T* x) {
   if (!process.minimal_repair() && gap.failed && !(gap.to > gap.from))
     return log_failed(weibull_hazard(x, process.rounding)) - std::log(process.rounding);
   const T hazard = cumulative_hazard(process, gap, x);
+  if (gap.count && *gap.count > 0) {
+    const auto count = static_cast<double>(*gap.count);
+    return count * log(hazard) - hazard - std::lgamma(count + 1);
+  }
   if (!gap.failed) return -hazard;
   if (process.kind == ProcessKind::phases) return -log(x[process.phase_at(gap.to)]) - hazard;
   if (process.minimal_repair())
@@ -49,6 +54,11 @@ class PhaseLikelihood final : public LogDensity {
         time_(process.parameters()) {
     for (const Gap& gap : gaps_) {
       if (gap.failed) failures_[process.phase_at(gap.to)] += 1;
+      if (gap.count && *gap.count > 0) {
+        const auto count = static_cast<double>(*gap.count);
+        failures_[process.phase_at(gap.to)] += count;
+        constant_ += count * std::log(gap.to - gap.from) - std::lgamma(count + 1);
+      }
       for (std::size_t k = 0; k < time_.size(); ++k)
         time_[k] += process.time_in_phase(k, gap.to) - process.time_in_phase(k, gap.from);
     }
@@ -56,7 +66,7 @@ class PhaseLikelihood final : public LogDensity {
 
   int dimension() const override { return static_cast<int>(time_.size()); }
   double value(std::span<const double> x) const override {
-    double sum = 0;
+    double sum = constant_;
     for (std::size_t k = 0; k < time_.size(); ++k) {
       sum -= time_[k] / x[k];
       if (failures_[k] > 0) sum -= failures_[k] * std::log(x[k]);
@@ -82,6 +92,7 @@ class PhaseLikelihood final : public LogDensity {
   Process process_;
   std::vector<Gap> gaps_;
   std::vector<double> failures_, time_;
+  double constant_ = 0;  // of grouped failures
 };
 
 class ProcessLikelihood final : public LogDensity {
@@ -89,6 +100,7 @@ class ProcessLikelihood final : public LogDensity {
   ProcessLikelihood(const Process& process, const RecurrenceData& data)
       : process_(process), gaps_(data.gaps) {
     for (const Gap& gap : gaps_) {
+      if (gap.count && *gap.count > 0) grouped_.push_back(gap);
       if (!gap.failed) continue;
       ++failures_;
       log_ages_ += std::log(gap.to / process.reference);
@@ -133,6 +145,10 @@ class ProcessLikelihood final : public LogDensity {
     T total(0.0);
     if (process_.minimal_repair()) {
       for (const auto& [age, units] : ends_) total -= units * process_.mean_by(x, age);
+      for (const Gap& gap : grouped_) {
+        const auto count = static_cast<double>(*gap.count);
+        total += count * log(cumulative_hazard(process_, gap, x)) - std::lgamma(count + 1);
+      }
       if (failures_ > 0) total += failures_ * log(x[0] * x[1]) + x[0] * log_ages_ - log_products_;
     } else {
       for (const Gap& gap : gaps_) total += log_factor(process_, gap, x);
@@ -142,11 +158,23 @@ class ProcessLikelihood final : public LogDensity {
   }
 
   Process process_;
-  std::vector<Gap> gaps_;
+  std::vector<Gap> gaps_, grouped_ = {};
   std::vector<std::pair<double, double>>
       ends_;  // ages, with the number of units whose observation ends or begins
   double failures_ = 0, log_ages_ = 0, log_products_ = 0;
 };
+
+// The scores between which a Poisson number with this mean lies.
+NormalScore score_of_count(std::size_t count, double mean) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!(mean > 0)) return {-infinity, infinity};
+  const auto up_to = [&](double n) {
+    return normal_score(std::log(boost::math::gamma_q(n + 1, mean)),
+                        std::log(boost::math::gamma_p(n + 1, mean)));
+  };
+  const auto n = static_cast<double>(count);
+  return {count > 0 ? up_to(n - 1) : -infinity, up_to(n)};
+}
 
 double score_at(double hazard) {
   if (!(hazard > 0)) return -std::numeric_limits<double>::infinity();
@@ -168,6 +196,10 @@ Scores process_scores(const Process& process, const RecurrenceData& data) {
     scores.reserve(gaps.size());
     for (const Gap& gap : gaps) {
       check_stop();
+      if (gap.count) {
+        scores.push_back(score_of_count(*gap.count, cumulative_hazard(process, gap, x)));
+        continue;
+      }
       if (gap.failed && !(gap.to > gap.from)) {
         const double hazard = process.minimal_repair()
                                   ? process.intensity(x, gap.to) * process.rounding

@@ -69,7 +69,8 @@ struct Process {
 
 /// The likelihood of the gaps; parameters beta and M_T, beta and eta [SI], or a mean time between failures of each phase [SI]. Its factors are the gaps in their order: the
 /// density of a failure, or the probability of none, given the unit's past, so that factors of both processes are comparable.
-/// The density of a second failure within one rounded age is the mean density over the rounding step.
+/// The density of a second failure within one rounded age is the mean density over the rounding step. A gap of grouped data has
+/// the Poisson probability of its number of failures (Crow 1982; MIL-HDBK-189C, 6.2.4).
 std::shared_ptr<const LogDensity> process_likelihood(const Process& process,
                                                      const RecurrenceData& data);
 

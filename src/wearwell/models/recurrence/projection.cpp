@@ -6,7 +6,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
-#include "wearwell/base/rng.h"
+#include "wearwell/base/gamma_variate.h"
 
 namespace wearwell::recurrence {
 namespace {
@@ -32,18 +32,6 @@ std::vector<double> ages_of(const GrowthTest& test, FixClass fix) {
   for (const FailureMode* each : test.of(fix))
     ages.insert(ages.end(), each->ages.begin(), each->ages.end());
   return ages;
-}
-
-// Marsaglia and Tsang (2000), with the scale 1.
-double gamma_variate(double shape, Rng& rng) {
-  if (shape < 1) return gamma_variate(shape + 1, rng) * std::pow(rng.uniform(), 1 / shape);
-  const double d = shape - 1.0 / 3, c = 1 / std::sqrt(9 * d);
-  for (;;) {
-    const double x = rng.normal(), root = 1 + c * x;
-    if (!(root > 0)) continue;
-    const double v = root * root * root;
-    if (std::log(rng.uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) return d * v;
-  }
 }
 
 // A gamma variate with this shape and rate between 0 and 1, kept off both ends by what no result shows.

@@ -28,11 +28,18 @@ struct UnbiasedEstimate {
   double value = 0;  // in this unit
 };
 
+// Bounds that take beta as known, at its estimate.
+struct GivenBeta {
+  std::string name;
+  Interval bounds;
+};
+
 struct Estimates {
   std::string problem;
   double log_likelihood = 0;
   std::vector<ClassicalEstimate> parameters, quantities;
   std::vector<UnbiasedEstimate> unbiased = {};
+  std::optional<GivenBeta> lambda = {};
   std::vector<std::string> notes;
 };
 
@@ -43,12 +50,21 @@ std::optional<ExactBounds> exact_of(const std::optional<Interval>& interval, con
 
 constexpr const char* mtbf_name = "mean time between failures";
 
+constexpr const char* lambda_note =
+    "Crow's bounds of lambda take beta as known; those by Fisher's information and by the "
+    "likelihood "
+    "ratio do not, and are wider.";
+
+std::string lambda_name(const Asked& asked) {
+  return fmt::format("lambda, t in {}", asked.data.unit.text);
+}
+
 std::vector<PositiveQuantity> power_law_quantities(const Asked& asked,
                                                    const std::optional<PowerLawSample>& sample) {
   const Process& process = asked.process;
   const double reference = from_si(asked.data.unit, process.reference);
   std::vector<PositiveQuantity> all = {
-      {fmt::format("lambda, t in {}", asked.data.unit.text), "", Unit{"1", 1, 0},
+      {lambda_name(asked), "", Unit{"1", 1, 0},
        [reference](const double* x) { return x[1] * std::pow(reference, -x[0]); }},
       {"eta", "", asked.data.unit,
        [process](const double* x) { return process.reference * std::pow(x[1], -1 / x[0]); }}};
@@ -166,9 +182,20 @@ void add_unbiased(const Asked& asked, const std::optional<PowerLawSample>& sampl
   if (!std::isfinite(sample->end)) return;
   const double end = from_si(asked.data.unit, sample->end);
   const double each = static_cast<double>(sample->failures) / static_cast<double>(sample->units);
-  add(fmt::format("lambda, t in {}", asked.data.unit.text), "", "1", each / std::pow(end, *beta));
+  add(lambda_name(asked), "", "1", each / std::pow(end, *beta));
   add(mtbf_name, "at age " + age_text(asked.data, sample->end), asked.data.unit.text,
       end / (each * *beta));
+}
+
+// Crow's bounds of lambda: those of the expected failures until the common end, over its power beta.
+void add_lambda(const Asked& asked, const std::optional<PowerLawSample>& sample, Estimates& found) {
+  if (asked.process.kind != ProcessKind::power_law || !sample || found.parameters.empty()) return;
+  const auto age = exact_age_per_failure(*sample, asked.classical->outside());
+  if (!age) return;
+  const double power =
+      std::pow(from_si(asked.data.unit, sample->end), found.parameters.front().value);
+  found.lambda = GivenBeta{lambda_name(asked),
+                           {sample->end / age->upper / power, sample->end / age->lower / power}};
 }
 
 void add_notes(const Asked& asked, const std::optional<PowerLawSample>& sample, Estimates& found) {
@@ -185,11 +212,20 @@ void add_notes(const Asked& asked, const std::optional<PowerLawSample>& sample, 
     note("Exact bounds need units that were observed from age 0.");
     return;
   }
+  if (asked.data.units.front().grouped) {
+    note(
+        "Exact: the expected failures until the end of observation and the age per failure, by the "
+        "chi-square distribution of their number. Beta and the mean time between failures have no "
+        "exact bounds and no estimates without bias where failures are counted by interval.");
+    if (found.lambda) note(lambda_note);
+    return;
+  }
   note(
       "Exact: beta by the chi-square distribution, given the numbers of failures; the mean time "
       "between failures at the end of observation by Crow's conditional distribution; the expected "
       "failures and the age per failure until then by the chi-square distribution of their "
       "number.");
+  if (found.lambda) note(lambda_note);
   if (!std::isfinite(sample->end))
     note("Crow's bounds of the mean time between failures need one common end of observation.");
   else if (!sample->time_ended && !sample->failure_ended)
@@ -208,6 +244,16 @@ present::Table unbiased_table(const Estimates& found) {
   for (const UnbiasedEstimate& each : found.unbiased)
     table.rows.push_back(
         {each.at.empty() ? each.name : each.name + " " + each.at, each.unit, each.value});
+  return table;
+}
+
+present::Table lambda_table(const Estimates& found) {
+  present::Table table{"lambda-given-beta",
+                       "Crow's bounds of lambda, beta at its estimate",
+                       {{"Quantity"}, {"From"}, {"To"}}};
+  if (found.lambda)
+    table.rows.push_back(
+        {found.lambda->name, found.lambda->bounds.lower, found.lambda->bounds.upper});
   return table;
 }
 
@@ -235,6 +281,10 @@ Json classical_json(const Asked& asked, const Estimates& found) {
       json["unbiased"].push_back(
           {{"name", each.name}, {"at", each.at}, {"unit", each.unit}, {"value", each.value}});
   }
+  if (found.lambda)
+    json["lambda_given_beta"] = {{"name", found.lambda->name},
+                                 {"lower", found.lambda->bounds.lower},
+                                 {"upper", found.lambda->bounds.upper}};
   json["notes"] = found.notes;
   return json;
 }
@@ -246,6 +296,7 @@ void add_classical(const Asked& asked, const Fit& fit, PresetAddition& added) {
   Estimates found;
   add_maximum(asked, fit, sample, found);
   add_unbiased(asked, sample, found);
+  add_lambda(asked, sample, found);
   add_notes(asked, sample, found);
   added.body["classical"] = classical_json(asked, found);
   std::vector<ClassicalEstimate> all = found.parameters;
@@ -278,6 +329,14 @@ void add_classical(const Asked& asked, const Fit& fit, PresetAddition& added) {
                                     each.unit),
            plain_number(each.value)});
     added.text += "\n" + text_table(rows);
+  }
+  if (found.lambda) {
+    const present::Table lambda = lambda_table(found);
+    blocks.push_back({lambda});
+    added.text +=
+        "\n" + text_table({{lambda.caption + ":", "from", "to"},
+                           {"  " + found.lambda->name, plain_number(found.lambda->bounds.lower),
+                            plain_number(found.lambda->bounds.upper)}});
   }
   for (const std::string& each : found.notes) added.text += wrapped(each, 2, 4);
 }

@@ -11,8 +11,9 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
-#include "wearwell/input/life_status.h"
 #include "wearwell/input/status_words.h"
+#include "wearwell/models/recurrence/event_words.h"
+#include "wearwell/models/recurrence/grouped_counts.h"
 
 namespace wearwell::recurrence {
 namespace {
@@ -36,55 +37,6 @@ ColumnChoice read_age(const TomlReader& columns, const Table& table, std::string
   if (message.find("wrong dimension") == message.npos) throw *first;
   throw InputError(
       message + "; an age is a time, a distance, a number of cycles or revolutions, or an energy");
-}
-
-// What the cells of the event column mean.
-struct EventWords {
-  std::string column;
-  std::optional<int> failure_code = {};
-  std::vector<std::string> failures = {}, ends = {};  // the study's own words, folded
-};
-
-EventWords read_event_words(const TomlReader& columns, const Table& table) {
-  const auto chosen = read_word_column(columns, "event", table);
-  if (!chosen) columns.fail("event", "is missing: the column of failures and ends of observation");
-  EventWords words{chosen->column, failure_code_of(chosen->column)};
-  if (columns.is_text("event")) return words;
-  const TomlReader choice = columns.required_table("event");
-  if (choice.is_integer("failure"))
-    words.failure_code = static_cast<int>(*choice.integer("failure", 0, 1));
-  else
-    for (const std::string& each : choice.texts("failure"))
-      words.failures.push_back(folded_word(each));
-  for (const std::string& each : choice.texts("end")) words.ends.push_back(folded_word(each));
-  return words;
-}
-
-std::optional<bool> is_failure(const EventWords& words, const std::string& word) {
-  const std::string folded = folded_word(word);
-  if (contains(words.failures, folded)) return true;
-  if (contains(words.ends, folded)) return false;
-  return is_failure_word(word, words.failure_code);
-}
-
-bool read_event(const Table& table, const EventWords& words, std::size_t row) {
-  const std::string word = cell_word(table.column(words.column), row);
-  if (const auto failed = is_failure(words, word)) return *failed;
-  const std::string where = place(table, words.column, row);
-  if (word.empty())
-    throw InputError(
-        fmt::format("{}: no value; write failure, or end for the end of observation", where));
-  if (truth_in(word))
-    throw InputError(
-        fmt::format("{}: {} is ambiguous: either 1 is a failure and 0 the end of observation, or 0 "
-                    "is a failure; write event = "
-                    "{{ column = \"{}\", failure = 1 }} or failure = 0",
-                    where, word, words.column));
-  throw InputError(
-      fmt::format("{}: '{}' is not an event; use failure, or end for the end of observation; or "
-                  "define your own word in "
-                  "the study: event = {{ column = \"{}\", failure = \"{}\" }}, or end = \"{}\"",
-                  where, word, words.column, word, word));
 }
 
 // The state of reading a unit's rows.
@@ -149,6 +101,27 @@ void add_failure_at_end(const Table& table, const ColumnChoice& age, const Readi
   end.from = end.to;
   end.first = false;
   data.gaps.push_back(failure);
+}
+
+// The failures of a unit since its row before, which lie anywhere within the interval.
+void add_interval(const Table& table, const ColumnChoice& age, double until, std::size_t count,
+                  std::size_t row, Reading& state, RecurrenceData& data) {
+  UnitHistory& unit = data.units[state.unit];
+  Gap gap{state.unit, state.begun ? state.last : unit.start, until, false, !state.begun, count};
+  if (!(gap.to > gap.from) && (count > 0 || gap.first))
+    throw InputError(fmt::format(
+        "{}: {} failures of unit '{}' in an interval without length, which begins at {} and ends "
+        "there; a row counts the failures since the row before",
+        place(table, age.column, row), count, unit.name,
+        state.begun ? cell_word(table.column(age.column), state.last_row)
+                    : std::string("the start of its observation")));
+  unit.failures.insert(unit.failures.end(), count, until);
+  unit.end = until;
+  unit.grouped = true;
+  data.gaps.push_back(gap);
+  state.last = until;
+  state.last_row = row;
+  state.begun = true;
 }
 
 // A column of counts that no key reads would count each row once.
@@ -267,38 +240,24 @@ double RecurrenceData::longest() const {
   return most;
 }
 
-// Nelson (1995) and SAS code a failure as 1 and the end as -1; R's Surv codes the end as 0.
-std::optional<bool> is_failure_word(const std::string& word, std::optional<int> failure_code) {
-  if (word == "-1") return false;
-  if (const auto truth = truth_in(word)) {
-    if (!failure_code) return {};
-    return *truth == (*failure_code == 1);
-  }
-  const std::string folded = folded_word(word);
-  for (const char* each : {"end", "ende", "fin", "endofobservation", "endofhistory", "now"}) {
-    if (folded == each) return false;
-  }
-  for (const char* each : {"repair", "repaired", "reparatur", "replacement"}) {
-    if (folded == each) return true;
-  }
-  const auto seen = censoring_by_word(word);
-  if (seen == Censoring::none) return true;
-  if (seen == Censoring::right) return false;
-  return {};
-}
-
 RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source) {
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
   const Table written = read_table(section, source);
-  const EventWords words = read_event_words(columns, written);
-  const Table table = each_failure(section, words, written);
+  const bool grouped = is_grouped(section);
+  std::optional<EventWords> words;
+  if (!grouped || columns.has("event")) words = read_event_words(columns, written);
+  const Table table = grouped ? written : each_failure(section, *words, written);
+  const std::vector<std::size_t> counts =
+      grouped ? read_counts(columns, table, words) : std::vector<std::size_t>();
   RecurrenceData data;
   const auto unit_column = read_word_column(columns, "unit", table);
   if (!unit_column)
     columns.fail("unit", "is missing: the column that names the unit of each event");
   const ColumnChoice age = read_age(columns, table, data.si);
   const auto mode = read_word_column(columns, "mode", table);
+  if (mode && grouped)
+    columns.fail("mode", "needs the age of each failure, not a number by interval (data.grouped)");
   std::optional<ColumnChoice> start;
   const std::vector<double> starts = read_starts(columns, table, data.si, start);
   if (const auto rounding = section.quantity("rounding", data.si)) {
@@ -318,7 +277,13 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
     if (starts[i] != unit.start)
       throw InputError(fmt::format("{}: the start of unit '{}' differs from that in its first row",
                                    place(table, start->column, i), name));
-    const bool failed = read_event(table, words, i);
+    const bool failed = words && read_event(table, *words, i);
+    if (grouped) {
+      check_age(table, age, ages[i], state, unit, i);
+      add_interval(table, age, ages[i], counts[i], i, state, data);
+      state.ended = words && !failed;
+      continue;
+    }
     read_mode(table, mode, i, failed, unit);
     if (failed && state.ended && ages[i] == state.last) {
       add_failure_at_end(table, age, state, i, data);
@@ -338,7 +303,7 @@ RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source
     data.gaps.push_back(gap);
     state = {state.unit, ages[i], i, true, !failed, data.gaps.size() - 1};
   }
-  close_units(section, table, unit_column->column, read, data);
+  if (!grouped) close_units(section, table, unit_column->column, read, data);
   data.columns.push_back({"age", data.si, age.unit, ages});
   data.layout = table.layout;
   return data;

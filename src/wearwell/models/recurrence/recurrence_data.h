@@ -17,6 +17,7 @@ struct UnitHistory {
   double start = 0, end = 0;
   std::vector<double> failures = {};  ///< ascending
   bool ends_at_failure = false;       ///< failure truncated: the last failure ended the observation
+  bool grouped = false;  ///< failures stand at the ends of the intervals that they fell into
   std::vector<std::string> modes = {};  ///< of the failures, in a table with failure modes
 };
 
@@ -26,6 +27,8 @@ struct Gap {
   double from = 0, to = 0;
   bool failed = false;  ///< else the end of observation
   bool first = false;   ///< it begins at the start of the observation
+  /// Of grouped data: the number of failures within it, at unknown ages; `failed` is not used.
+  std::optional<std::size_t> count = {};
 };
 
 struct RecurrenceData {
@@ -42,14 +45,11 @@ struct RecurrenceData {
   double longest() const;      ///< the largest age at the end of observation
 };
 
-/// Whether a word of the event column is a failure, else an end of observation; empty if it is neither.
-/// `failure_code`: what a failure is among 0 and 1, if that is known.
-std::optional<bool> is_failure_word(const std::string& word, std::optional<int> failure_code);
-
 /// Reads [data]: one row an event of a unit, with its age, and whether it is a failure or the end of observation. Throws
 /// InputError that names file, row and column: a negative age, an age below that of the row before, rows after the end, a
 /// second end, a unit without an end (unless data.end = "last failure"), two failures at one age (unless data.rounding is
-/// stated), a failure at age 0, a failure without its mode where a column has modes.
+/// stated), a failure at age 0, a failure without its mode where a column has modes. With data.grouped a row counts the
+/// failures since the row before of its unit, which is observed until its last row.
 RecurrenceData read_recurrence_data(const TomlReader& root, const Source& source);
 
 }  // namespace wearwell::recurrence

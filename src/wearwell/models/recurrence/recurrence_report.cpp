@@ -59,8 +59,13 @@ struct NamedTest {
 std::vector<NamedTest> classical_tests(const Asked& asked, const WeightedDraws& draws) {
   const std::vector<UnitHistory>& units = asked.data.units;
   std::vector<NamedTest> tests = {
-      {"laplace", "Laplace", "is the intensity constant?", laplace_test(units)},
-      {"cramer_von_mises", "Cramer-von Mises", "is it a power law?", cramer_von_mises_test(units)}};
+      {"laplace", "Laplace", "is the intensity constant?", laplace_test(units)}};
+  if (units.front().grouped)
+    tests.push_back({"chi_square", "Chi-square", "is it a power law?",
+                     grouped_power_law_test(asked.data.gaps)});
+  else
+    tests.push_back({"cramer_von_mises", "Cramer-von Mises", "is it a power law?",
+                     cramer_von_mises_test(units)});
   if (!asked.process.minimal_repair()) return tests;
   std::vector<double> x;  // posterior medians
   for (Eigen::Index k = 0; k < draws.values.cols(); ++k)

@@ -11,7 +11,7 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
 #include "wearwell/input/toml_text.h"
-#include "wearwell/models/recurrence/recurrence_data.h"
+#include "wearwell/models/recurrence/event_words.h"
 #include "wearwell/study/column_values.h"
 
 namespace wearwell::recurrence {

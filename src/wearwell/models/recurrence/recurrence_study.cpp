@@ -45,6 +45,22 @@ void read_phases(const std::optional<TomlReader>& conditions, const RecurrenceDa
   }
 }
 
+// Grouped failures of an interval are of one phase.
+void require_whole_intervals(const std::optional<TomlReader>& conditions,
+                             const RecurrenceData& data, const Process& process) {
+  for (const double end : process.phase_ends) {
+    for (const Gap& gap : data.gaps) {
+      if (*gap.count == 0 || !(gap.from < end && end < gap.to)) continue;
+      conditions->fail(
+          "phase_ends",
+          fmt::format("{} lies within the interval from {} to {} of unit '{}', whose failures are "
+                      "counted together (data.grouped); a phase ends where an interval ends",
+                      age_text(data, end), age_text(data, gap.from), age_text(data, gap.to),
+                      data.units[gap.unit].name));
+    }
+  }
+}
+
 Process read_process(const TomlReader& root, const RecurrenceData& data) {
   Process process;
   const auto kind = root.choice("process", {"power_law", "renewal", "phases"});
@@ -53,6 +69,10 @@ Process read_process(const TomlReader& root, const RecurrenceData& data) {
               "is missing: \"power_law\" (minimal repair, as bad as old), \"renewal\" (as good as "
               "new) or "
               "\"phases\" (of a growth test)");
+  const bool grouped = data.units.front().grouped;
+  if (grouped && *kind == "renewal")
+    root.fail("process",
+              "\"renewal\" needs the age of each failure, not a number by interval (data.grouped)");
   process.kind = *kind == "renewal"  ? ProcessKind::renewal
                  : *kind == "phases" ? ProcessKind::phases
                                      : ProcessKind::power_law;
@@ -68,6 +88,7 @@ Process read_process(const TomlReader& root, const RecurrenceData& data) {
     process.reference = age->si();
   }
   read_phases(conditions, data, process);
+  if (grouped) require_whole_intervals(conditions, data, process);
   if (process.minimal_repair()) return process;
   for (const UnitHistory& unit : data.units) {
     if (unit.start > 0)
@@ -194,10 +215,12 @@ void read_recurrence_study(const TomlReader& root, const Source& source, Posteri
   read_parameters(root, asked, study);
   read_predictions(root, asked, study);
   study.data_rows = data.gaps.size();
-  study.quantity = "events";
+  study.quantity = data.units.front().grouped ? "intervals" : "events";
   for (const Gap& gap : data.gaps) {
     study.observed.insert(study.observed.end(), {static_cast<double>(gap.unit), gap.from, gap.to,
-                                                 gap.failed ? 1.0 : 0.0});
+                                                 gap.count    ? static_cast<double>(*gap.count)
+                                                 : gap.failed ? 1.0
+                                                              : 0.0});
     const double term = gap.failed ? std::log(data.unit.scale) : 0;
     study.density.terms.push_back(term);
     study.density.total += term;
@@ -213,6 +236,9 @@ void read_recurrence_study(const TomlReader& root, const Source& source, Posteri
   study.data_notes = {fmt::format("{} unit{}, {} failure{}; {} without a failure",
                                   data.units.size(), data.units.size() == 1 ? "" : "s", failures,
                                   failures == 1 ? "" : "s", without)};
+  if (data.units.front().grouped)
+    study.data_notes.push_back(
+        "failures are counted by interval: each row has those since the row before of its unit");
   if (failures == 0)
     study.nothing_seen = {
         "no-failures",

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <functional>
 
@@ -47,10 +49,83 @@ double share_as_large(std::size_t size, const std::function<bool(Rng& rng)>& as_
   return (count + 1) / (static_cast<double>(samples) + 1);
 }
 
+bool counted_by_interval(const std::vector<UnitHistory>& units) {
+  return !units.empty() && units.front().grouped;
+}
+
+constexpr const char* no_ages = "failures are counted by interval";
+
+// The expected failures of each interval by maximum likelihood.
+std::vector<double> expected_by_power_law(const std::vector<Gap>& gaps) {
+  double longest = 0, failures = 0;
+  for (const Gap& gap : gaps) {
+    longest = std::max(longest, gap.to);
+    failures += static_cast<double>(*gap.count);
+  }
+  const auto length = [&](const Gap& gap, double beta) {
+    return std::pow(gap.to / longest, beta) - std::pow(gap.from / longest, beta);
+  };
+  const auto sum_of = [&](double beta) {
+    double sum = 0;
+    for (const Gap& gap : gaps) sum += length(gap, beta);
+    return sum;
+  };
+  const auto loss = [&](double log_beta) {  // less the log-likelihood, at the best lambda
+    const double beta = std::exp(log_beta);
+    double sum = failures * std::log(sum_of(beta));
+    for (const Gap& gap : gaps)
+      if (*gap.count > 0) sum -= static_cast<double>(*gap.count) * std::log(length(gap, beta));
+    return sum;
+  };
+  constexpr double least = -4, most = 4;
+  constexpr int bits = 26;
+  const double beta =
+      std::exp(boost::math::tools::brent_find_minima(loss, least, most, bits).first);
+  std::vector<double> expected;
+  for (const Gap& gap : gaps) expected.push_back(failures * length(gap, beta) / sum_of(beta));
+  return expected;
+}
+
 }  // namespace
+
+TrendTest grouped_power_law_test(const std::vector<Gap>& gaps) {
+  constexpr double fewest = 5;
+  TrendTest test;
+  std::vector<Gap> sorted = gaps;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Gap& a, const Gap& b) { return a.to < b.to; });
+  for (const Gap& gap : sorted) test.failures += *gap.count;
+  std::vector<std::pair<double, double>> joined;  // number and expectation
+  const std::vector<double> expected =
+      test.failures > 0 ? expected_by_power_law(sorted) : std::vector<double>();
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (joined.empty() || joined.back().second >= fewest) joined.push_back({0, 0});
+    joined.back().first += static_cast<double>(*sorted[i].count);
+    joined.back().second += expected[i];
+  }
+  if (joined.size() > 1 && joined.back().second < fewest) {
+    const auto rest = joined.back();
+    joined.pop_back();
+    joined.back().first += rest.first;
+    joined.back().second += rest.second;
+  }
+  if (joined.size() < 3) {
+    test.problem = "it needs three intervals of which each has at least five expected failures";
+    return test;
+  }
+  for (const auto& [number, mean] : joined)
+    test.statistic += (number - mean) * (number - mean) / mean;
+  test.p =
+      boost::math::gamma_q(0.5 * (static_cast<double>(joined.size()) - 2), 0.5 * test.statistic);
+  return test;
+}
 
 TrendTest laplace_test(const std::vector<UnitHistory>& units) {
   TrendTest test;
+  if (counted_by_interval(units)) {
+    test.problem = no_ages;
+    return test;
+  }
   double sum = 0, variance = 0;
   for (const UnitHistory& unit : units) {
     const std::size_t count = random_failures(unit);

@@ -25,6 +25,11 @@ TrendTest laplace_test(const std::vector<UnitHistory>& units);
 /// from 10 000 samples (fewer beyond 1000 failures, at least 250); the published critical values are quantiles of the same distribution.
 TrendTest cramer_von_mises_test(const std::vector<UnitHistory>& units);
 
+/// Of failures that are counted by interval: the sum of (number - expected)^2/expected over intervals, in the order of their
+/// ends, joined until at least 5 failures are expected of each (MIL-HDBK-189C, 6.2.4); expected by maximum likelihood. p is by
+/// the chi-square distribution with two degrees of freedom fewer than intervals.
+TrendTest grouped_power_law_test(const std::vector<Gap>& gaps);
+
 /// The probability of a statistic as large as this one among this number of failures, if the power law holds.
 double crow_p_value(double statistic, std::size_t failures);
 
