@@ -209,6 +209,10 @@ CycleFiles cycle_files(const std::vector<std::string>& files, const std::string&
   return found;
 }
 
+void refuse_invalid_lines(const CycleFiles& files) {
+  for (const std::string& name : files.names) find_layout(TableFile(name), {}, true);
+}
+
 std::string reader_of(const CycleFiles& files, const std::string& unit) {
   std::vector<std::string> names, types;
   for (const std::string& path : files.paths) names.push_back(quoted(path, '\''));

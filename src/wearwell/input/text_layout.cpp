@@ -63,6 +63,7 @@ class Survey {
       require_utf8(records);
       refuse_mixed_ends(lines, returns);
       const auto& cells = records.cells();
+      if (records.text_behind_quote()) refuse_text_behind_quote();
       if (first && is_units_row(cells)) {
         layout_.units_row = true;
         units_.assign(cells.begin(), cells.end());
@@ -93,7 +94,7 @@ class Survey {
     }
     settle_summary();
     layout_.comments = records.comments();
-    layout_.plain = layout_.plain && !records.blank_before_quote();
+    layout_.plain = layout_.plain && !records.blank_beside_quote();
     finish();
     return std::move(layout_);
   }
@@ -159,6 +160,14 @@ class Survey {
                       "that of the lines above",
                       file_.source(), lines.number));
     returns = lines.has_return;
+  }
+
+  void refuse_text_behind_quote() const {
+    throw InputError(
+        fmt::format("{}, line {}: a cell goes on behind its closing quote: '{}' (a quoted cell "
+                    "ends at its second quote; a quote within it is "
+                    "doubled)",
+                    file_.source(), records_->line(), shortened(records_->text(), 200)));
   }
 
   void refuse_ragged() {
