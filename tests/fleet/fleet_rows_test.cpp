@@ -119,6 +119,8 @@ TEST_F(FleetRows, InvalidLinesAreNamed) {
   refused(name + " " + path("long.csv"), "long.csv, line 30002: ");
   write("behind.csv", content + "\"x\"" + last);
   refused(name + " " + path("behind.csv"), "behind.csv, line 30002: a cell goes on");
+  refused(name + " " + path("behind.csv") + " --skip-bad",
+          "behind.csv, line 30002: a cell goes on");
 }
 
 // What is left out of a unit outweighs what is known of it; a unit has nothing else.

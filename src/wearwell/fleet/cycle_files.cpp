@@ -210,7 +210,18 @@ CycleFiles cycle_files(const std::vector<std::string>& files, const std::string&
 }
 
 void refuse_invalid_lines(const CycleFiles& files) {
-  for (const std::string& name : files.names) find_layout(TableFile(name), {}, true);
+  for (const std::string& name : files.names) {
+    const TableFile file(name);
+    if (!files.all_text) {
+      find_layout(file, {}, true);
+      continue;
+    }
+    // Lines that are too short are left out.
+    TextLines lines(file.path(), file.source(), Encoding::utf8);
+    TextRecords records(lines, files.delimiter);
+    while (records.next())
+      if (records.text_behind_quote()) records.refuse_text_behind_quote(file.source());
+  }
 }
 
 std::string reader_of(const CycleFiles& files, const std::string& unit) {

@@ -63,7 +63,7 @@ class Survey {
       require_utf8(records);
       refuse_mixed_ends(lines, returns);
       const auto& cells = records.cells();
-      if (records.text_behind_quote()) refuse_text_behind_quote();
+      if (records.text_behind_quote()) records.refuse_text_behind_quote(file_.source());
       if (first && is_units_row(cells)) {
         layout_.units_row = true;
         units_.assign(cells.begin(), cells.end());
@@ -160,14 +160,6 @@ class Survey {
                       "that of the lines above",
                       file_.source(), lines.number));
     returns = lines.has_return;
-  }
-
-  void refuse_text_behind_quote() const {
-    throw InputError(
-        fmt::format("{}, line {}: a cell goes on behind its closing quote: '{}' (a quoted cell "
-                    "ends at its second quote; a quote within it is "
-                    "doubled)",
-                    file_.source(), records_->line(), shortened(records_->text(), 200)));
   }
 
   void refuse_ragged() {

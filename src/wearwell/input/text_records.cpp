@@ -1,7 +1,11 @@
 #include "wearwell/input/text_records.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/stop_scope.h"
 
 namespace wearwell {
@@ -80,6 +84,14 @@ void TextRecords::split_quoted() {
     at_start = at_start && c == ' ' && !open;
   }
   end_cell();
+}
+
+void TextRecords::refuse_text_behind_quote(const std::string& source) const {
+  throw InputError(
+      fmt::format("{}, line {}: a cell goes on behind its closing quote: '{}' (a quoted cell ends "
+                  "at its second quote; a quote within it "
+                  "is doubled)",
+                  source, line_number_, shortened(line_, 200)));
 }
 
 bool TextRecords::next() {

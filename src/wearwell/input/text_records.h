@@ -26,6 +26,7 @@ class TextRecords {
   bool blank_beside_quote() const { return blank_beside_quote_; }
   /// Whether a cell of the last record goes on behind its closing quote: "\"2\"5", 2 or 25.
   bool text_behind_quote() const { return text_behind_quote_; }
+  [[noreturn]] void refuse_text_behind_quote(const std::string& source) const;
   std::size_t comments() const { return comments_; }  ///< lines omitted so far
 
  private:
