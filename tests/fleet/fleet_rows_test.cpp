@@ -110,6 +110,19 @@ TEST_F(FleetRows, BadOnesAreRefusedWithAHintAndSoIsATableOfNothingElse) {
   refused(name + " " + file("b.csv", changed) + " --skip-bad", "300 rows of 300 have a missing");
 }
 
+// DuckDB's detection speaks of quotes and names no line.
+TEST_F(FleetRows, InvalidLinesAreNamed) {
+  const std::string name = model();
+  const std::string content = fleet_csv(fleet_cycles(30'000, 2, 34));
+  const std::string last = content.substr(content.rfind('\n', content.size() - 2) + 1);
+  write("long.csv", content + last.substr(0, last.size() - 1) + ",7\n");
+  refused(name + " " + path("long.csv"), "long.csv, line 30002: ");
+  write("behind.csv", content + "\"x\"" + last);
+  refused(name + " " + path("behind.csv"), "behind.csv, line 30002: a cell goes on");
+  refused(name + " " + path("behind.csv") + " --skip-bad",
+          "behind.csv, line 30002: a cell goes on");
+}
+
 // What is left out of a unit outweighs what is known of it; a unit has nothing else.
 TEST_F(FleetRows, LeftOutThatOutweighTheirUnitAreNotTrusted) {
   auto cycles = fleet_cycles(400, 2, 33);

@@ -276,6 +276,19 @@ TEST_F(TextLayoutTest, BrokenOnes) {
   EXPECT_THAT(si_numbers(quoted, "b\"2", Unit{}), ElementsAre(1.5));
 }
 
+// What follows a closing quote would be one number with it: 2 and 5 are neither 2 nor 25.
+TEST_F(TextLayoutTest, CellsThatGoOnBehindTheirQuote) {
+  for (const char* content : {"n,v\n0,1\nx,\"2\"5\n", "n;v\n0;1,5\nx;\"2\" 5\n"})
+    EXPECT_THAT(refused(content, "v"),
+                AllOf(HasSubstr("a.csv, line 3: "), HasSubstr("behind its closing quote")))
+        << content;
+  EXPECT_THAT(numbers("n,v\n1,\"2\" \n", "v"), ElementsAre(2));
+  std::string content = "n,v\n";
+  for (int i = 0; i < 30'000; ++i) content += fmt::format("{},{}\n", i, i % 7);
+  EXPECT_THAT(refused(content + "1,\"2\"x\n", "v"), HasSubstr("a.csv, line 30002: a cell goes on"));
+  EXPECT_THAT(refused(content + "1,2,3\n", "v"), HasSubstr("a.csv, line 30002: 3 values"));
+}
+
 // Far below what a first look sees.
 TEST_F(TextLayoutTest, SignsFarDown) {
   std::string content = "n;v\n";

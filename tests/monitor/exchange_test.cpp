@@ -162,7 +162,10 @@ TEST_F(Exchanges, EventsAmongReadingsMayBeRefused) {
   EXPECT_EQ(refused.readings, 1U);
   EXPECT_EQ(refused.events, 0U);
   EXPECT_EQ(refused.refused, 1U);
-  EXPECT_EQ(refused.problem, "it is an event");
+  EXPECT_EQ(refused.problem, "unit 'a', n 1: it is an event");
+  const Message of_file{"", "{\"machine\": \"a\", \"n\": 7}", Form::any, "in/a.jsonl"};
+  EXPECT_THAT(intake_->deliver(source_, std::span(&of_file, 1)).problem,
+              testing::StartsWith("in/a.jsonl: unit 'a', n 7: "));
   EXPECT_TRUE(store_->events_of("a").empty());
   EXPECT_EQ(intake_->deliver(source_, std::span(&message, 1)).events, 1U);
 }

@@ -74,6 +74,24 @@ TEST(MessageFields, OfCsv) {
   EXPECT_THAT(units, ElementsAre("M1", "M \"2\""));
 }
 
+// The lines after it are read; "2"5 would be one number, and neither 2 nor 25.
+TEST(MessageFields, OneBadLineOfCsvCostsItself) {
+  for (const char* bad : {"\"M1,1,2", "M1,\"2\"5,1", "M1,1", "\"M1\"x,1,2"}) {
+    for (int place = 0; place < 3; ++place) {
+      std::vector<std::string> lines = {"M1,1,2", "M2,\"2.5\" ,3"};
+      lines.insert(lines.begin() + place, bad);
+      std::string payload = "machine,wear,n";
+      for (const std::string& line : lines) payload += "\n" + line;
+      std::size_t rows = 0;
+      EXPECT_EQ(problems_of(payload, &rows).size(), 1U) << payload;
+      EXPECT_EQ(rows, 2U) << payload;
+    }
+  }
+  EXPECT_THAT(problems_of("machine,wear\nM1,\"2\"5"),
+              ElementsAre(HasSubstr("goes on behind its closing quote")));
+  EXPECT_THAT(problems_of("machine,wear\nM 5\" b,2"), ElementsAre());
+}
+
 TEST(MessageFields, OneBadLineCostsItself) {
   std::size_t rows = 0;
   EXPECT_THAT(problems_of("{\"a\": 1}\n{\"a\": }\n{\"a\": 3}", &rows),

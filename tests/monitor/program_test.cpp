@@ -61,7 +61,7 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("3 units: 0 act"));
   EXPECT_THAT(run.out, HasSubstr("15 readings stored; of 18 messages 1 repeated, 2 refused."));
-  EXPECT_THAT(run.err, HasSubstr("source.line: refused: t is missing"));
+  EXPECT_THAT(run.err, HasSubstr("source.line: refused: unit 'M01': t is missing"));
   const CommandResult exported = run_wearwell("monitor '" + config.string() + "' --export '" +
                                               (folder() / "r.parquet").string() + "'");
   EXPECT_EQ(exported.out, "15 readings are in " + (folder() / "r.parquet").string() + "\n");

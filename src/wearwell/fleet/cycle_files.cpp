@@ -209,6 +209,21 @@ CycleFiles cycle_files(const std::vector<std::string>& files, const std::string&
   return found;
 }
 
+void refuse_invalid_lines(const CycleFiles& files) {
+  for (const std::string& name : files.names) {
+    const TableFile file(name);
+    if (!files.all_text) {
+      find_layout(file, {}, true);
+      continue;
+    }
+    // Lines that are too short are left out.
+    TextLines lines(file.path(), file.source(), Encoding::utf8);
+    TextRecords records(lines, files.delimiter);
+    while (records.next())
+      if (records.text_behind_quote()) records.refuse_text_behind_quote(file.source());
+  }
+}
+
 std::string reader_of(const CycleFiles& files, const std::string& unit) {
   std::vector<std::string> names, types;
   for (const std::string& path : files.paths) names.push_back(quoted(path, '\''));

@@ -29,6 +29,9 @@ struct CycleFiles {
 CycleFiles cycle_files(const std::vector<std::string>& files, const std::string& source,
                        bool skip_bad, double most_bytes);
 
+/// Throws InputError that names file and line, if a line of one is not as its heading.
+void refuse_invalid_lines(const CycleFiles& files);
+
 /// "read_csv([...], ...)" with the column `unit` as text, unless it is empty.
 std::string reader_of(const CycleFiles& files, const std::string& unit);
 

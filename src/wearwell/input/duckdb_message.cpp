@@ -61,7 +61,8 @@ std::string duckdb_sentence(const std::string& message) {
   static const std::regex extension(R"re(with name "(.*)" is not in the catalog, but it exists)re");
   std::smatch found;
   if (first.starts_with("Error when sniffing file"))
-    return "it cannot be read as a table of text; check that all quotes are closed";
+    return "it cannot be read as a table: each line needs as many values as the heading, separated "
+           "alike";
   if (std::regex_search(first, found, csv_line)) return csv_sentence(lines, found[1].str());
   if (std::regex_search(first, found, access))
     return fmt::format("it may read only the data file, not '{}'", found[1].str());

@@ -63,6 +63,7 @@ class Survey {
       require_utf8(records);
       refuse_mixed_ends(lines, returns);
       const auto& cells = records.cells();
+      if (records.text_behind_quote()) records.refuse_text_behind_quote(file_.source());
       if (first && is_units_row(cells)) {
         layout_.units_row = true;
         units_.assign(cells.begin(), cells.end());
@@ -93,7 +94,7 @@ class Survey {
     }
     settle_summary();
     layout_.comments = records.comments();
-    layout_.plain = layout_.plain && !records.blank_before_quote();
+    layout_.plain = layout_.plain && !records.blank_beside_quote();
     finish();
     return std::move(layout_);
   }

@@ -1,7 +1,11 @@
 #include "wearwell/input/text_records.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/stop_scope.h"
 
 namespace wearwell {
@@ -43,11 +47,12 @@ void TextRecords::split_quoted() {
   unquoted_.clear();
   unquoted_.reserve(line_.size());
   std::size_t begin = 0;
-  bool open = false, at_start = true;
+  bool open = false, at_start = true, closed = false;
   const auto end_cell = [&] {
     cells_.push_back(std::string_view(unquoted_).substr(begin));
     begin = unquoted_.size();
     at_start = true;
+    closed = false;
   };
   for (std::size_t i = 0; i < line_.size(); ++i) {
     const char c = line_[i];
@@ -57,6 +62,7 @@ void TextRecords::split_quoted() {
         ++i;
       } else if (c == '"') {
         open = false;
+        closed = true;
       } else {
         unquoted_ += c;
       }
@@ -66,9 +72,11 @@ void TextRecords::split_quoted() {
       end_cell();
       continue;
     }
+    if (closed) (c == ' ' ? blank_beside_quote_ : text_behind_quote_) = true;
+    if (closed && c == ' ') continue;
     if (c == '"' && at_start) {
       open = true;
-      blank_before_quote_ = blank_before_quote_ || unquoted_.size() > begin;
+      blank_beside_quote_ = blank_beside_quote_ || unquoted_.size() > begin;
       unquoted_.resize(begin);
     } else {
       unquoted_ += c;
@@ -76,6 +84,14 @@ void TextRecords::split_quoted() {
     at_start = at_start && c == ' ' && !open;
   }
   end_cell();
+}
+
+void TextRecords::refuse_text_behind_quote(const std::string& source) const {
+  throw InputError(
+      fmt::format("{}, line {}: a cell goes on behind its closing quote: '{}' (a quoted cell ends "
+                  "at its second quote; a quote within it "
+                  "is doubled)",
+                  source, line_number_, shortened(line_, 200)));
 }
 
 bool TextRecords::next() {
@@ -90,6 +106,7 @@ bool TextRecords::next() {
     break;
   }
   line_number_ = lines_.number;
+  text_behind_quote_ = false;
   cells_.clear();
   if (line_.find('"') == line_.npos) {
     for (std::size_t from = 0;;) {

@@ -22,8 +22,12 @@ class TextRecords {
   const std::vector<std::string_view>& cells() const { return cells_; }
   std::string_view text() const { return line_; }    ///< raw text, without the final line ending
   std::size_t line() const { return line_number_; }  ///< its first line
-  bool blank_before_quote() const { return blank_before_quote_; }  ///< seen so far; "1, \"a\""
-  std::size_t comments() const { return comments_; }               ///< lines omitted so far
+  /// Whether a blank has been beside a quoted cell so far: "1, \"a\"".
+  bool blank_beside_quote() const { return blank_beside_quote_; }
+  /// Whether a cell of the last record goes on behind its closing quote: "\"2\"5", 2 or 25.
+  bool text_behind_quote() const { return text_behind_quote_; }
+  [[noreturn]] void refuse_text_behind_quote(const std::string& source) const;
+  std::size_t comments() const { return comments_; }  ///< lines omitted so far
 
  private:
   void split_quoted();
@@ -36,7 +40,7 @@ class TextRecords {
   std::string joined_, unquoted_;
   std::vector<std::string_view> cells_;
   std::size_t line_number_ = 0, comments_ = 0;
-  bool blank_before_quote_ = false;
+  bool blank_beside_quote_ = false, text_behind_quote_ = false;
 };
 
 }  // namespace wearwell

@@ -134,7 +134,7 @@ bool FolderReader::read_on(const fs::path& path, const Descriptor& file, Growing
   for (const std::string& each : piece->refused)
     context_.intake.refuse(context_.settings, fmt::format("{}: {}", path.string(), each));
   if (!piece->payload.empty()) {
-    const Message message{"", piece->payload, piece->form};
+    const Message message{"", piece->payload, piece->form, path.string()};
     if (!deliver_until_stored(context_, std::span(&message, 1), stop_)) return false;
   }
   feed.taken(*piece);

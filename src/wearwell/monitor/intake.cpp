@@ -1,6 +1,7 @@
 #include "wearwell/monitor/intake.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -23,13 +24,33 @@ std::string too_old_text(const std::string& unit, const std::string& what) {
       unit, what);
 }
 
+/// Of many rows, the one that is refused: "unit 'M042', n 118: ".
+std::string row_text(const Fields& fields, const std::string& unit, const ReadingMapping& mapping) {
+  std::vector<std::string> parts;
+  if (!unit.empty()) parts.push_back(fmt::format("unit '{}'", printable(shortened(unit))));
+  const Field* const key =
+      find_field(fields, mapping.sequence.empty() ? mapping.time : mapping.sequence);
+  if (key && !key->text.empty()) {
+    parts.push_back(fmt::format("{} {}", key->name, printable(shortened(key->text))));
+  } else if (key && key->kind == Field::Kind::number) {
+    parts.push_back(key->whole ? fmt::format("{} {}", key->name, key->integer)
+                               : fmt::format("{} {}", key->name, key->number));
+  }
+  return parts.empty() ? "" : fmt::format("{}: ", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages,
                          const std::string& no_events) {
   Batch batch;
   batch.no_events = no_events;
-  for (const Message& message : messages) read(source, message, batch);
+  for (const Message& message : messages) {
+    const std::size_t before = batch.refusals.size();
+    read(source, message, batch);
+    for (std::size_t i = before; i < batch.refusals.size() && !message.file.empty(); ++i)
+      batch.refusals[i].where = message.file + ": " + batch.refusals[i].where;
+  }
   return deliver(source, batch);
 }
 
@@ -98,9 +119,10 @@ void Intake::refuse(const SourceSettings& source, const std::string& problem) {
 
 void Intake::refuse(const SourceSettings& source, const Refusal& refusal, Delivery& delivery) {
   ++delivery.refused;
-  if (delivery.problem.empty()) delivery.problem = refusal.problem;
+  const std::string problem = refusal.where + refusal.problem;
+  if (delivery.problem.empty()) delivery.problem = problem;
   tally_.refused(refusal.unit, refusal.problem);
-  notices_.tell(fmt::format("source.{}", source.name), "refused: " + refusal.problem);
+  notices_.tell(fmt::format("source.{}", source.name), "refused: " + problem);
 }
 
 void Intake::read(const SourceSettings& source, const Message& message, Batch& batch) {
@@ -149,7 +171,8 @@ void Intake::read_row(const SourceSettings& source, const Fields& fields, const 
     batch.readings.push_back(std::move(reading));
   } catch (const InputError& error) {
     const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
-    batch.refusals.push_back({named ? named->text : unit, error.what()});
+    const std::string whose = named ? named->text : unit;
+    batch.refusals.push_back({whose, error.what(), row_text(fields, whose, source.mapping)});
   }
 }
 

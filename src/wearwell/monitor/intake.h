@@ -18,6 +18,7 @@ namespace wearwell::monitor {
 struct Message {
   std::string topic, payload;
   Form form = Form::any;
+  std::string file = {};  ///< that has it, for what is refused
 };
 
 /// A reading's fields, for a source that parses its own messages, or why it is invalid.
@@ -49,6 +50,7 @@ class Intake {
  private:
   struct Refusal {
     std::string unit, problem;
+    std::string where = {};  // file and row
   };
   struct Batch {
     std::vector<StoredReading> readings = {};

@@ -144,7 +144,13 @@ void read_csv(std::string_view payload, const std::function<void(const Fields&)>
   Fields fields;
   for_each_line(payload, [&](std::string_view line) {
     if (line.size() > longest_row) return bad(fmt::format("a line of {} bytes", line.size()));
-    const std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells;
+    try {
+      cells = cells_of(line);
+    } catch (const InputError& error) {
+      if (heading.empty()) throw;
+      return bad(error.what());  // the other lines are read
+    }
     if (heading.empty()) {
       for (const std::string& cell : cells) heading.emplace_back(trimmed(cell));
       if (heading.size() > most_fields)
@@ -188,21 +194,32 @@ Fields fields_of_json(std::string_view text) {
 
 std::vector<std::string> cells_of(std::string_view line) {
   std::vector<std::string> cells(1);
-  bool quote = false, closed = false;
-  for (const char c : line) {
-    if (c == '"') {
-      if (closed) cells.back() += '"';
-      closed = quote;
-      quote = !quote;
-    } else if (c == ',' && !quote) {
+  bool quoted = false, closed = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"') {
+      const bool doubled = i + 1 < line.size() && line[i + 1] == '"';
+      if (doubled) cells.back() += line[++i];
+      quoted = doubled;
+      closed = !doubled;
+    } else if (quoted) {
+      cells.back() += c;
+    } else if (c == ',') {
       cells.emplace_back();
       closed = false;
+    } else if (closed) {
+      // "2"5 would be one number, and neither 2 nor 25.
+      if (!trimmed({&c, 1}).empty())
+        throw InputError(fmt::format("line {} has a cell that goes on behind its closing quote",
+                                     in_quotes(line)));
+    } else if (c == '"' && trimmed(cells.back()).empty()) {
+      cells.back().clear();
+      quoted = true;
     } else {
       cells.back() += c;
-      closed = false;
     }
   }
-  if (quote) throw InputError(fmt::format("line {} has an unclosed quote", in_quotes(line)));
+  if (quoted) throw InputError(fmt::format("line {} has an unclosed quote", in_quotes(line)));
   return cells;
 }
 

@@ -140,10 +140,30 @@ void NodeProgram::bind_rows(std::size_t count, const NodeRow& row, const double*
   program_.bind(rows, scratch.data_);
 }
 
+namespace {
+
+// Node by node; those of one line share it.
+void copy_parameter(const Nodes& nodes, std::size_t parameter, std::size_t begin, std::size_t count,
+                    double* to) {
+  const double* const value = nodes.parameters->data() + parameter;
+  const auto stride = static_cast<std::size_t>(nodes.parameters->cols());
+  if (nodes.per_line == 1) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = value[(begin + i) * stride];
+    return;
+  }
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t line = (begin + i) / nodes.per_line;
+    const std::size_t end = std::min(count, (line + 1) * nodes.per_line - begin);
+    std::fill(to + i, to + end, value[line * stride]);
+    i = end;
+  }
+}
+
+}  // namespace
+
 void NodeProgram::evaluate(const Nodes& nodes, std::size_t begin, std::size_t count,
                            const NodeRow& row, const double* place, const GoesOn& on,
                            Scratch& scratch) const {
-  const auto parameters = nodes.parameters->cols();
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const Source& source = sources_[s];
     if (source.place) {
@@ -155,16 +175,8 @@ void NodeProgram::evaluate(const Nodes& nodes, std::size_t begin, std::size_t co
           source.label < 0
               ? 0
               : static_cast<std::size_t>(row.labels[static_cast<std::size_t>(source.label)]);
-      const double* value = nodes.parameters->data() + source.parameter + level;
       auto& shared = scratch.shared_[s];
-      for (std::size_t i = 0; i < count;) {
-        const std::size_t line = (begin + i) / nodes.per_line;
-        const std::size_t end = std::min(count, (line + 1) * nodes.per_line - begin);
-        std::fill(shared.begin() + static_cast<std::ptrdiff_t>(i),
-                  shared.begin() + static_cast<std::ptrdiff_t>(end),
-                  value[line * static_cast<std::size_t>(parameters)]);
-        i = end;
-      }
+      copy_parameter(nodes, source.parameter + level, begin, count, shared.data());
       scratch.by_row_[s] = shared.data();
     }
   }

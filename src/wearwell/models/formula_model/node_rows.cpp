@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/formula/vector_math.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/prob/response_block.h"
 
@@ -45,6 +46,16 @@ Place place_of(const ResponseForm& form, const Response& y, const double* family
   return {below, above};
 }
 
+// Without branches, so that the loop vectorizes.
+void add_normal(std::span<const double> mean, std::span<const double> sd, double y, int count,
+                double* to) {
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    const double z = (y - mean[i]) / sd[i];
+    const double value = count * (-0.5 * z * z - formula::vector_log(sd[i]) - half_log_two_pi);
+    to[i] += sd[i] > 0 && std::abs(value) < infinity ? value : -infinity;
+  }
+}
+
 }  // namespace
 
 double Predicted::p_value() const {
@@ -55,7 +66,7 @@ double Predicted::p_value() const {
 struct NodeRows::Block {
   std::size_t begin, count;
   ParameterValues family_parameters[most_response_parameters];
-  bool noisy;
+  bool noisy, particles;  // particles: each node has its own fixed parameters
 };
 
 NodeRows::NodeRows(std::shared_ptr<const FormulaModel> model,
@@ -94,6 +105,11 @@ bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const 
 
 void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
                            int count, const ResponseColumn& column, double* to) const {
+  const ParameterValues mean = block.family_parameters[0], sd_of = block.family_parameters[1];
+  if (is_plain_normal(measured, y) && block.particles && !mean.uniform && !sd_of.uniform) {
+    add_normal({mean.at, block.count}, {sd_of.at, block.count}, y.at, count, to);
+    return;
+  }
   if (is_plain_normal(measured, y)) {
     // Nodes of a line share the fixed parameters: what depends only on these is computed once.
     for (std::size_t begin = 0; begin < block.count;) {
@@ -257,7 +273,11 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     Predicted predicted;
     std::size_t next = 0;  // of the sample
     for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
-      Block block{begin, std::min(NodeProgram::most, nodes.count() - begin), {}, noisy};
+      Block block{begin,
+                  std::min(NodeProgram::most, nodes.count() - begin),
+                  {},
+                  noisy,
+                  nodes.per_line == 1};
       program.evaluate(nodes, begin, block.count, reading.row, places ? places + begin : nullptr,
                        on, scratch->programs[m]);
       for (ParameterValues& each : block.family_parameters) each = {&zero, true};

@@ -59,7 +59,7 @@ double RateChangePrior::factor(double z) const {
 
 double RateChangePrior::log_density(double place, double start, double z) const {
   if (!(place >= start)) return -infinity;
-  return std::log(hazard) - hazard * (place - start) - half_log_two_pi - 0.5 * z * z;
+  return -hazard * (place - start) - 0.5 * z * z;
 }
 
 std::optional<RateChangePrior> read_rate_change(const TomlReader& predict,
@@ -144,6 +144,35 @@ void ChangedUnits::append(const ChangedUnits& other) {
     append_to(paths[m].spread, other.paths[m].spread);
     append_to(paths[m].at, other.paths[m].at);
     append_to(paths[m].variance, other.paths[m].variance);
+  }
+}
+
+void ChangedUnits::replace(std::span<const std::size_t> which, const ChangedUnits& by) {
+  if (nodes.parameters != by.nodes.parameters) {
+    auto parameters = std::make_shared<Points>(*nodes.parameters);
+    for (const std::size_t i : which) {
+      const auto row = static_cast<Eigen::Index>(i);
+      parameters->row(row) = by.nodes.parameters->row(row);
+    }
+    nodes.parameters = std::move(parameters);
+  }
+  const auto put = [&](std::vector<double>& to, const std::vector<double>& from) {
+    if (from.empty()) return;
+    for (const std::size_t i : which) to[i] = from[i];
+  };
+  for (int e = 0; e < 2; ++e) {
+    put(nodes.effect[e], by.nodes.effect[e]);
+    put(z[e], by.z[e]);
+  }
+  put(axis.since, by.axis.since);
+  put(axis.factor, by.axis.factor);
+  put(score, by.score);
+  put(log_weight, by.log_weight);
+  for (std::size_t m = 0; m < paths.size(); ++m) {
+    put(paths[m].mean, by.paths[m].mean);
+    put(paths[m].spread, by.paths[m].spread);
+    put(paths[m].at, by.paths[m].at);
+    put(paths[m].variance, by.paths[m].variance);
   }
 }
 

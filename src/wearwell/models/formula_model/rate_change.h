@@ -16,7 +16,7 @@ struct RateChangePrior {
   double median = 1, log_sd = 0;  ///< of the factor
 
   double factor(double z) const;
-  /// The log density of a change at `place` and a factor at score z, given none before `start`.
+  /// The log density of a change at `place` and a factor at score z, given none before `start`, up to a constant.
   double log_density(double place, double start, double z) const;
 };
 
@@ -56,6 +56,8 @@ struct ChangedUnits {
   /// These of them, with weights of 0.
   ChangedUnits taken(std::span<const std::size_t> which) const;
   void append(const ChangedUnits& other);
+  /// Those of the same places in `by`, an equally long list, in place of these.
+  void replace(std::span<const std::size_t> which, const ChangedUnits& by);
   /// Places on the axis of the formula.
   std::vector<double> places(double place) const;
 };

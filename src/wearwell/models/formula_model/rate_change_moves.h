@@ -7,9 +7,9 @@
 
 namespace wearwell::formula_model {
 
-/// Moves of particles whose target is the posterior of all readings of a unit, the last one in a power: the scores of the
-/// effects, the place and the factor of each by the difference of two others (differential evolution; ter Braak 2006,
-/// Statistics and Computing 16, 239-249), and the point of the population by an independent one with the same effects.
+/// Moves of particles whose target is the posterior of all readings of a unit, the last one in a power: the effects, the
+/// place and the factor of each by the difference of two others (differential evolution; ter Braak 2006, Statistics and
+/// Computing 16, 239-249), and the point of the population by an independent one with the same effects.
 ///
 /// A reading that few particles explain enters in steps, as powers of its likelihood that leave half of the particles
 /// effective; after each step they are resampled and moved (Del Moral, Doucet and Jasra 2006, J. R. Statist. Soc. B 68,
@@ -33,17 +33,32 @@ class RateChangeMoves {
   LogLikelihood look(ChangedUnits& units) const;
   double log_prior(const ChangedUnits& units, std::size_t i) const;
   void move(ChangedUnits& units, double power, std::vector<double>& last, Rng& rng) const;
-  void propose_differences(const ChangedUnits& from, const std::vector<Population>& population,
-                           double scale, ChangedUnits& to, Rng& rng) const;
-  std::vector<double> propose_points(std::vector<Population>& population, ChangedUnits& to,
-                                     Rng& rng) const;
+  // The distribution of the effects, of lognormal ones of their logarithms.
+  struct NormalPopulation {
+    double middle[2] = {}, scatter[2] = {1, 1}, correlation = 0;
+    double log_pace = 0;  // of how fast effects change with their scores, up to a constant
+  };
+  static NormalPopulation normal_population(const FormulaModel& model, const Population& of);
+  // What follows from the particles, one by one.
+  struct Particles {
+    std::vector<NormalPopulation> population;
+    std::vector<double> normal[2];  // values of the effects, of lognormal ones their logarithms
+    std::vector<double> log_prior;
+  };
+  Particles particles_of(const ChangedUnits& units) const;
+  void place(const NormalPopulation& population, const double* normal, ChangedUnits& to,
+             std::size_t i) const;
+  void propose_differences(const ChangedUnits& from, const Particles& particles, double scale,
+                           ChangedUnits& to, Rng& rng) const;
+  std::vector<std::size_t> propose_points(const Particles& particles, ChangedUnits& to,
+                                          Rng& rng) const;
 
   const RateChanges& shared_;
   const FormulaModel& model_;
   // Points of the population, not those of the unit without a change, which are chosen by its readings.
   const PopulationPoints& points_;
-  std::vector<double> below_;           // their cumulative weights before readings
-  std::vector<Population> population_;  // of each
+  std::vector<double> below_;                 // their cumulative weights before readings
+  std::vector<NormalPopulation> population_;  // of each
   std::vector<UnitReading> all_;
   double start_, end_;
 };
