@@ -6,8 +6,10 @@
 
 #include "arrow.h"
 #include "arrow_export.h"
+#include "attended.h"
 #include "core.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/memory_table.h"
 #include "wearwell/input/columns.h"
@@ -26,9 +28,11 @@ using Numbers = py::array_t<double, py::array::forcecast>;
 py::tuple size_of_lives(const Table& table, const std::string& lines,
                         const std::vector<std::string>& runouts, double least,
                         const std::vector<std::string>& stresses) {
-  LifeHeadings headings = life_headings(lines, table);
-  headings.runouts = runouts;
-  const LifeSize size = life_size_under(table, headings, least, stresses);
+  const LifeSize size = interruptible([&] {
+    LifeHeadings headings = life_headings(lines, table);
+    headings.runouts = runouts;
+    return life_size_under(table, headings, least, stresses);
+  });
   return py::make_tuple(size.median, size.log_sd, size.failed, words_of(size));
 }
 
@@ -46,6 +50,7 @@ void add_text(Column& column, const py::sequence& values, const std::string& tab
   std::size_t row = 0;
   for (const py::handle each : values) {
     ++row;
+    if (row % 65'536 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (py::isinstance<py::str>(each)) {
       Py_ssize_t size = 0;
       const char* const text = PyUnicode_AsUTF8AndSize(each.ptr(), &size);
@@ -111,15 +116,21 @@ void add_tables(py::module_& module) {
            })
       .def("numbers",
            [](const Table& table, const std::string& heading) {
-             const std::vector<double> numbers = numbers_of(table, table.column(heading));
+             const std::vector<double> numbers =
+                 interruptible([&] { return numbers_of(table, table.column(heading)); });
              return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
            })
       .def("words",
            [](const Table& table, const std::string& heading) {
-             std::vector<std::string> words;
-             for (std::size_t i = 0; i < table.rows; ++i)
-               words.push_back(cell_word(table.column(heading), i));
-             return words;
+             const Column& column = table.column(heading);
+             return interruptible([&] {
+               std::vector<std::string> words;
+               for (std::size_t i = 0; i < table.rows; ++i) {
+                 check_stop();
+                 words.push_back(cell_word(column, i));
+               }
+               return words;
+             });
            })
       .def("unit", [](const Table& table,
                       const std::string& heading) { return table.column(heading).unit; })

@@ -141,6 +141,7 @@ def test_parquet_and_csv_files(usual, tmp_path):
     (lambda d: d.rename(columns={"F": None}), "the heading None is NoneType"),
     (lambda d: d.assign(x=1).rename(columns={"x": 3}), "the heading 3 is int; headings are texts"),
     (lambda d: d["F"], "data is Series"),
+    (lambda d: d.groupby("joint"), "data is DataFrameGroupBy; it may be a data frame"),
     (lambda d: {}, "data has no columns"),
     (lambda d: d.assign(joint=d["joint"].astype("category").where(d.index != 4)), "row 5, column 'joint': no value"),
     (lambda d: d.assign(joint="\ud800"), "row 1, column 'joint': the text is not Unicode"),

@@ -122,7 +122,7 @@ def test_a_test_that_may_be_a_repeat_is_refused(examples):
     pumps = {"hours": [312, 480, 510, 640, 700, 150], "failed": [1, 1, 1, 1, 0, 1]}
     fit = quietly(ww.life, pumps, "hours", event="failed", units={"hours": "h"}, **few)
     same = {"hours": [312], "failed": [1]}
-    with pytest.raises(ww.InputError, match="add repeated once or repeated another"):
+    with pytest.raises(ww.InputError, match='add repeated="once" or repeated="another"'):
         fit.update(same)
     once, another = (quietly(fit.update, same, repeated=each, report=False) for each in ("once", "another"))
     assert once.results["data"]["rows"] == 6 and another.results["data"]["rows"] == 7

@@ -321,6 +321,6 @@ def _found_headings(data):
         return list(data.columns)
     if isinstance(data, np.ndarray) and data.dtype.names:
         return list(data.dtype.names)
-    if hasattr(data, "keys"):
+    if callable(getattr(data, "keys", None)):  # that of a group-by names its column
         return list(data.keys())
     return None

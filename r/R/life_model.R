@@ -307,7 +307,8 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
   if (is.null(tables)) {
     tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
   }
-  study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error), values)))
+  refused <- function(error) stop_input(with_heading(in_words_of_caller(conditionMessage(error), values), columns$status$heading))
+  study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = refused)
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
   study$replicates <- replicates
@@ -316,8 +317,13 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
     study$columns <- columns
     return(study)
   }
-  found <- tryCatch(ww_fit(study, ...), wearwell_input_error = function(error) stop_input(in_words_of_caller(conditionMessage(error), values)))
+  found <- tryCatch(ww_fit(study, ...), wearwell_input_error = refused)
   with_call(found, call)
+}
+
+# The column of endings by its heading in the frame; the study calls it status.
+with_heading <- function(message, heading) {
+  if (is.null(heading)) message else sub("column 'status'", paste0("column '", heading, "'"), message, fixed = TRUE)
 }
 
 with_call <- function(fit, call) {

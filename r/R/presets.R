@@ -15,8 +15,7 @@ preset_study <- function(columns, roles, what) {
   for (role in names(roles)) {
     if (is.null(roles[[role]])) next
     each <- find_column(columns, one_text(roles[[role]], role), role)
-    found[[role]] <- study_column(plain_values(each), each$unit)
-    found[[role]]$heading <- each$heading
+    found[[role]] <- study_column(plain_values(each), each$unit, each$heading)
   }
   found
 }
@@ -31,7 +30,7 @@ with_status <- function(study, event, columns, what) {
     stop_input(gsub("event = [(]([^)]*)[)]", paste0("data$failed <- data$", heading, " \\1, event = \"failed\""),
                     gsub(paste0("event = (", heading, " "), "event = (", message, fixed = TRUE)))
   })
-  study$status <- study_column(ended(failures, "runout"), "")
+  study$status <- study_column(ended(failures, "runout"), "", each$heading)
   study
 }
 

@@ -122,8 +122,11 @@ is_surv_call <- function(side) {
   is.call(side) && (identical(side[[1]], quote(Surv)) || identical(side[[1]], quote(survival::Surv)))
 }
 
-# A column of the study: values, unit.
-study_column <- function(values, unit) list(values = values, unit = unit)
+# A column of the study: values, unit, and the heading that messages name where the frame has another.
+study_column <- function(values, unit, heading = NULL) list(values = values, unit = unit, heading = heading)
+
+# `ending`: the event of a Surv(), `otherwise`: what its FALSE means.
+ending_column <- function(ending, otherwise) study_column(ended(failures_of(ending, "Surv()"), otherwise), "", ending$heading)
 
 # The lives of a formula's left side: the columns that the study has of them, by the names that the library gives them, the name of the
 # life, the columns of data that they use, and whether endings are stated.
@@ -169,7 +172,7 @@ lives_of_call <- function(side, columns, env) {
     needs(is.null(second), "a time and an event; two times are of type counting, interval or interval2")
     life <- list(life = study_column(times, time$unit))
     if (is.null(call$event)) return(new_lives(life, time, used, known = FALSE))
-    life$status <- study_column(ended(failures_of(event(), "Surv()"), if (type == "right") "runout" else "left"), "")
+    life$status <- ending_column(event(), if (type == "right") "runout" else "left")
     return(new_lives(life, time, used))
   }
   needs(!is.null(second), "two times")
@@ -181,7 +184,7 @@ lives_of_call <- function(side, columns, env) {
     late <- which(to <= times)
     if (length(late)) stop_input("Surv(): row ", late[1], " stops at ", to[late[1]], ", not after its start, ", times[late[1]])
     return(new_lives(list(life = study_column(to, second$unit), entry = study_column(times, time$unit),
-                          status = study_column(ended(failures_of(event(), "Surv()"), "runout"), "")), second, used))
+                          status = ending_column(event(), "runout")), second, used))
   }
   if (type == "interval") {
     needs(!is.null(call$event), "an event: 0 stopped, 1 failure, 2 failed before, 3 failed between")

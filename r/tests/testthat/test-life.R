@@ -210,7 +210,7 @@ test_that("errors name arguments and columns", {
   expect_match(spread$text, 'distribution = "uniform"', fixed = TRUE)
   refused(study_of(Surv(hours, event) ~ load, pumps, given = list(lod = 3)), "given: lod is no condition of the formula (conditions: load)")
   refused(study_of(Surv(hours, event, type = "mstate") ~ 1, pumps), "failure modes: Surv(time, event) with mode = ")
-  refused(study_of(Surv(hours, end) ~ 1, transform(pumps[-2], end = c("kaputt", rep("runout", 9)))), "'kaputt' is not a status")
+  refused(study_of(Surv(hours, end) ~ 1, transform(pumps[-2], end = c("kaputt", rep("runout", 9)))), "row 1, column 'end': 'kaputt' is not a status")
   refused(ww_life("lives.toml"), "ww_life() takes a formula")
   refused(study_of(Surv(hours, event) ~ 1, pumps[0, ]), "data has no rows")
   refused(study_of(Surv(day, event) ~ 1, transform(pumps, day = as.Date("2024-01-01") + hours)), "holds dates or times")

@@ -3,9 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "wearwell/base/error.h"
 #include "wearwell/embed/fork_guard.h"
-#include "wearwell/embed/plan_arguments.h"
 #include "wearwell/input/json_reader.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/prognosis/update.h"
@@ -29,22 +27,14 @@ Run update(const Fitted& fitted, const std::vector<prognosis::NewRows>& rows,
            const std::string& repeated, bool report, Monitor monitor) {
   const ForkGuard guard;
   monitor.threads = guard.most(monitor.threads);
-  const nlohmann::ordered_json json = {{"repeated", repeated}};
-  PlanArguments arguments("update", json);
-  std::string choice;
-  arguments.text("repeated", choice);
-  try {
-    prognosis::StudyOfAllRows all = prognosis::study_of_all_rows(
-        state_of(fitted), rows, prognosis::repeated_named(choice),
-        [](const Source& source) { return read_study(source, all_models()); });
-    const auto source = std::make_shared<const Source>(all.source);
-    Run run{{all.study, source->study.text, source},
-            std::make_shared<const Result>(all.study->run({sampler_of(fitted), report}, monitor))};
-    run.state = prognosis::state_of_all_rows(std::move(all.source), *run.result);
-    return run;
-  } catch (const InputError& error) {
-    throw InputError(arguments.in_arguments(error.what()));
-  }
+  prognosis::StudyOfAllRows all = prognosis::study_of_all_rows(
+      state_of(fitted), rows, prognosis::repeated_named(repeated),
+      [](const Source& source) { return read_study(source, all_models()); });
+  const auto source = std::make_shared<const Source>(all.source);
+  Run run{{all.study, source->study.text, source},
+          std::make_shared<const Result>(all.study->run({sampler_of(fitted), report}, monitor))};
+  run.state = prognosis::state_of_all_rows(std::move(all.source), *run.result);
+  return run;
 }
 
 }  // namespace wearwell::embed

@@ -159,6 +159,7 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto uneven = order.begin() + static_cast<std::ptrdiff_t>(std::min(terms, most_with_khat));
   std::partial_sort(order.begin(), uneven, order.end(), [&](std::size_t a, std::size_t b) {
+    check_stop();
     return moved(a) != moved(b) ? moved(a) > moved(b) : a < b;
   });
   if (!(moved(order.front()) <= most_moved)) return {};

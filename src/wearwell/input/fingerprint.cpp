@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell {
 
@@ -36,7 +38,10 @@ std::string ReadFile::sha1() const {
 
 std::string fingerprint(const std::string& quantity, const std::vector<double>& observed) {
   std::string text = quantity;
-  for (const double value : observed) text += fmt::format("\n{:.12g}", value);
+  for (const double value : observed) {
+    check_stop();
+    fmt::format_to(std::back_inserter(text), "\n{:.12g}", value);
+  }
   return sha1_of(text);
 }
 

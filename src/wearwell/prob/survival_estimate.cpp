@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell {
@@ -22,7 +22,10 @@ std::vector<SurvivalStep> by_kaplan_meier(std::span<const Response> responses,
     for (std::size_t i = 0; i < responses.size(); ++i) {
       if (wanted(responses[i])) order.emplace_back(time(responses[i]), counts[i]);
     }
-    std::sort(order.begin(), order.end(), std::greater<>());
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+      check_stop();
+      return a > b;
+    });
     return order;
   };
   const auto end_of = [](const Response& y) { return y.at; };
@@ -163,6 +166,7 @@ std::vector<SurvivalStep> by_turnbull(const std::vector<Known>& all) {
   std::vector<Range> held;
   for (const Known& each : all) {
     number += each.count;
+    check_stop();
     held.push_back(cells_within(cells, each));
   }
   const double rounds =
@@ -171,6 +175,7 @@ std::vector<SurvivalStep> by_turnbull(const std::vector<Known>& all) {
   // taken away where they end.
   std::vector<double> up_to(cells.size() + 1, 0), brought(cells.size() + 1);
   for (int round = 0; round < rounds; ++round) {
+    check_stop();
     for (std::size_t c = 0; c < cells.size(); ++c) up_to[c + 1] = up_to[c] + share[c];
     std::fill(brought.begin(), brought.end(), 0.0);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -213,6 +218,7 @@ SurvivalEstimate survival_estimate(std::span<const Response> responses,
   if (entries) return {};
   std::map<std::pair<double, double>, double> alike;
   for (std::size_t i = 0; i < responses.size(); ++i) {
+    check_stop();
     const Response& y = responses[i];
     const double from = y.seen == Censoring::left ? -infinity : y.at;
     const double to = y.seen == Censoring::right      ? infinity

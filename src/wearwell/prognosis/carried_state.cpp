@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/prognosis/bytes.h"
 #include "wearwell/prognosis/packed.h"
@@ -31,8 +32,14 @@ void write(const Column& column, ByteWriter& out) {
   out.byte(column.marks ? static_cast<std::uint8_t>(column.marks->decimal) : 0);
   out.byte(column.marks ? static_cast<std::uint8_t>(column.marks->thousands) : 0);
   out.byte(column.is_number);
-  for (const double each : column.numbers) out.number(each);
-  for (const std::string& each : column.text) out.text(each);
+  for (const double each : column.numbers) {
+    check_stop();
+    out.number(each);
+  }
+  for (const std::string& each : column.text) {
+    check_stop();
+    out.text(each);
+  }
 }
 
 Column read_column(std::size_t rows, ByteReader& in) {

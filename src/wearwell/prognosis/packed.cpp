@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -50,6 +51,7 @@ Piece packed_piece(std::string_view body, bool last) {
 std::string packed(std::string_view body) {
   std::vector<Piece> pieces(body.size() / piece_length + 1);
   tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+    check_stop();
     pieces[i] = packed_piece(body.substr(i * piece_length, piece_length), i + 1 == pieces.size());
   });
   std::string bytes("\x78\x01", 2);  // deflated, window of 32 kB, fastest

@@ -9,6 +9,7 @@
 
 #include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/status_words.h"
 #include "wearwell/input/toml_reader.h"
@@ -44,6 +45,7 @@ Times times_of(const Table& table, const Column& column) {
 }
 
 bool is_runout(const Table& table, const LifeHeadings& headings, std::size_t row) {
+  check_stop();
   if (headings.status) {
     try {
       return seen_in(table, *headings.status, row) == Censoring::right;
@@ -128,6 +130,7 @@ LifeSize life_size(const Table& table, const LifeHeadings& headings, double leas
   LifeSize size{least, usual_log_sd};
   double largest = 0, exposure = 0;
   for (const std::size_t row : used) {
+    check_stop();
     if (!(seen.at[row] >= 0) || !std::isfinite(seen.at[row])) continue;
     largest = std::max(largest, seen.at[row]);
     exposure += counts[row] * std::max(0.0, std::pow(seen.at[row], usual_slope) -

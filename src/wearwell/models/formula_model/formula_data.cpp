@@ -52,6 +52,7 @@ NumberColumn read_numbers(const Table& table, const std::string& name, const Col
                           formula::AnyUnit unit, double limit) {
   bool any_empty = false, any_limit = false;
   std::vector<double> values;
+  values.reserve(table.rows);
   std::vector<Censoring> seen(table.rows, Censoring::none);
   for (std::size_t i = 0; i < table.rows; ++i) {
     check_stop();
@@ -108,6 +109,9 @@ class ObservedReader {
 
   Observed read(bool may_lack) {
     Observed all;
+    all.rows.reserve(data_.table.rows);
+    all.responses.reserve(data_.table.rows);
+    all.counts.reserve(data_.table.rows);
     for (std::size_t i = 0; i < data_.table.rows; ++i) {
       check_stop();
       if (may_lack && exact_ && std::isnan(exact_->values[i])) continue;

@@ -44,6 +44,11 @@ BoundColumn bind_column(const FormulaModel& model, const Measured& measured, std
   bound.measured = &measured;
   std::vector<std::size_t> which;
   std::vector<Response> responses;
+  which.reserve(model.order.size());
+  responses.reserve(model.order.size());
+  bound.unit.reserve(model.order.size());
+  bound.term.reserve(model.order.size());
+  bound.count.reserve(model.order.size());
   for (const std::size_t row : model.order) {
     check_stop();
     const bool observed = seen[row] != none && row < count;

@@ -156,6 +156,10 @@ std::vector<LifeGroup> life_groups(const FormulaModel& model, std::size_t most) 
     if (is_new) {
       if (groups.size() == most) return {};
       groups.push_back({conditions_of_row(used, row), {}});
+      if (used.numbers.empty() && used.labels.empty()) {
+        groups.back().responses.reserve(measured.observed.rows.size());
+        groups.back().counts.reserve(measured.observed.rows.size());
+      }
     }
     LifeGroup& group = groups[at->second];
     group.responses.push_back(measured.observed.responses[i]);
