@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <vector>
 
 #include "wearwell/input/life_status.h"
@@ -73,6 +74,14 @@ std::optional<int> month_of_year(int year, int month) {
   return year * months_of_year + month - 1;
 }
 
+bool is_day_of_month(int year, int month, int day) {
+  using namespace std::chrono;
+  return month > 0 && day > 0 &&
+         year_month_day{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                        std::chrono::day(static_cast<unsigned>(day))}
+             .ok();
+}
+
 int whole_year(int year, std::size_t digits) {
   constexpr int century = 100, turn = 70;
   if (digits > 2) return year;
@@ -96,7 +105,8 @@ std::optional<int> month_in(std::string_view text) {
   if (first && second && tokens[0].size() == year_digits && tokens[1].size() <= 2) {
     // A spreadsheet makes the number 2024.1 of 2024.10.
     if (tokens[1].size() == 1 && text.find('.') != text.npos) return {};
-    const bool day = tokens.size() >= 3 && number(2) && *number(2) >= 1 && *number(2) <= 31;
+    const bool day =
+        tokens.size() >= 3 && number(2) && is_day_of_month(*first, *second, *number(2));
     return tokens.size() == 2 || day ? month_of_year(*first, *second) : std::nullopt;
   }
   if (tokens.size() != 2) return {};

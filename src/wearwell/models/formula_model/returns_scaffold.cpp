@@ -117,7 +117,7 @@ bool has_any(const std::string& heading, const std::vector<std::string_view>& wo
 void require_dates(const Table& table, const Column& column, const Dates& dates, bool of_sale) {
   if (dates.others > 0)
     throw InputError(
-        fmt::format("{}: '{}' is not a date; use 2024-01-31, 31.01.2024, 01/2024 or Jan-24{}",
+        fmt::format("{}: '{}' is not a date; use 2024-01-31, 01/2024 or Jan-24{}",
                     place(table, column.name, dates.other_row), cell_word(column, dates.other_row),
                     of_sale ? "" : ", and leave the cell of a unit that did not come back empty"));
   if (of_sale && dates.empty_row)
