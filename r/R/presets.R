@@ -41,7 +41,15 @@ preset_text <- function(model, title, columns, extra, priors) {
   paste(parts, collapse = "\n")
 }
 
+# The call with the function's own name; refused if an argument without a default is missing.
 preset_call <- function(call, name) {
+  defaults <- formals(get(name, mode = "function"))
+  needed <- setdiff(names(defaults)[vapply(defaults, function(each) is.name(each) && !nzchar(as.character(each)), TRUE)], "...")
+  missing <- setdiff(needed, names(call))
+  if (length(missing)) {
+    stop_input(name, "(): ", words(missing), if (length(missing) > 1) " are" else " is", " missing; it takes a data frame and names of its columns: ",
+               name, "(", paste(c("data", sprintf("%s = ", setdiff(needed, "data"))), collapse = ", "), "...)")
+  }
   call[[1]] <- as.name(name)
   call
 }

@@ -111,3 +111,11 @@ test_that("presets name columns that they do not use", {
   expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write bearing = \"bearing\", or unused = \"bearing\" if that is so")
   expect_length(said(bearing(bearing = "bearing")), 0)
 })
+
+test_that("a preset without its columns says which are missing", {
+  tests <- data.frame(stress = c(400, 350, 300), cycles = c(1e5, 3e5, 1e6))
+  expect_error(ww_sn(cycles ~ stress, data = tests),
+               "ww_sn(): stress is missing; it takes a data frame and names of its columns: ww_sn(data, life = , stress = , ...)", fixed = TRUE)
+  expect_error(ww_bearing(tests, "cycles", "stress"), "ww_bearing(): contact, radius, clearance are missing", fixed = TRUE)
+  expect_error(ww_staircase(), "ww_staircase(): data, stress, event are missing", fixed = TRUE)
+})
