@@ -48,7 +48,7 @@ preset_call <- function(call, name) {
   missing <- setdiff(needed, names(call))
   if (length(missing)) {
     stop_input(name, "(): ", words(missing), if (length(missing) > 1) " are" else " is", " missing; it takes a data frame and names of its columns: ",
-               name, "(", paste(c("data", sprintf("%s = ", setdiff(needed, "data"))), collapse = ", "), "...)")
+               name, "(", paste(c("data", sprintf("%s = ", setdiff(needed, "data")), "..."), collapse = ", "), ")")
   }
   call[[1]] <- as.name(name)
   call
