@@ -58,7 +58,7 @@ TEST(Typeset, NumbersUnitsLabelsAndFunctions) {
             "<mrow><msub><mi>log</mi><mn>10</mn></msub><mo>\u2061</mo>"
             "<mrow><mo>(</mo><mi>x</mi><mo>)</mo></mrow></mrow>");
   EXPECT_EQ(shown("exp(-t/tau)"),
-            "<msup><mi>e</mi><mrow><mo>−</mo><mfrac><mi>t</mi><mi>τ</mi></mfrac></mrow></msup>");
+            "<msup><mi>e</mi><mfrac><mrow><mo>−</mo><mi>t</mi></mrow><mi>τ</mi></mfrac></msup>");
   EXPECT_EQ(shown("where(a <= 1 and not b == \"<c>\", 1, 2)"),
             "<mrow><mi>where</mi><mo>\u2061</mo><mrow><mo>(</mo><mrow><mrow><mi>a</mi><mo>≤</mo>"
             "<mn>1</mn></mrow><mtext>\u00a0and\u00a0</mtext><mrow><mtext>not\u00a0</mtext><mrow>"
