@@ -334,6 +334,97 @@ async function large(browser) {
   faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `large: ${each}`));
 }
 
+// From wear paths to remaining useful lives, in at most ten actions, and `wearwell fit` and `wearwell life` give the same. The liners are
+// digits that the study reads as names; the formula is typeset while it is typed, sliders follow the threshold, and a test to do next is ranked.
+async function wearPaths(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  writeFileSync(join(inside, 'liners.csv'), `liner,hours [h],wear [um]\n${[7, 8, 9, 10, 11].flatMap((each, i) => [150, 300, 500, 800, 1000].map((at, j) => `${each},${at},${((0.05 + 0.008 * i) * at + [0.8, -1.1, 0.3, 1.2, -0.7][(i + j) % 5]).toFixed(1)}\n`)).join('')}`);
+  const {address, stop} = await serve(inside);
+  const context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  const good = () => page.waitForSelector('.check[data-state="good"]', {state: 'attached', timeout: 60000});
+  let actions = 0;
+  const act = async (does) => { actions += 1; await does(); };
+  await act(() => page.selectOption('#in-folder', 'liners.csv'));
+  await act(() => page.click('#panel-data .doors button'));
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  await good();
+  await page.waitForFunction(() => document.querySelector('#role-0')?.value === 'liner', null, {timeout: 60000});
+  check((await page.textContent('[data-column="0"]')).includes(await page.evaluate(() => wearwell.strings.readAsNames)), `${name}: digits of liners are not read as names`);
+  await act(() => page.click('#step-model'));
+  await act(() => page.fill('#limit', '95 um'));
+  await act(() => page.press('#limit', 'Enter'));
+  await page.waitForFunction(() => document.getElementById('study').value.includes('95 um'), null, {timeout: 60000});
+  await good();
+  await act(() => page.click('#step-fit'));
+  await act(() => page.click('#panel-fit button'));
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  await act(() => page.click('#step-ask'));
+  await act(() => page.click('#ask-units button'));
+  await page.waitForSelector('.card .command', {timeout: 240000});
+  check(actions <= 10, `${name}: ${actions} actions`);
+  const rows = await page.$$eval('#table-units tbody tr', (all) => all.map((each) => [...each.children].map((cell) => cell.textContent)));
+  check(rows.length === 5 && rows[0][0] === '11', `${name}: remaining useful lives are ${JSON.stringify(rows)}`);
+  await looks(page, `${name} units`, complaints);
+  const program = (command) => spawnSync('sh', ['-c', `wearwell() { "$0" "$@"; }; ${command}`, wearwell], {cwd: inside, encoding: 'utf8'}).stdout;
+  const printed = program(await page.textContent('.card .command'));
+  check((printed.match(/^Remaining useful life of liner/gm) ?? []).length === 5, `${name}: the command of all units prints ${printed}`);
+  spawnSync(wearwell, ['fit', 'liners.toml', '-o', 'by-program', '--quiet'], {cwd: inside});
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  check(summary('liners-results') === summary('by-program'), `${name}: the program gives other digits`);
+
+  await page.fill('#next-goal', 'B10');
+  await page.fill('#next-grid', 'hours [h] = 500 to 1500 by 500');
+  await page.click('#next-form button');
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 2, null, {timeout: 240000});
+  const next = await page.textContent('.card .answer');
+  check(next === program(await page.textContent('.card .command')), `${name}: plan next prints something else than ${next}`);
+  await looks(page, `${name} next`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-ask.png`), fullPage: true});
+
+  // A threshold by its slider; what it gives is what a fit of the study gives into which it is written.
+  await page.click('#step-fit');
+  await page.click('#live summary');
+  await page.waitForFunction(() => document.querySelector('#live .command') && !document.querySelector('#live').hasAttribute('aria-busy'), null, {timeout: 120000});
+  const answered = () => page.waitForFunction(() => !document.querySelector('#live').hasAttribute('aria-busy'), null, {timeout: 120000}).then(() => page.textContent('#live .answer'));
+  const first = await answered();
+  await page.focus('#live-varied-0');
+  for (let i = 0; i < 10; ++i) await page.keyboard.press('ArrowRight');
+  await page.waitForSelector('#live .choices button >> nth=0', {state: 'visible', timeout: 60000});
+  const wider = await answered(), limit = await page.textContent('output[for="live-varied-0"]');
+  check(wider !== first && wider.includes(limit), `${name}: with ${limit} the answer is ${wider}`);
+  await looks(page, `${name} live`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-live.png`), fullPage: true});
+  await page.click('#live .choices button >> nth=0');
+  await page.waitForFunction((text) => document.getElementById('study').value.includes(text), limit, {timeout: 60000});
+  await good();
+  await page.click('#step-fit');
+  await page.click('#panel-fit button');
+  await page.waitForFunction((old) => document.querySelector('#live .answer') && document.querySelector('#live .answer').textContent !== old, wider, {timeout: 240000});
+  const level = await page.textContent('output[for="live-level"]').catch(() => '95 %');
+  check(program(`wearwell life liners-results --level='${level}'`) === wider, `${name}: the fit of the written study gives another life than the slider: ${wider}`);
+
+  // Typeset while typing: an error keeps the formula that stood there.
+  await page.click('#step-model');
+  await page.waitForSelector('#formulas math mfrac, #formulas math mi', {timeout: 60000});
+  const source = await page.inputValue('#study');
+  await page.fill('#study', source.replace('wear = "rate * time"', 'wear = "rate * (time + 1 [h]) / 1"'));
+  await page.waitForSelector('#formulas [data-path="formula.wear"] mfrac', {timeout: 60000});
+  await page.fill('#study', source.replace('wear = "rate * time"', 'wear = "rate * (time"'));
+  await page.waitForSelector('#formulas [data-path="formula.wear"].stale mfrac', {timeout: 60000});
+  await page.waitForSelector('.check[data-state="bad"]', {timeout: 60000});
+  await looks(page, `${name} formulas`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-formulas.png`), fullPage: true});
+  await page.fill('#study', source);
+  await good();
+
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await context.close();
+  await stop();
+  faults.push(...complaints.map((each) => `${name}: ${each}`));
+}
+
 // Nothing is taken where a table leaves a question open, or has readings that fit equally well (as if there were two).
 async function readings(browser) {
   const complaints = [];
@@ -637,6 +728,8 @@ await errors(browser);
 await tabs(browser);
 await readings(browser);
 await large(browser);
+await wearPaths(browser, {name: 'wear-paths', viewport: {width: 1280, height: 900}});
+await wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'dark'});
 await browser.close();
 for (const each of faults) console.log(each);
 process.exit(faults.length ? 1 : 0);

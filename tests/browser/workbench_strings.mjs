@@ -47,7 +47,7 @@ for (const [name, table] of tables)
 
 // What scripts use, and what stands in them beside that.
 const top = new Set(Object.keys(languages.en)), used = new Set();
-const technical = /^(use strict|input:checked|allow-scripts allow-downloads allow-popups|study\.toml|data\..*|Bearer .*|Content-Type|scroll whole|callout (warn|fail)|choices question| label label-.*|\/api\/.*|M\$\{.*|(weak|p) = \{ distribution = .*|\\n\\n\[subpopulations\].*)$/;
+const technical = /^(use strict|input:checked|allow-scripts allow-downloads allow-popups|study\.toml|data\..*|Bearer .*|Content-Type|scroll whole|callout (warn|fail)|fields sliders|random_effects\..*|http:\/\/www\.w3\.org\/1998\/Math\/MathML|choices question| label label-.*|\/api\/.*|M\$\{.*|(weak|p) = \{ distribution = .*|\\n\\n\[subpopulations\].*)$/;
 for (const name of readdirSync(scripts).filter((each) => each.endsWith('.js') && !each.startsWith('strings_'))) {
   const code = read(name).replace(/^\s*\/\/.*$/gm, '').replace(/ \/\/ .*$/gm, '');
   for (const [, key] of code.matchAll(/\bstrings\.([A-Za-z_]+)/g)) {

@@ -230,6 +230,10 @@ Json decide_action(Session& session, const json& wish) {
   return decision_answer(result_of_wish(session, wish), session.models, wish);
 }
 
+Json next_test_action(Session& session, const json& wish) {
+  return next_test_answer(result_of_wish(session, wish), session.models, wish);
+}
+
 Json compare_action(Session& session, const json& wish) {
   const json given = wish.value("results", json::array());
   std::vector<std::string> names;
@@ -280,7 +284,11 @@ Json study_look(Session& session, const HttpTarget&) {
 }
 
 Json result_look(Session& session, const HttpTarget&) {
-  return result_json(path_in(session.folder, open_result(session)));
+  return result_json(path_in(session.folder, open_result(session)), session.models);
+}
+
+Json units_look(Session& session, const HttpTarget&) {
+  return followed_units(path_in(session.folder, open_result(session)), session.models);
 }
 
 std::string bytes_of(const fs::path& file) {
@@ -344,7 +352,7 @@ Json open_named(Session& session, const std::string& name,
     return {{"kind", "study"}, {"study", std::move(study)}};
   }
   if (kind == "result") {
-    static_cast<void>(result_json(path));
+    static_cast<void>(result_json(path, session.models));
     const std::lock_guard lock(session.mutex);
     session.result = name;
     ++session.version;
@@ -381,7 +389,8 @@ Json upload(Session& session, const std::string& name, std::string bytes) {
 Look look_of(std::string_view path) {
   static constexpr std::pair<std::string_view, Look> looks[] = {
       {"/api/session", session_look}, {"/api/table", table_look}, {"/api/rows", rows_look},
-      {"/api/plot", plot_look},       {"/api/study", study_look}, {"/api/result", result_look}};
+      {"/api/plot", plot_look},       {"/api/study", study_look}, {"/api/result", result_look},
+      {"/api/units", units_look}};
   for (const auto& [known, look] : looks)
     if (known == path) return look;
   return nullptr;
@@ -396,7 +405,8 @@ Action action_of(std::string_view path) {
       {"/api/life", life_action},        {"/api/priors", priors_action},
       {"/api/decide", decide_action},    {"/api/compare", compare_action},
       {"/api/prior", move_prior_action}, {"/api/families", families_action},
-      {"/api/form", form_action},        {"/api/stop-reading", stop_reading_action}};
+      {"/api/form", form_action},        {"/api/stop-reading", stop_reading_action},
+      {"/api/next", next_test_action}};
   for (const auto& [known, action] : actions)
     if (known == path) return action;
   return nullptr;

@@ -7,12 +7,14 @@
 
   const width = () => Math.min(560, Math.max(280, place.cards.clientWidth - 40));
 
-  function survival({answer}) {
+  // Also of the step Fit, in its own width.
+  function survival({answer}, wide = width()) {
     const points = answer.survival.filter((each) => each.life !== null && each.survival > 0.004).map((each) => [each.life, each.survival]);
     if (points.length < 3) return null;
     return wearwell.scatter({points, line: true, x: {name: `${answer.name} [${wearwell.unit(answer.unit)}]`}, y: {name: strings.probability},
-      description: `${strings.survivalTitle}: ${strings.probability}`, hint: '', read: ([a, b]) => `${wearwell.quantity(a, answer.unit, 4)}: ${wearwell.given(b)}`}, width());
+      description: `${strings.survivalTitle}: ${strings.probability}`, hint: '', read: ([a, b]) => `${wearwell.quantity(a, answer.unit, 4)}: ${wearwell.given(b)}`}, wide);
   }
+  wearwell.survivalPlot = survival;
 
   function cost({curve}) {
     if (!curve || curve.age.length < 3) return null;
@@ -26,9 +28,48 @@
     for (const each of form.elements) if (each.name && each.value) question[each.name] = each.value;
     if (!question.level) delete question.sides;
     const found = await wearwell.post(path, question);
+    addCard(element('pre', {class: 'answer', tabindex: 0, lang: 'en'}, found.text), picture(found), ...wearwell.sameLines(found));
+  }
+
+  function addCard(...parts) {
     count += 1;
-    place.cards.prepend(element('article', {class: 'card', 'aria-label': strings.askedFor(count)}, element('pre', {class: 'answer', tabindex: 0, lang: 'en'}, found.text), picture(found),
-        ...wearwell.sameLines(found)));
+    const made = element('article', {class: 'card', 'aria-label': strings.askedFor(count)}, ...parts);
+    place.cards.prepend(made);
+    return made;
+  }
+
+  // The expected narrowing of each candidate, the best first.
+  function narrowing({answer}) {
+    const points = (answer.candidates ?? []).filter((each) => each.narrowing !== null && each.narrowing !== undefined).map((each, i) => [i + 1, 100 * each.narrowing, i + 1]);
+    if (points.length < 3) return null;
+    return wearwell.scatter({points, x: {name: strings.candidateRank}, y: {name: strings.narrowing}, labels: [], description: strings.narrowing, hint: '',
+      read: ([rank, share]) => `${rank}: ${Number(share.toPrecision(3))} %`}, width());
+  }
+
+  // One unit after another; the table grows, and can be stopped.
+  async function askUnits() {
+    const of = folder, {names, all, ...lines} = await wearwell.get('/api/units'), rows = [];
+    if (!names.length) throw new Error(strings.noUnits);
+    let stopped = false, unit = '';
+    const grid = element('div', {}), stop = wearwell.button(strings.unitsStop, () => { stopped = true; }, 'plain'), card = addCard(grid, stop);
+    const shown = (value) => (value === null ? strings.never : wearwell.number(value, 4));
+    const draw = () => grid.replaceChildren(wearwell.table({id: 'units', caption: strings.unitsCaption(rows.length, all), all: rows.length,
+      columns: [strings.unit, `${strings.unitsFrom} [${unit}]`, ...['5 %', strings.median, '95 %'].map((each) => strings.unitHead(each, unit)), strings.unitsFailed],
+      rows: [...rows].sort((a, b) => (a.median ?? Infinity) - (b.median ?? Infinity)).map(({cells}) => cells)}));
+    for (const name of names) {
+      if (stopped || folder !== of || !card.isConnected) break;
+      try {
+        const {answer} = await wearwell.post('/api/life', {result: of, unit: name});
+        unit = wearwell.unit(answer.unit);
+        rows.push({name, median: answer.q50, cells: [name, answer.from === undefined ? '' : wearwell.number(answer.from, 4), shown(answer.q05), shown(answer.q50), shown(answer.q95), '']});
+      } catch (error) {
+        if (error.status !== 400) throw error;
+        rows.push({name, median: null, cells: [name, '', '', '', '', error.message.split('\n')[0]]});
+      }
+      draw();
+    }
+    stop.remove();
+    if (rows.length) card.append(...wearwell.sameLines(lines));
   }
 
   function result(found) {
@@ -51,7 +92,10 @@
     const sides = element('select', {id: 'ask-sides', name: 'sides'}, ...Object.entries(strings.sideNames).map(([value, text]) => element('option', {value}, text)));
     const life = form('ask', {path: '/api/life', picture: survival}, ...inputs('ask', strings.fields), element('div', {class: 'field'}, element('label', {for: 'ask-sides'}, strings.sides), sides));
     const decide = form('decide', {path: '/api/decide', picture: cost}, ...inputs('decide', strings.costs));
-    place.questions = element('div', {hidden: true}, element('h3', {}, strings.lifeTitle), life, element('h3', {}, strings.decideTitle), element('p', {class: 'note'}, strings.decideLead), decide);
+    const next = form('next', {path: '/api/next', picture: narrowing}, ...inputs('next', strings.nextFields));
+    place.units = element('div', {id: 'ask-units'}, element('h3', {}, strings.unitsTitle), element('p', {class: 'note'}, strings.unitsLead), wearwell.button(strings.unitsAsk, () => wearwell.attempt(askUnits)));
+    place.questions = element('div', {hidden: true}, element('h3', {}, strings.lifeTitle), life, place.units, element('h3', {}, strings.decideTitle), element('p', {class: 'note'}, strings.decideLead), decide,
+        element('h3', {}, strings.nextTitle), element('p', {class: 'note'}, strings.nextLead), next);
     place.none = element('p', {}, strings.noLives);
     place.cards = element('div', {class: 'cards', 'aria-live': 'polite'});
     panel.append(element('h2', {}, strings.askTitle), place.none, place.questions, place.cards);

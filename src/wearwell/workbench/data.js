@@ -3,7 +3,7 @@
 (() => {
   const {element, strings} = wearwell;
   const atOnce = 50, columnsAtOnce = 20;
-  let table = null, from = 0, fromColumn = 0, opening = 0, announced = 0, drawnIn = 0;
+  let table = null, from = 0, fromColumn = 0, opening = 0, announced = 0, drawnIn = 0, headings = {};
   const place = {};
 
   async function opened(answer) {
@@ -69,7 +69,8 @@
   function head(column, index) {
     const isNumber = column.kind === 'number' || column.refused !== undefined, notes = [strings.kinds[column.kind], isNumber ? '' : wearwell.unit(column.unit)];
     if (column.empty) notes.push(strings.empty(column.empty));
-    return element('th', {scope: 'col', 'data-column': index}, element('span', {}, column.name), element('small', {}, notes.filter(Boolean).join(', ')),
+    const role = table.wide ? {} : wearwell.roleField(column, index, table, (name, chosen) => { place.moved.textContent = strings.roleChanged(name, chosen); });
+    return element('th', {scope: 'col', 'data-column': index}, element('span', {}, column.name), element('small', {}, notes.filter(Boolean).join(', ')), role.field, role.note,
         isNumber ? wearwell.unitField(column, index, (name, unit) => { place.moved.textContent = strings.unitChanged(name, unit || strings.noUnit); }) : null,
         column.refused ? element('small', {class: 'bad'}, strings.refused(column.refused)) : null,
         column.doubt ? element('small', {class: 'bad'}, column.doubt) : null);
@@ -87,11 +88,15 @@
     const asked = table, columns = asked.columns.slice(fromColumn, fromColumn + columnsAtOnce);
     const {rows: found} = await wearwell.get('/api/rows', {...named(), from, count: atOnce, from_column: fromColumn, columns: columnsAtOnce});
     if (asked !== table) return;
-    place.grid.replaceChildren(
-        element('caption', {}, strings.tableCaption(table.file, wearwell.count(table.rows), wearwell.count(table.columns.length))),
-        element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, strings.row), ...columns.map((each, i) => head(each, fromColumn + i)))),
-        element('tbody', {}, ...found.map((each) => element('tr', {}, place.lines.cell(each),
-            ...each.cells.map((value, i) => cell(value, each.refused?.[fromColumn + i], fromColumn + i))))));
+    const body = element('tbody', {}, ...found.map((each) => element('tr', {}, place.lines.cell(each),
+        ...each.cells.map((value, i) => cell(value, each.refused?.[fromColumn + i], fromColumn + i)))));
+    // Other rows keep the headings.
+    if (headings.of === asked && headings.from === fromColumn) place.grid.tBodies[0].replaceWith(body);
+    else {
+      place.grid.replaceChildren(element('caption', {}, strings.tableCaption(table.file, wearwell.count(table.rows), wearwell.count(table.columns.length))),
+          element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, strings.row), ...columns.map((each, i) => head(each, fromColumn + i)))), body);
+      headings = {of: asked, from: fromColumn};
+    }
     place.rowsShown.textContent = strings.rowsShown(wearwell.count(from + 1), wearwell.count(from + found.length), wearwell.count(table.rows));
     place.earlier.disabled = from === 0;
     place.later.disabled = from + atOnce >= table.rows;
@@ -235,8 +240,8 @@
     catchUp();
   }
 
-  // The study states other units, or none.
-  const unitsChanged = () => place.grid.querySelectorAll('input').forEach((each) => each.update());
+  // The study states other units and roles, or none.
+  const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update());
 
   // A page that is opened again shows what the program has open.
   wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};

@@ -3,6 +3,7 @@
 (() => {
   const {element, strings} = wearwell;
   const place = {};
+  let live = null;
   let shown = '', report = '';
 
   function progress(fit) {
@@ -53,10 +54,11 @@
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
     place.result.replaceChildren(element('h3', {lang: 'en'}, found.title),
         element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks, found.folder),
+        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks, found.folder), live.panel,
         element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),
         details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)),
         ...wearwell.sameLines(found));
+    live.result(found);
     wearwell.askPanel.result(found);
   }
 
@@ -79,6 +81,7 @@
     place.bar = element('progress', {'aria-label': strings.fitTitle, hidden: true});
     place.progress = element('p', {role: 'status', id: 'progress'});
     place.problem = element('div', {role: 'alert'});
+    live = wearwell.liveLife();
     place.result = element('div', {id: 'result'}, element('p', {}, strings.noResult));
     panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
   }

@@ -1,5 +1,5 @@
 'use strict';
-// Corrections of what was taken from the headings: by a click the line of the headings and that of the units, in its field the unit of a column.
+// Corrections of what was taken from the headings: by a click the line of the headings and that of the units, in its fields the unit and the role of a column.
 (() => {
   const {element, strings} = wearwell;
   const near = 20;  // rows below the headings that can be headings or units themselves
@@ -92,5 +92,38 @@
     }));
     field.update = () => { if (field !== document.activeElement) field.value = shown(); };
     return field;
+  };
+
+  // How a study reads a column depends on its role: numbers in a unit, or names, also where the cells are digits.
+  const roleOf = (heading) => /^data\.columns\.(.+)$/.exec(columnKey(heading)?.path ?? '')?.[1] ?? '';
+  const isNames = (role, names) => names.includes(role) || study().keys().some(({path}) => path.startsWith(`random_effects.${role}.`) || path === `random_effects.${role}`);
+
+  // {field, note}: the choice of a role, and what it makes of the cells. `changed(heading, role)` after a choice.
+  wearwell.roleField = ({name, kind}, index, {roles, names}, changed) => {
+    const note = element('small', {}), select = element('select', {id: `role-${index}`, class: 'role', autocomplete: 'off', 'aria-label': strings.roleOf(name)});
+    let shown = null;
+
+    function update() {
+      const role = roleOf(name);
+      note.textContent = !role ? strings.unusedColumn : isNames(role, names) ? strings.readAsNames : kind === 'number' ? strings.readAsNumbers : '';
+      if (role === shown || select === document.activeElement) return;
+      shown = role;
+      const own = role && !roles.includes(role) ? [role] : [];
+      select.replaceChildren(element('option', {value: ''}, strings.noRole), ...[...own, ...roles].map((each) => element('option', {value: each, lang: 'en', selected: each === role}, each)));
+    }
+    select.addEventListener('change', () => wearwell.attempt(async () => {
+      const role = select.value, before = shown;
+      shown = null;
+      select.blur();
+      try {
+        await wearwell.model.setRole(role, name, before);
+        changed(name, role || strings.noRole);
+      } finally {
+        update();
+        select.focus();
+      }
+    }));
+    update();
+    return {field: Object.assign(select, {update}), note};
   };
 })();

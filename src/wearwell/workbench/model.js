@@ -6,7 +6,7 @@
   const place = {};
   const replaced = [];
   let choices = {columns: []}, generated = '', saved = null, savedName = '', table = null, timer = 0, slow = 0, checking = false, again = false;
-  let keys = [], questions = [], unread = false, keptFor = 0, left = false, form = null;
+  let keys = [], questions = [], unread = false, keptFor = 0, left = false, form = null, formulas = null;
 
   const text = () => place.text.value;
   const isSaved = () => saved !== null && text() === saved && place.name.value === savedName;
@@ -89,11 +89,12 @@
   // Whether this is still the text, and TOML.
   async function showForm(checked) {
     keys = [];
-    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); delete place.check.dataset.state; compare(); return false; }
+    if (!checked) { place.check.replaceChildren(); place.form.replaceChildren(); formulas.show([]); delete place.check.dataset.state; compare(); return false; }
     const found = await wearwell.post('/api/form', {file: place.name.value || 'study.toml', text: checked});
     if (checked !== text()) return false;
     keys = found.keys;
     form.show(keys);
+    if (found.formulas) formulas.show(found.formulas);
     wearwell.data.unitsChanged();
     compare();
     if (!found.problem) {
@@ -192,6 +193,20 @@
       if (options[i] === 'PRESET') choices.preset = options[i + 1];
     }
     return wearwell.attempt(() => wearwell.data.ofTable(guess));
+  }
+
+  // The role of a column, from its heading, as `wearwell new --column` states it. A study that no guess wrote says it in its text.
+  async function setRole(role, heading, before) {
+    if (place.roles.hidden || !table) throw new Error(strings.roleInText(heading));
+    const kept = choices.columns, name = role || before;
+    choices.columns = [...kept.filter((each) => !each.startsWith(`${name}=`) && !each.endsWith(`=${heading}`)), role ? `${role}=${heading}` : `${before}=`];
+    try {
+      await wearwell.data.ofTable(guess);
+    } catch (error) {
+      choices.columns = kept;
+      await wearwell.data.ofTable(guess);
+      throw error;
+    }
   }
 
   function take(reading) {
@@ -321,6 +336,7 @@
     place.limit.addEventListener('submit', (event) => { event.preventDefault(); wearwell.attempt(() => setLimit(limit.querySelector('input').value)); });
     form = wearwell.valuesForm(study);
     place.form = form.panel;
+    formulas = wearwell.formulas();
     place.parts = [wearwell.priors(study), wearwell.families(study)];
     place.text = element('textarea', {id: 'study', spellcheck: 'false', wrap: 'off', autocomplete: 'off', 'aria-describedby': 'check'});
     place.gutter = element('div', {class: 'gutter', 'aria-hidden': 'true'});
@@ -336,7 +352,7 @@
     place.work = element('div', {class: 'two', hidden: true},
         element('div', {}, place.readings, place.limit, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
-            element('div', {class: 'editor'}, place.gutter, place.text), place.check,
+            element('div', {class: 'editor'}, place.gutter, place.text), place.check, formulas.panel,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));
     panel.append(element('h2', {}, strings.modelTitle), place.empty, place.work);
     addEventListener('beforeunload', (event) => { if (isEdited() && !left) event.preventDefault(); });
@@ -359,5 +375,5 @@
     marks();
   }
 
-  wearwell.model = {build, leave, study, becomes, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
+  wearwell.model = {build, leave, study, setRole, becomes, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
 })();

@@ -11,11 +11,13 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/plan/next_question.h"
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/prognosis/decision_request.h"
 #include "wearwell/prognosis/decisions_tables.h"
 #include "wearwell/prognosis/life_text.h"
 #include "wearwell/prognosis/result_lives.h"
+#include "wearwell/workbench/changed_prediction.h"
 #include "wearwell/workbench/command_line.h"
 #include "wearwell/workbench/python_line.h"
 
@@ -25,7 +27,10 @@ namespace {
 using nlohmann::ordered_json;
 using Fields = std::span<const char* const>;
 
+constexpr std::size_t most_units = 200;
+
 constexpr const char* life_fields[] = {"unit", "survived", "horizon", "risk", "level", "sides"};
+constexpr const char* next_fields[] = {"goal", "grid", "specimens"};
 constexpr const char* decision_fields[] = {"failure_cost",
                                            "replacement_cost",
                                            "inspection_cost",
@@ -110,14 +115,19 @@ ordered_json life_answer(const std::filesystem::path& folder, Models models,
         {field_text(question, "unit"), field_text(question, "survived"),
          field_text(question, "horizon"), field_text(question, "risk"),
          field_text(question, "level"), field_text(question, "sides")});
-    const prognosis::CarriedState state = prognosis::read_state(folder);
+    prognosis::CarriedState state = prognosis::read_state(folder);
     prognosis::require_posterior(state, folder.filename().string());
+    const nlohmann::json changes = question.value("changes", nlohmann::json::object());
+    state.source.study.text = with_predictions(state.source.study.text, changes, models);
     const prognosis::UnitLife life =
         prognosis::asked_life(state, folder.filename().string(), models, asked);
-    return {{"text", prognosis::life_text(life, bounds, {}, state.trusted)},
-            {"answer", prognosis::life_json(life, bounds, {}, state.trusted)},
-            {"command", command_of("life", folder, question, life_fields)},
-            {"python", python_of("unit_life", folder, question, life_fields)}};
+    ordered_json found = {{"text", prognosis::life_text(life, bounds, {}, state.trusted)},
+                          {"answer", prognosis::life_json(life, bounds, {}, state.trusted)}};
+    if (changes.empty()) {  // else the study is to be changed first
+      found["command"] = command_of("life", folder, question, life_fields);
+      found["python"] = python_of("unit_life", folder, question, life_fields);
+    }
+    return found;
   } catch (const InputError& error) {
     throw InputError(in_fields(error.what(), life_fields));
   }
@@ -145,6 +155,53 @@ ordered_json decision_answer(const std::filesystem::path& folder, Models models,
   } catch (const InputError& error) {
     throw InputError(in_fields(error.what(), decision_fields));
   }
+}
+
+ordered_json next_test_answer(const std::filesystem::path& folder, Models models,
+                              const nlohmann::json& question) {
+  try {
+    plan::NextQuestion asked;
+    asked.goal = field_text(question, "goal");
+    asked.grid = field_text(question, "grid");
+    asked.specimens = field_text(question, "specimens");
+    if (asked.goal.empty()) throw InputError("--goal: state what the test is to determine: B10");
+    prognosis::CarriedState state = prognosis::read_state(folder);
+    prognosis::require_posterior(state, folder.filename().string());
+    const plan::ReadStudy read = [models](const Source& source) {
+      return read_study(source, models);
+    };
+    const plan::Answer answer = plan::next_test(std::move(state), folder.string(), read, asked);
+    return {{"text", answer.text},
+            {"answer", answer.json},
+            {"command", command_of("plan next", folder, question, next_fields)},
+            {"python", python_of("plan.next", folder, question, next_fields)}};
+  } catch (const InputError& error) {
+    throw InputError(in_fields(error.what(), next_fields));
+  }
+}
+
+ordered_json followed_units(const std::filesystem::path& folder, Models models) {
+  ordered_json json = {{"noun", "unit"}, {"names", ordered_json::array()}};
+  const prognosis::CarriedState state = prognosis::read_state(folder);
+  if (state.parameters.empty()) return json;
+  const auto tracker = prognosis::tracker_where_possible(state, models);
+  if (!tracker || tracker->seen().empty()) return json;
+  json["noun"] = tracker->noun();
+  std::string words, texts;
+  for (const std::string& each : tracker->seen()) {
+    if (json["names"].size() == most_units) break;
+    const std::string name = printable(each);
+    json["names"].push_back(name);
+    words += " " + quoted_word(name);
+    texts += (texts.empty() ? "" : ", ") + python_text(name);
+  }
+  json["all"] = tracker->seen().size();
+  json["command"] = fmt::format("for unit in{}; do wearwell life {} --unit=\"$unit\"; done", words,
+                                quoted_word(folder.string()));
+  json["python"] =
+      fmt::format("import wearwell as ww; [print(ww.unit_life({}, unit=each)) for each in [{}]]",
+                  python_text(folder.string()), texts);
+  return json;
 }
 
 }  // namespace wearwell::workbench

@@ -14,6 +14,7 @@
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/saved_result.h"
+#include "wearwell/workbench/changed_prediction.h"
 #include "wearwell/workbench/command_line.h"
 #include "wearwell/workbench/folder_files.h"
 #include "wearwell/workbench/python_line.h"
@@ -57,13 +58,15 @@ void add_summary(const std::vector<present::Block>& blocks, ordered_json& json) 
 }
 
 // Whether there is a posterior to ask, or why not.
-void add_lives(const std::filesystem::path& folder, ordered_json& json) {
+void add_lives(const std::filesystem::path& folder, Models models, ordered_json& json) {
   json["lives"] = false;
   std::error_code error;
   if (!std::filesystem::is_regular_file(folder / "state.bin", error)) return;
   const std::string name = folder.filename().string();
   try {
-    prognosis::require_posterior(prognosis::read_state(folder), name);
+    const prognosis::CarriedState state = prognosis::read_state(folder);
+    prognosis::require_posterior(state, name);
+    json["varied"] = varied_predictions(state.source.study.text, models);
     json["lives"] = true;
   } catch (const InputError& problem) {
     json["no_lives"] = printable_lines(problem.what());
@@ -89,7 +92,7 @@ void add_lines(const std::filesystem::path& folder, ordered_json& json) {
 
 }  // namespace
 
-ordered_json result_json(const std::filesystem::path& folder) {
+ordered_json result_json(const std::filesystem::path& folder, Models models) {
   const SavedReport saved = read_saved_report(folder);
   const Header& header = saved.header;
   ordered_json json = {{"folder", folder.filename().string()},
@@ -104,7 +107,7 @@ ordered_json result_json(const std::filesystem::path& folder) {
   for (const present::Section& section : saved.sections) add_summary(section.blocks, json);
   for (const present::Table* each : present::tables(saved.sections))
     json["tables"].push_back(table_texts(*each));
-  add_lives(folder, json);
+  add_lives(folder, models, json);
   add_lines(folder, json);
   return json;
 }

@@ -13,6 +13,7 @@
 #include "wearwell/input/study_keys.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/study/scaffold.h"
+#include "wearwell/workbench/formulas_view.h"
 
 namespace wearwell::workbench {
 namespace {
@@ -179,6 +180,7 @@ ordered_json study_form(const std::filesystem::path& file, const std::string& te
   ordered_json json = {{"keys", ordered_json::array()}};
   try {
     json["keys"] = form_json(TomlReader::parse(TextFile{file, text}), text, models);
+    json["formulas"] = formulas_json(json["keys"]);
   } catch (const InputError& error) {
     add_problem(error.what(), file, json);
   }

@@ -8,7 +8,7 @@
 
 namespace wearwell::workbench {
 
-/// A study's text as a form, and its check. {keys: [{path, value, text, line, meaning, example}],
+/// A study's text as a form, and its check. {keys: [{path, value, text, line, meaning, example}], formulas (formulas_view.h),
 /// and either description, what `wearwell check` prints, or problem with line and column where the
 /// message names them}. `text`: whether the value is a text, shown without its quotes. A text that
 /// is not TOML has no keys. `file`: where the study stands or will stand; tables are beside it.

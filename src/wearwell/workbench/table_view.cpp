@@ -209,7 +209,11 @@ ordered_json table_json(const OpenTable& open) {
   for (const Column& each : open.table.columns)
     json["columns"].push_back(column_json(open.table, each));
   json["roles"] = ordered_json::array();
-  for (const RoleForm& each : role_forms()) json["roles"].push_back(std::string(each.name));
+  json["names"] = ordered_json::array();
+  for (const RoleForm& each : role_forms()) {
+    json["roles"].push_back(std::string(each.name));
+    if (each.cells != Cells::numbers) json["names"].push_back(std::string(each.name));
+  }
   return json;
 }
 

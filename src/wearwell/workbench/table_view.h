@@ -15,7 +15,7 @@ OpenTable open_table(const std::filesystem::path& folder, const std::string& fil
                      const std::map<std::string, std::string>& settings);
 
 /// {file, rows, layout, remarks, settings, wide, headings, columns: [{name, unit, kind, empty,
-/// refused, least, largest}], roles}. `headings`: of a wide table before its SELECT; chosen roles name them. `kind`: "number", or "text"; text in which most cells are numbers has `refused`, the
+/// refused, least, largest}], roles, names}. `names`: the roles whose cells are read as names, also digits. `headings`: of a wide table before its SELECT; chosen roles name them. `kind`: "number", or "text"; text in which most cells are numbers has `refused`, the
 /// number of the others; at most 1000 are counted, and then there is no least and largest.
 nlohmann::ordered_json table_json(const OpenTable& open);
 
