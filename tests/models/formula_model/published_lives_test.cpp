@@ -156,5 +156,126 @@ TEST_F(PublishedLives, BirnbaumSaunders) {
   EXPECT_NEAR(found.value, -457.270528, 2e-6);
 }
 
+// Ten bearings of McCool (1974): 212.05 h and 0.2825, an example of Ng, Kundu and Balakrishnan (2003).
+TEST_F(PublishedLives, BirnbaumSaundersOfTenBearings) {
+  const auto density =
+      likelihood("tests/golden/bearing_hours.csv",
+                 lives("hours", "birnbaum-saunders", {{"scale", "median"}, {"shape", "alpha"}}));
+  const Maximum found = climb(*density, {180, 0.4}, {10, 0.05});
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 212.0491, 2e-3);
+  EXPECT_NEAR(found.x[1], 0.2824892, 2e-6);
+  EXPECT_NEAR(found.value, -54.97175, 1e-5);
+}
+
+// Remission times of 128 patients with bladder cancer (Lee and Wang 2003): 0.654, 2.796, -410.68 in many papers.
+TEST_F(PublishedLives, ExponentiatedWeibullOfRemissions) {
+  const auto density =
+      likelihood("tests/golden/remissions.csv",
+                 lives("months", "exponentiated-weibull",
+                       {{"scale", "eta"}, {"shape", "beta"}, {"exponent", "power"}}));
+  const Maximum found = climb(*density, {5, 0.8, 2}, {1, 0.1, 0.5}, 1e-3);
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 3.345819, 5e-3);
+  EXPECT_NEAR(found.x[1], 0.6544094, 5e-4);
+  EXPECT_NEAR(found.x[2], 2.796005, 5e-3);
+  EXPECT_NEAR(found.value, -410.6801, 1e-4);
+}
+
+// Rats with carcinomas (Pike 1966), 17 failures and two run-outs: 108.4, 2.712 and 122 days (Lawless 1982).
+TEST_F(PublishedLives, WeibullWithThresholdAndRunouts) {
+  const auto density = likelihood("tests/golden/carcinoma.csv", R"toml(
+[data.columns]
+life = "days"
+status = "status"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+threshold = "gamma"
+[prior]
+eta = { distribution = "flat" }
+beta = { distribution = "flat" }
+gamma = { distribution = "flat" }
+)toml");
+  const Maximum found = climb(*density, {130, 3, 100}, {10, 0.3, 5}, 1e-3);
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 108.3827, 2e-2);
+  EXPECT_NEAR(found.x[1], 2.711477, 5e-4);
+  EXPECT_NEAR(found.x[2], 122.026, 2e-2);
+  EXPECT_NEAR(found.value, -87.32425, 1e-5);
+}
+
+// 26 patients with ovarian cancer, of whom 12 died (Edmonson et al. 1979; R's survival): 6.426, 1.426, -0.766 and -96.95 (flexsurv).
+TEST_F(PublishedLives, GeneralizedGammaWithRunouts) {
+  const auto density = likelihood("tests/golden/ovarian.csv", R"toml(
+[data.columns]
+life = "days"
+status = "status"
+[likelihood.life]
+family = "generalized-gamma"
+scale = "eta"
+sigma = "sigma"
+lambda = "lambda"
+[prior]
+eta = { distribution = "flat" }
+sigma = { distribution = "flat" }
+lambda = { distribution = "flat" }
+)toml");
+  const Maximum found = climb(*density, {665, 1, -0.5}, {50, 0.1, 0.3});
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(std::log(found.x[0]), 6.427039, 1e-3);
+  EXPECT_NEAR(found.x[1], 1.425840, 1e-3);
+  EXPECT_NEAR(found.x[2], -0.764567, 3e-3);
+  EXPECT_NEAR(found.value, -96.9490657, 2e-6);
+}
+
+// 121 patients with breast cancer (Boag 1949): a lognormal life of the share that dies of it.
+TEST_F(PublishedLives, ShareThatCanFailOfLognormalLives) {
+  const auto density = likelihood("tests/golden/breast_cancer.csv", R"toml(
+[data.columns]
+life = "months"
+status = "status"
+[likelihood.life]
+family = "lognormal"
+median = "m"
+log_sd = "s"
+share_defective = "p"
+[prior]
+m = { distribution = "flat" }
+s = { distribution = "flat" }
+p = { distribution = "uniform", lower = 0, upper = 1 }
+)toml");
+  const Maximum found = climb(*density, {35, 1, 0.8}, {5, 0.1, 0.05}, 1e-3);
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 37.40952, 2e-2);
+  EXPECT_NEAR(found.x[1], 1.208465, 5e-4);
+  EXPECT_NEAR(found.x[2], 0.800838, 2e-4);
+  EXPECT_NEAR(found.value, -430.36231, 1e-4);
+}
+
+// 99 mice that died of three causes (Hoel 1972, conventional laboratory): each cause alone by R's survreg, others as run-outs.
+TEST_F(PublishedLives, CausesOfDeathOfMice) {
+  const auto density = likelihood("tests/golden/mice.csv", R"toml(
+[data.columns]
+life = "days"
+mode = "mode"
+[failure_modes]
+column = "mode"
+[likelihood.life]
+family = "weibull"
+scale = "eta[mode]"
+shape = "beta[mode]"
+[prior]
+eta = { distribution = "flat" }
+beta = { distribution = "flat" }
+)toml");
+  const Maximum found = climb(*density, {1000, 700, 900, 1.2, 7, 2}, {50, 20, 50, 0.1, 0.3, 0.1});
+  ASSERT_TRUE(found.converged);
+  const double expected[] = {1361.35, 676.973, 805.6164, 1.437047, 8.073424, 1.919198};
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(found.x[i], expected[i], 1e-4 * expected[i]) << i;
+  EXPECT_NEAR(found.value, -188.3732 - 239.2395 - 305.9005, 3e-4);
+}
+
 }  // namespace
 }  // namespace wearwell::formula_model
