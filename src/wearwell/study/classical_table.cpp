@@ -103,6 +103,13 @@ present::Table estimate_table(std::span<const ClassicalEstimate> estimates,
     return each.open.empty() ? Cell(each.value) : Cell("open: " + each.open);
   };
   for (const ClassicalEstimate& each : estimates) {
+    if (!std::isfinite(each.value)) {
+      std::vector<Cell> row = {each.name, each.unit, Cell("not finite")};
+      row.resize(table.columns.size() - 3);
+      row.insert(row.end(), {each.posterior_lower, each.posterior_upper, each.scale});
+      table.rows.push_back(std::move(row));
+      continue;
+    }
     std::vector<Cell> row = {each.name, each.unit, each.value};
     if (exact && each.exact) row.insert(row.end(), {each.exact->lower, each.exact->upper});
     if (exact && !each.exact) row.insert(row.end(), 2, Cell());
@@ -120,8 +127,17 @@ std::string estimate_text(std::span<const ClassicalEstimate> estimates) {
   const bool exact = any_exact(estimates);
   if (exact) rows[0].insert(rows[0].begin() + 2, "exact");
   for (const ClassicalEstimate& each : estimates) {
-    rows.push_back({printable_heading(numbers_text(each.name, Script::terminal), each.unit),
-                    plain_number(each.value), plain_number(each.standard_error),
+    const std::string name =
+        printable_heading(numbers_text(each.name, Script::terminal), each.unit);
+    // The mean of a distribution with a long tail, or a life that most never reach.
+    if (!std::isfinite(each.value)) {
+      rows.emplace_back(rows[0].size(), "-");
+      rows.back()[0] = name;
+      rows.back()[1] = "not finite";
+      rows.back().back() = posterior_text(each.posterior_lower, each.posterior_upper);
+      continue;
+    }
+    rows.push_back({name, plain_number(each.value), plain_number(each.standard_error),
                     plain_range(each.lower, each.upper),
                     ends_text(each.ratio_lower, each.ratio_upper),
                     posterior_text(each.posterior_lower, each.posterior_upper)});

@@ -26,6 +26,8 @@ plot::Axis period_axis(const AskedReturns& asked, int first, int last) {
   return axis;
 }
 
+constexpr double half_bar = 0.35;  // of a period
+
 struct Band {
   std::vector<double> x, low, expected, high;
   void add(double at, const ReturnsCount& count) {
@@ -34,11 +36,18 @@ struct Band {
     expected.push_back(count.expected);
     high.push_back(count.count_high);
   }
+  // One period alone is as wide as its bar: a line of one point is not seen.
+  void widen() {
+    if (x.size() != 1) return;
+    for (auto* each : {&low, &expected, &high}) each->push_back(each->front());
+    x = {x[0] - half_bar, x[0] + half_bar};
+  }
 };
 
-void draw_band(const Band& band, const char* paint, const std::string& label,
+void draw_band(Band band, const char* paint, const std::string& label,
                std::vector<plot::Json>& marks) {
   if (band.x.empty()) return;
+  band.widen();
   marks.push_back(plot::area({{"x", band.x}, {"y", band.high}, {"y2", band.low}},
                              {paint, "90 % of the number, " + label, 0.25}));
   marks.push_back(plot::line({{"x", band.x}, {"y", band.expected}, {"expected", band.expected}},
@@ -47,13 +56,12 @@ void draw_band(const Band& band, const char* paint, const std::string& label,
 
 plot::Json bars(const std::vector<const ReturnsPeriod*>& periods, const char* paint,
                 const std::string& label) {
-  constexpr double half = 0.35;
   plot::Columns data = {{"x", {}},  {"x2", {}},      {"y", {}},
                         {"y2", {}}, {"density", {}}, {"returned", {}}};
   constexpr double opacity = 0.55;
   for (const ReturnsPeriod* each : periods) {
-    const double values[] = {each->at - half,
-                             each->at + half,
+    const double values[] = {each->at - half_bar,
+                             each->at + half_bar,
                              static_cast<double>(*each->observed),
                              0,
                              opacity,
@@ -160,6 +168,7 @@ html::Figure modes_figure(const AskedReturns& asked, const ReturnsResult& result
       x.push_back(each.at);
       observed.push_back(each.by_mode[k].observed);
     }
+    ahead.widen();
     if (!ahead.x.empty())
       marks.push_back(
           plot::area({{"x", ahead.x}, {"y", ahead.high}, {"y2", ahead.low}}, {paint, "", 0.2}));
