@@ -29,8 +29,6 @@ std::optional<double> mean_from_start(const double* s) {
     return s[1] > 1 ? F::mean(s) : infinity;
   } else if constexpr (is_one_of<F, GeneralizedGamma>) {
     return s[2] < 0 && !(-s[2] * s[1] < 1) ? infinity : F::mean(s);
-  } else if constexpr (is_one_of<F, ExponentiatedWeibull>) {
-    return {};
   } else {
     return F::mean(s);
   }

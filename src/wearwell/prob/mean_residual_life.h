@@ -11,7 +11,7 @@ namespace wearwell {
 /// invalid. None without a closed form: then it is an integral (math/mean_beyond.h). Relative error 1e-10, beyond
 /// `from` 1e-8.
 ///
-/// From 0 it is known of all families but the exponentiated Weibull; from later on of the Weibull, exponential,
+/// From 0 it is known of all families; from later on of the Weibull, exponential,
 /// gamma, lognormal and generalized gamma (not near the lognormal, where the integral keeps more digits).
 std::optional<double> mean_residual_life(ResponseFamily family, double from,
                                          const double* family_parameters);
