@@ -3,14 +3,14 @@
 // is clean for axe-core, as wide as the screen, logs no error and fetches nothing from elsewhere; it is worked by keyboard, names
 // in a hostile table stay names, and German is German.
 //
-//   node workbench.mjs NODE_MODULES SCREENSHOTS WEARWELL FOLDER
+//   node workbench.mjs NODE_MODULES SCREENSHOTS WEARWELL FOLDER [WALK...]    (default: all)
 import {spawn, spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
 import {createInterface} from 'node:readline';
 
-const [modules, screenshots, wearwell, folder] = process.argv.slice(2);
+const [modules, screenshots, wearwell, folder, ...wanted] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
 const {chromium} = require('playwright-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
@@ -711,25 +711,32 @@ const browser = await chromium.launch({
   args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
          '--disable-component-update', '--disable-sync'],
 });
-for (const each of [
-  {name: 'wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
-  {name: 'narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
-]) await walk(browser, each);
-for (const each of [
-  {name: 'german-wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
-  {name: 'german-narrow-light', viewport: {width: 390, height: 844}, colorScheme: 'light'},
-]) await inGerman(browser, each);
-for (const each of [
-  {name: 'priors-wide-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
-  {name: 'priors-narrow-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
-]) await priors(browser, each);
-await corrections(browser, {name: 'corrections-light', viewport: {width: 1280, height: 900}, colorScheme: 'light'});
-await errors(browser);
-await tabs(browser);
-await readings(browser);
-await large(browser);
-await wearPaths(browser, {name: 'wear-paths', viewport: {width: 1280, height: 900}});
-await wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'dark'});
+const light = {viewport: {width: 1280, height: 900}, colorScheme: 'light'}, dark = {viewport: {width: 1280, height: 900}, colorScheme: 'dark'};
+const narrowLight = {viewport: {width: 390, height: 844}, colorScheme: 'light'}, narrowDark = {viewport: {width: 390, height: 844}, colorScheme: 'dark'};
+const walks = {
+  lives: async () => {
+    await walk(browser, {name: 'wide-light', ...light});
+    await walk(browser, {name: 'narrow-dark', ...narrowDark});
+  },
+  german: async () => {
+    await inGerman(browser, {name: 'german-wide-dark', ...dark});
+    await inGerman(browser, {name: 'german-narrow-light', ...narrowLight});
+  },
+  priors: async () => {
+    await priors(browser, {name: 'priors-wide-light', ...light});
+    await priors(browser, {name: 'priors-narrow-dark', ...narrowDark});
+  },
+  corrections: () => corrections(browser, {name: 'corrections-light', ...light}),
+  errors: () => errors(browser),
+  tabs: () => tabs(browser),
+  readings: () => readings(browser),
+  large: () => large(browser),
+  wear: async () => {
+    await wearPaths(browser, {name: 'wear-paths', ...light});
+    await wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'dark'});
+  },
+};
+for (const each of wanted.length ? wanted : Object.keys(walks)) await walks[each]();
 await browser.close();
 for (const each of faults) console.log(each);
 process.exit(faults.length ? 1 : 0);
