@@ -35,6 +35,18 @@ TEST(Typeset, FractionsAndRootsNeedNoBrackets) {
             "</mrow><mo>)</mo></mrow></mrow>");
 }
 
+// Without them e^x^2 would be read as e^(x^2), and 2 mm^2 as an area.
+TEST(Typeset, ABaseOfPartsHasBrackets) {
+  EXPECT_EQ(
+      shown("exp(x)^2"),
+      "<msup><mrow><mo>(</mo><msup><mi>e</mi><mi>x</mi></msup><mo>)</mo></mrow><mn>2</mn></msup>");
+  EXPECT_EQ(shown("2 [mm]^2"),
+            "<msup><mrow><mo>(</mo><mrow><mn>2</mn><mtext>\u00a0mm</mtext></mrow><mo>)</mo></mrow>"
+            "<mn>2</mn></msup>");
+  EXPECT_EQ(shown("k[material]^2"),
+            "<msup><msub><mi>k</mi><mi>material</mi></msub><mn>2</mn></msup>");
+}
+
 TEST(Typeset, PrecedenceIsThatOfTheReader) {
   // -(a^2), a^(b^c), a^(-b), (a - b) - c
   EXPECT_EQ(shown("-a^2"), "<mrow><mo>−</mo><msup><mi>a</mi><mn>2</mn></msup></mrow>");

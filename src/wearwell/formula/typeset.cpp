@@ -155,7 +155,14 @@ class Typesetter {
     if (!is_sign("^")) return base;
     const Deeper deeper(*this);
     ++at_;
-    return {{"msup", "", {std::move(base.shown), prefix().within()}}};
+    MathElement below = alone(base) ? std::move(base.shown) : bracketed({std::move(base.shown)});
+    return {{"msup", "", {std::move(below), prefix().within()}}};
+  }
+
+  // Whether a power of it is read as a power of the whole: not exp(x)^2, 2 [mm]^2, 1e3^2.
+  static bool alone(const Piece& base) {
+    const std::string& tag = base.shown.tag;
+    return base.in_brackets || tag == "mi" || tag == "mn" || tag == "msub" || tag == "msqrt";
   }
 
   Piece primary() {
