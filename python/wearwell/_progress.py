@@ -4,6 +4,13 @@ import contextlib
 import sys
 
 
+def _described(what, done, total, seconds):
+    """The part of the work, or its steps where they are counted."""
+    if total:
+        return f"{done} of {total} {what}, {seconds:.0f} s"
+    return f"{done} {what}, {seconds:.0f} s" if done else what
+
+
 class _Bar:
     width = 30
 
@@ -15,6 +22,7 @@ class _Bar:
         except NameError:
             self._notebook = False
         self._shown = False
+        self._longest = 0
 
     def __call__(self, what, done, total, seconds):
         share = min(1.0, done / total) if total else 0.0
@@ -22,14 +30,16 @@ class _Bar:
         if self._notebook:
             from IPython.display import HTML, display
 
-            html = HTML(f'<progress value="{share:.3f}" max="1"></progress> {done} of {total} {what}, {seconds:.0f} s')
+            html = HTML(f'<progress value="{share:.3f}" max="1"></progress> {_described(what, done, total, seconds)}')
             if self._handle is None:
                 self._handle = display(html, display_id=True)
             else:
                 self._handle.update(html)
             return
         filled = int(share * self.width)
-        sys.stderr.write(f"\r[{'#' * filled}{'.' * (self.width - filled)}] {done} of {total} {what}, {seconds:.0f} s ")
+        line = f"[{'#' * filled}{'.' * (self.width - filled)}] {_described(what, done, total, seconds)} "
+        self._longest = max(self._longest, len(line))
+        sys.stderr.write("\r" + line.ljust(self._longest))
         sys.stderr.flush()
 
     def close(self):

@@ -35,8 +35,10 @@ with_progress <- function(progress, work) {
   work(function(what, done, total, seconds) {
     shown <<- TRUE
     filled <- if (total > 0) floor(30 * min(1, done / total)) else 0
-    cat(sprintf("\r[%s%s] %.0f of %.0f %s, %.0f s ", strrep("#", filled), strrep(".", 30 - filled), done, total, what, seconds),
-        file = stderr())
+    # The part of the work, or its steps where they are counted; as wide as what it replaces.
+    text <- if (total > 0) sprintf("%.0f of %.0f %s, %.0f s", done, total, what, seconds) else
+      if (done > 0) sprintf("%.0f %s, %.0f s", done, what, seconds) else what
+    cat(sprintf("\r[%s%s] %-46s", strrep("#", filled), strrep(".", 30 - filled), text), file = stderr())
   })
 }
 

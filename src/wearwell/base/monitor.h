@@ -11,8 +11,8 @@ namespace wearwell {
 struct Step {
   std::string_view what;  ///< the steps, "iterations", or the part of the work, "leave-one-out"
   long long done = 0;     ///< 0: a part begins
-  long long total = 0;  ///< 0 if unknown
-  double seconds = 0;   ///< since the start of this part of the work
+  long long total = 0;    ///< 0 if unknown
+  double seconds = 0;     ///< since the start of this part of the work
 };
 
 /// The caller's control of a long computation: progress reports, stop request and number of
