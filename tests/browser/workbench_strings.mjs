@@ -13,6 +13,48 @@ const check = (holds, fault) => { if (!holds) faults.push(fault); };
 
 const {languages} = runInNewContext(`const wearwell = {};\n${read('strings_en.js')}\n${read('strings_de.js')}\nwearwell`, {});
 
+// Keys that an object literal has twice: the later one would silently take the place of the earlier.
+function repeatedKeys(text) {
+  const open = [], repeated = [];
+  let before = '';
+  // After the quotation that begins at i; in a template, expressions can have quotations of their own.
+  function behind(i) {
+    const mark = text[i];
+    for (i += 1; text[i] !== mark; i += 1) {
+      if (text[i] === '\\') i += 1;
+      else if (mark === '`' && text.startsWith('${', i)) {
+        for (let depth = 0; ; i += 1) {
+          if ('\'"`'.includes(text[i])) { i = behind(i) - 1; continue; }
+          depth += text[i] === '{' ? 1 : text[i] === '}' ? -1 : 0;
+          if (text[i] === '}' && depth === 0) break;
+        }
+      }
+    }
+    return i + 1;
+  }
+  for (let i = 0; i < text.length;) {
+    if ('\'"`'.includes(text[i])) { i = behind(i); before = "'"; continue; }
+    if (text.startsWith('//', i)) { i = text.indexOf('\n', i); continue; }
+    const name = /^(\w+)(\s*:)?/.exec(text.slice(i, i + 80));
+    if (name) {
+      if (name[2] && '{,'.includes(before)) {
+        if (open.at(-1)?.has(name[1])) repeated.push(name[1]);
+        open.at(-1)?.add(name[1]);
+      }
+      before = 'a';
+      i += name[0].length;
+      continue;
+    }
+    if (text[i] === '{') open.push(new Set());
+    if (text[i] === '}') open.pop();
+    if (!/\s/.test(text[i])) before = text[i];
+    i += 1;
+  }
+  return repeated;
+}
+check(repeatedKeys('x = {a: `${f({b: 1})}`, b: 2, c: {a: 1}}').length === 0 && repeatedKeys("x = {a: 'b: {', b: 1, a: 2}").join() === 'a', 'repeated keys are not found');
+for (const name of ['strings_en.js', 'strings_de.js']) check(!repeatedKeys(read(name)).length, `${name} has twice: ${repeatedKeys(read(name))}`);
+
 // Of each sentence its place, its text and its kind. A function is called with rising and with falling numbers, and shows each argument.
 function sentences(table, place = '') {
   return Object.entries(table).flatMap(([key, value]) => {

@@ -154,7 +154,8 @@ void DuckdbEngine::fail(const std::string& message) const {
   if (has("No space left"))
     throw MachineError(fmt::format("no space left in {} for data that do not fit into memory",
                                    spill_.path().parent_path().parent_path().string()));
-  if (files_.csv && has("Error when sniffing file")) refuse_invalid_lines(files_);
+  if (files_.csv && (has("Error when sniffing file") || has("unterminated quote")))
+    refuse_invalid_lines(files_);
   std::string said = duckdb_sentence(message);
   for (std::size_t i = 0; i < files_.paths.size() && i < files_.names.size(); ++i)
     if (files_.paths[i] != files_.names[i])

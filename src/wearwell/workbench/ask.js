@@ -49,7 +49,7 @@
   // One unit after another; the table grows, and can be stopped.
   async function askUnits() {
     const of = folder, {names, all, ...lines} = await wearwell.get('/api/units'), rows = [];
-    if (!names.length) throw new Error(strings.noUnits);
+    if (!names.length) throw new Error(strings.noneFollowed);
     let stopped = false, unit = '';
     const grid = element('div', {}), stop = wearwell.button(strings.unitsStop, () => { stopped = true; }, 'plain'), card = addCard(grid, stop);
     const shown = (value) => (value === null ? strings.never : wearwell.number(value, 4));

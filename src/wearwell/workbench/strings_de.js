@@ -90,7 +90,7 @@ wearwell.languages.de = {
           month: ['Nutzung je Monat', '600 h, oder leer'], at: ['Welche Lebensdauer aus [predict]', 'ein Name, oder leer']},
   nextTitle: 'Welcher Versuch als nächster?', nextLead: 'Die Versuche sind danach gereiht, wie stark sie das Ziel voraussichtlich eingrenzen. Das dauert Sekunden bis Minuten.',
   nextFields: {goal: ['Was der Versuch bestimmen soll', 'etwa B10'], grid: ['Versuche: Bedingungen und ihre Werte', 'etwa time = 500 to 1500 h by 500'], specimens: ['Proben je Versuch', '1, 3, oder leer']},
-  candidateRank: 'Rang des Versuchs', narrowing: 'erwartete Eingrenzung des Intervalls [%]', noUnits: 'Dieses Ergebnis verfolgt keine Einheiten. Bei Lebensdauern geben Sie das Alter im Feld „hat überlebt“ an.',
+  candidateRank: 'Rang des Versuchs', narrowing: 'erwartete Eingrenzung des Intervalls [%]', noneFollowed: 'Dieses Ergebnis verfolgt keine Einheiten. Bei Lebensdauern geben Sie das Alter im Feld „hat überlebt“ an.',
   unitsTitle: 'Wie lange halten die Einheiten der Daten noch?', unitsLead: 'Die Restlebensdauer jeder Einheit, ab ihrer letzten Ablesung.', unitsAsk: 'Alle Einheiten', unitsStop: 'Anhalten',
   unitsCaption: (n, all) => `Restlebensdauer von ${n} der ${all} Einheiten, die kürzeste zuerst`, median: 'Median', unitHead: (share, unit) => `${share} [${unit}]`, unitsFrom: 'ab', unitsFailed: 'Meldung',
   replacedAt: (unit) => `ausgetauscht bei [${unit}]`, costName: (unit) => `Kosten auf lange Sicht [${unit}]`, costDescription: 'Kosten auf lange Sicht über dem Alter beim Austausch',

@@ -91,7 +91,7 @@ wearwell.languages.en = {
           month: ['Use per month', '600 h, or empty'], at: ['Which life of [predict]', 'a name, or empty']},
   nextTitle: 'Which test next?', nextLead: 'Candidates are ranked by how much they are expected to narrow the goal. This takes from seconds to minutes.',
   nextFields: {goal: ['What the test is to determine', 'B10'], grid: ['Tests: conditions and their values', 'time = 500 to 1500 h by 500'], specimens: ['Specimens of each test', '1, 3, or empty']},
-  candidateRank: 'rank of the test', narrowing: 'expected narrowing of the interval [%]', noUnits: 'This result follows no units. For a life study state the age in the field: Has survived.',
+  candidateRank: 'rank of the test', narrowing: 'expected narrowing of the interval [%]', noneFollowed: 'This result follows no units. For a life study state the age in the field: Has survived.',
   unitsTitle: 'How long do the units of the data still last?', unitsLead: 'The remaining useful life of each unit, from its last reading on.', unitsAsk: 'All units', unitsStop: 'Stop',
   unitsCaption: (n, all) => `Remaining useful lives of ${n} of ${all} units, the shortest first`, median: 'median', unitHead: (share, unit) => `${share} [${unit}]`, unitsFrom: 'from', unitsFailed: 'Problem',
   replacedAt: (unit) => `replaced at [${unit}]`, costName: (unit) => `long-run cost [${unit}]`, costDescription: 'Long-run cost against the age of replacement',
