@@ -309,14 +309,14 @@ TEST_F(Fleets, RefuseWhatIsNoReading) {
     EXPECT_EQ(delivery.refused, 1U);
     return delivery.problem;
   };
-  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "time": 3})"), "wear is missing");
-  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": 3})"), "time is missing");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "time": 3})"), "unit 'a', n 1: wear is missing");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": 3})"), "unit 'a', n 1: time is missing");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1.5, "wear": 3, "time": 3})"),
-            "n must be a whole number");
+            "unit 'a', n 1.5: n must be a whole number");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": "1,5", "time": 3})"),
-            "wear is '1,5', but must be a number");
+            "unit 'a', n 1: wear is '1,5', but must be a number");
   EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": true, "time": 3})"),
-            "wear must be a number");
+            "unit 'a', n 1: wear must be a number");
   EXPECT_THAT(problem(R"({"machine": "a\u0007", "n": 1, "wear": 1, "time": 3})"),
               HasSubstr("must be a name"));
   EXPECT_THAT(problem(R"({"n": 1, "wear": 1, "time": 3})"), HasSubstr("machine is missing"));
