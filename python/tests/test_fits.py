@@ -102,8 +102,9 @@ def test_options_are_checked(joint, options, message):
 def test_progress_is_told_and_its_exception_stops(joint):
     told = []
     ww.fit(joint, seed=1, draws=15_000, report=False, progress=lambda *step: told.append(step))
-    parts = list(dict.fromkeys(what for what, *_ in told))
-    assert parts[0] == "evaluations of the density" and "iterations" in parts and "leave-one-out" in parts
+    # A part that ends within a tenth of a second may not be seen.
+    parts = {what for what, *_ in told}
+    assert "iterations" in parts and parts <= {"evaluations of the density", "iterations", "curves", "leave-one-out", "predictions and checks", "data sets"}
     assert all(0 <= done <= total for _, done, total, _ in told if total)
 
     def stop(*_):

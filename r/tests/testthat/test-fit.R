@@ -95,9 +95,10 @@ test_that("progress is told, and what it throws stops the fit", {
   told <- list()
   joint(seed = 1, draws = 15000, report = FALSE, progress = function(...) told[[length(told) + 1]] <<- list(...))
   expect_gt(length(told), 0)
+  # A part that ends within a tenth of a second may not be seen.
   parts <- unique(vapply(told, function(step) step[[1]], ""))
-  expect_identical(parts[1], "evaluations of the density")
-  expect_true(all(c("iterations", "leave-one-out") %in% parts))
+  expect_true("iterations" %in% parts)
+  expect_true(all(parts %in% c("evaluations of the density", "iterations", "curves", "leave-one-out", "predictions and checks", "data sets")))
   expect_true(all(vapply(told, function(step) step[[3]] == 0 || step[[2]] <= step[[3]], NA)))
   expect_error(joint(seed = 1, draws = 5e6, report = FALSE, progress = function(...) stop("enough")), "enough")
   # A fit within a fit, whose error unwinds both.
