@@ -731,10 +731,7 @@ const walks = {
   tabs: () => tabs(browser),
   readings: () => readings(browser),
   large: () => large(browser),
-  wear: async () => {
-    await wearPaths(browser, {name: 'wear-paths', ...light});
-    await wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'dark'});
-  },
+  wear: () => wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'light'}),
 };
 for (const each of wanted.length ? wanted : Object.keys(walks)) await walks[each]();
 await browser.close();
