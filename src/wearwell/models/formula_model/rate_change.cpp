@@ -125,26 +125,36 @@ ChangedUnits ChangedUnits::taken(std::span<const std::size_t> which) const {
   return to;
 }
 
+namespace {
+
+// Every column of numbers but the parameters: `visit(that of one list, that of the other)`.
+template <class Visit>
+void visit_columns(ChangedUnits& to, const ChangedUnits& from, const Visit& visit) {
+  for (int e = 0; e < 2; ++e) {
+    visit(to.nodes.effect[e], from.nodes.effect[e]);
+    visit(to.z[e], from.z[e]);
+  }
+  visit(to.axis.since, from.axis.since);
+  visit(to.axis.factor, from.axis.factor);
+  visit(to.score, from.score);
+  visit(to.log_weight, from.log_weight);
+  for (std::size_t m = 0; m < to.paths.size(); ++m) {
+    visit(to.paths[m].mean, from.paths[m].mean);
+    visit(to.paths[m].spread, from.paths[m].spread);
+    visit(to.paths[m].at, from.paths[m].at);
+    visit(to.paths[m].variance, from.paths[m].variance);
+  }
+}
+
+}  // namespace
+
 void ChangedUnits::append(const ChangedUnits& other) {
   if (count() == 0) {
     *this = other;
     return;
   }
   nodes.parameters = joined_rows(*nodes.parameters, *other.nodes.parameters);
-  for (int e = 0; e < 2; ++e) {
-    append_to(nodes.effect[e], other.nodes.effect[e]);
-    append_to(z[e], other.z[e]);
-  }
-  append_to(axis.since, other.axis.since);
-  append_to(axis.factor, other.axis.factor);
-  append_to(score, other.score);
-  append_to(log_weight, other.log_weight);
-  for (std::size_t m = 0; m < paths.size(); ++m) {
-    append_to(paths[m].mean, other.paths[m].mean);
-    append_to(paths[m].spread, other.paths[m].spread);
-    append_to(paths[m].at, other.paths[m].at);
-    append_to(paths[m].variance, other.paths[m].variance);
-  }
+  visit_columns(*this, other, append_to);
 }
 
 void ChangedUnits::replace(std::span<const std::size_t> which, const ChangedUnits& by) {
@@ -156,24 +166,10 @@ void ChangedUnits::replace(std::span<const std::size_t> which, const ChangedUnit
     }
     nodes.parameters = std::move(parameters);
   }
-  const auto put = [&](std::vector<double>& to, const std::vector<double>& from) {
+  visit_columns(*this, by, [&](std::vector<double>& to, const std::vector<double>& from) {
     if (from.empty()) return;
     for (const std::size_t i : which) to[i] = from[i];
-  };
-  for (int e = 0; e < 2; ++e) {
-    put(nodes.effect[e], by.nodes.effect[e]);
-    put(z[e], by.z[e]);
-  }
-  put(axis.since, by.axis.since);
-  put(axis.factor, by.axis.factor);
-  put(score, by.score);
-  put(log_weight, by.log_weight);
-  for (std::size_t m = 0; m < paths.size(); ++m) {
-    put(paths[m].mean, by.paths[m].mean);
-    put(paths[m].spread, by.paths[m].spread);
-    put(paths[m].at, by.paths[m].at);
-    put(paths[m].variance, by.paths[m].variance);
-  }
+  });
 }
 
 std::vector<double> ChangedUnits::places(double place) const {
