@@ -263,8 +263,10 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   const Posterior& posterior = quick ? *quick : whole;
   require_no_stop(monitor);
   std::optional<Plots> plots;
-  progress.begin("curves");
-  if (with_plots) plots = plot_study(study, posterior, final);
+  if (with_plots) {
+    progress.begin("curves");
+    plots = plot_study(study, posterior, final);
+  }
   progress.begin("leave-one-out");
   std::optional<LooSummary> loo = left_out_one_by_one(study, posterior, final, monitor.stop);
   require_no_stop(monitor);

@@ -247,13 +247,11 @@ present::Table unbiased_table(const Estimates& found) {
   return table;
 }
 
-present::Table lambda_table(const Estimates& found) {
+present::Table lambda_table(const GivenBeta& lambda) {
   present::Table table{"lambda-given-beta",
                        "Crow's bounds of lambda, beta at its estimate",
                        {{"Quantity"}, {"From"}, {"To"}}};
-  if (found.lambda)
-    table.rows.push_back(
-        {found.lambda->name, found.lambda->bounds.lower, found.lambda->bounds.upper});
+  table.rows.push_back({lambda.name, lambda.bounds.lower, lambda.bounds.upper});
   return table;
 }
 
@@ -331,7 +329,7 @@ void add_classical(const Asked& asked, const Fit& fit, PresetAddition& added) {
     added.text += "\n" + text_table(rows);
   }
   if (found.lambda) {
-    const present::Table lambda = lambda_table(found);
+    const present::Table lambda = lambda_table(*found.lambda);
     blocks.push_back({lambda});
     added.text +=
         "\n" + text_table({{lambda.caption + ":", "from", "to"},
