@@ -99,13 +99,13 @@ def test_options_are_checked(joint, options, message):
         ww.fit(joint, **options)
 
 
-def test_progress_is_told_and_its_exception_stops(joint):
-    told = []
-    ww.fit(joint, seed=1, draws=15_000, report=False, progress=lambda *step: told.append(step))
+def test_progress_is_reported_and_its_exception_stops(joint):
+    reported = []
+    ww.fit(joint, seed=1, draws=15_000, report=False, progress=lambda *step: reported.append(step))
     # A part that ends within a tenth of a second may not be seen.
-    parts = {what for what, *_ in told}
+    parts = {what for what, *_ in reported}
     assert "iterations" in parts and parts <= {"evaluations of the density", "iterations", "curves", "leave-one-out", "predictions and checks", "data sets"}
-    assert all(0 <= done <= total for _, done, total, _ in told if total)
+    assert all(0 <= done <= total for _, done, total, _ in reported if total)
 
     def stop(*_):
         raise LookupError("enough")

@@ -91,15 +91,15 @@ test_that("options are checked", {
   expect_false(identical(quiet(joint(seed = 2^53, draws = 10, report = FALSE, method = "exact"))$draws, largest$draws))
 })
 
-test_that("progress is told, and what it throws stops the fit", {
-  told <- list()
-  joint(seed = 1, draws = 15000, report = FALSE, progress = function(...) told[[length(told) + 1]] <<- list(...))
-  expect_gt(length(told), 0)
+test_that("progress is reported, and what it throws stops the fit", {
+  reported <- list()
+  joint(seed = 1, draws = 15000, report = FALSE, progress = function(...) reported[[length(reported) + 1]] <<- list(...))
+  expect_gt(length(reported), 0)
   # A part that ends within a tenth of a second may not be seen.
-  parts <- unique(vapply(told, function(step) step[[1]], ""))
+  parts <- unique(vapply(reported, function(step) step[[1]], ""))
   expect_true("iterations" %in% parts)
   expect_true(all(parts %in% c("evaluations of the density", "iterations", "curves", "leave-one-out", "predictions and checks", "data sets")))
-  expect_true(all(vapply(told, function(step) step[[3]] == 0 || step[[2]] <= step[[3]], NA)))
+  expect_true(all(vapply(reported, function(step) step[[3]] == 0 || step[[2]] <= step[[3]], NA)))
   expect_error(joint(seed = 1, draws = 5e6, report = FALSE, progress = function(...) stop("enough")), "enough")
   # A fit within a fit, whose error unwinds both.
   inner <- function(...) ww_fit(example("joint", "study.toml"), seed = 1, draws = 5e6, report = FALSE, progress = function(...) stop("within"))
