@@ -1,9 +1,15 @@
 # Seconds of the longest tests on two cores, read by ctest where its tests are discovered: it begins with them, so
 # that none of them runs alone at the end. A name of no test is passed over. Those in the browser wait for one another
-# and come before these (COST 1000, tests/browser).
-function(wearwell_longest seconds)
-  set_tests_properties(${ARGN} PROPERTIES COST ${seconds})
-endfunction()
+# and come before these (COST 1000, tests/browser). A case of a suite that is named here has a process of its own.
+macro(wearwell_longest seconds)
+  foreach(name ${ARGN})
+    list(APPEND wearwell_longest ${name})
+    set("wearwell_seconds_${name}" ${seconds})
+  endforeach()
+endmacro()
+
+# Suites whose cases are long each.
+set(wearwell_cases_alone "cli: Tutorial" "faults: Faults")
 
 wearwell_longest(300 "r: R CMD check")
 wearwell_longest(200 "python: docs" "r: docs")
@@ -20,8 +26,8 @@ wearwell_longest(100
   "python: data"
   "formula_model: LifeAnswers.OneGroupComparedWithAnother"
   "formula_model: FormulaFigures.PathsOfUnitsAreSmallMultiplesOnCommonAxes"
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_fleet  # GetParam() = "docs/how-to/fleet.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_failure_modes  # GetParam() = "docs/how-to/failure-modes.md"]=])
+  "cli: Tutorial.PrintsWhatItShows/how_to_fleet"
+  "cli: Tutorial.PrintsWhatItShows/how_to_failure_modes")
 wearwell_longest(70
   "python: plan"
   "python: types"
@@ -36,9 +42,9 @@ wearwell_longest(70
   "regress: SubsetSearch.StoppedEarlyItStatesAnHonestGap"
   "math: Normality.PValuesAreEven"
   "cli: UpdateCommand.MachinesThatDifferAreTheirFitOfAll"
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_spectrum  # GetParam() = "docs/how-to/spectrum.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/reference_clutch  # GetParam() = "docs/reference/clutch.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/tutorials_several_units  # GetParam() = "docs/tutorials/several-units.md"]=])
+  "cli: Tutorial.PrintsWhatItShows/how_to_spectrum"
+  "cli: Tutorial.PrintsWhatItShows/reference_clutch"
+  "cli: Tutorial.PrintsWhatItShows/tutorials_several_units")
 wearwell_longest(40
   "python: answers"
   "python: fits"
@@ -67,11 +73,11 @@ wearwell_longest(40
   "cli: NewFrom.DepthsOfSeveralBearings"
   "cli: NewFromTables.WhichLabelIsTheUnit"
   "cli: UpdateCommand.OtherTradesAreTheirFitOfAll"
-  [=[cli: Tutorial.PrintsWhatItShows/README  # GetParam() = "README.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_compare  # GetParam() = "docs/how-to/compare.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_material_factor  # GetParam() = "docs/how-to/material-factor.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_plan_next  # GetParam() = "docs/how-to/plan-next.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_rul_of_one_machine  # GetParam() = "docs/how-to/rul-of-one-machine.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/how_to_subpopulations  # GetParam() = "docs/how-to/subpopulations.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/tutorials_monitoring  # GetParam() = "docs/tutorials/monitoring.md"]=]
-  [=[cli: Tutorial.PrintsWhatItShows/tutorials_own_formula  # GetParam() = "docs/tutorials/own-formula.md"]=])
+  "cli: Tutorial.PrintsWhatItShows/README"
+  "cli: Tutorial.PrintsWhatItShows/how_to_compare"
+  "cli: Tutorial.PrintsWhatItShows/how_to_material_factor"
+  "cli: Tutorial.PrintsWhatItShows/how_to_plan_next"
+  "cli: Tutorial.PrintsWhatItShows/how_to_rul_of_one_machine"
+  "cli: Tutorial.PrintsWhatItShows/how_to_subpopulations"
+  "cli: Tutorial.PrintsWhatItShows/tutorials_monitoring"
+  "cli: Tutorial.PrintsWhatItShows/tutorials_own_formula")

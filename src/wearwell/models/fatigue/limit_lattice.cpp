@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -259,6 +260,12 @@ struct Nodes {
   std::array<At, 2 * most + 1> at;
 };
 
+// Of a thread, made where it is first used: what is thread-local itself is cleared in every thread of every program.
+Nodes& nodes_of_thread() {
+  static thread_local const std::unique_ptr<Nodes> nodes = std::make_unique<Nodes>();
+  return *nodes;
+}
+
 struct Sums {
   double mass = 0, of_w = 0, of_w_w = 0, of_z = 0, of_z_z = 0, reference = 0;
 };
@@ -315,7 +322,7 @@ class Lattice {
   }
 
   // `measure`: the logarithm of the further factor of the integrand.
-  static Block put(int node, Block w, Block z, Block measure) {
+  Block put(int node, Block w, Block z, Block measure) {
     Nodes::At& at = nodes_.at[static_cast<std::size_t>(node)];
     at.w = w;
     at.z = z;
@@ -515,7 +522,7 @@ class Lattice {
   }
 
   const Places& places_;
-  inline static thread_local Nodes nodes_;
+  Nodes& nodes_ = nodes_of_thread();
 };
 
 /// Where each distribution is at its location, if that is on the line; else the middle.
