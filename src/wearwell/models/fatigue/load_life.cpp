@@ -48,19 +48,7 @@ void refuse_what_has_no_sum(const SnLaw& law, const DamageRule& rule) {
         "MPa', or use --rule elementary, which has none");
 }
 
-// One point of the posterior.
-struct Drawn {
-  double weight = 0;
-  std::vector<double> b;  // log10 of blocks to a damage sum of 1, by percent
-  double median = 0;      // of the item at score 0, log10 of blocks to a sum of 1
-  // Cells of items: weight, log10 of blocks to a sum of 1 at either end.
-  struct Cell {
-    double weight, low, high;
-  };
-  std::vector<Cell> cells;
-};
-
-// Scores of items, from tail to tail.
+// Scores from tail to tail.
 std::vector<double> edges(StandardDistribution law, std::size_t count) {
   const double first = quantile(law, negligible), last = quantile(law, 1 - negligible);
   std::vector<double> at;
@@ -69,13 +57,33 @@ std::vector<double> edges(StandardDistribution law, std::size_t count) {
   return at;
 }
 
+// Scores of items, with their shares of all items.
+struct Scores {
+  Scores(StandardDistribution law, std::size_t count) : at(edges(law, count)) {
+    double all = 0;
+    for (const double z : at) all += share.emplace_back(std::exp(log_density(law, z)));
+    for (double& each : share) each /= all;
+  }
+  std::vector<double> at, share;
+};
+
+// One point of the posterior.
+struct Drawn {
+  double weight = 0;
+  std::vector<double> b;  // log10 of blocks to a damage sum of 1, by percent
+  double median = 0;      // of the item at score 0, log10 of blocks to a sum of 1
+  const Scores* scores = nullptr;
+  std::vector<std::vector<double>> items;  // at each score; for random limits of several limits
+};
+
 class Draws {
  public:
   Draws(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question)
       : result_(result),
         cycles_(cycles),
         question_(question),
-        places_(edges(result.law.standard(), result.law.limit ? 96 : 128)) {}
+        fine_(result.law.standard(), 64),
+        coarse_(result.law.standard(), 32) {}
 
   /// `where` takes the shares of the cycles, times the weight of the point.
   Drawn operator()(Eigen::Index i, std::vector<double>& where) const {
@@ -84,13 +92,13 @@ class Draws {
     const BlockDamage damage(law, x, question_.rule, cycles_);
     Drawn drawn;
     drawn.weight = result_.posterior.weights[i];
+    drawn.scores = &scores_for(drawn.weight);
     drawn.median = clamped(-damage.log10_damage(0));
     add_shares(damage, drawn.weight, where);
     if (law.limit) {
       add_items_of_limits(damage, i, x, drawn);
     } else {
-      add_items(
-          1, [&](double z) { return -damage.log10_damage(z); }, drawn);
+      add_items([&](double z) { return -damage.log10_damage(z); }, drawn);
       for (const double percent : question_.percents)
         drawn.b.push_back(clamped(-damage.log10_damage(quantile(law.standard(), percent / 100))));
     }
@@ -103,17 +111,16 @@ class Draws {
     for (std::size_t c = 0; c < shares.size(); ++c) where[c] += weight * shares[c];
   }
 
+  // A quadrature has many points of little weight.
+  const Scores& scores_for(double weight) const {
+    return weight * static_cast<double>(result_.posterior.weights.size()) < 0.2 ? coarse_ : fine_;
+  }
+
   template <class Life>
-  void add_items(double weight, const Life& life, Drawn& drawn) const {
-    const StandardDistribution law = result_.law.standard();
-    double below = 0, before = clamped(life(places_.front()));
-    for (std::size_t j = 1; j < places_.size(); ++j) {
-      const double through = j + 1 == places_.size() ? 1 : cdf(law, places_[j]);
-      const double here = clamped(life(places_[j]));
-      drawn.cells.push_back({weight * (through - below), before, here});
-      below = through;
-      before = here;
-    }
+  static void add_items(const Life& life, Drawn& drawn) {
+    std::vector<double>& lives = drawn.items.emplace_back();
+    lives.reserve(drawn.scores->at.size());
+    for (const double z : drawn.scores->at) lives.push_back(clamped(life(z)));
   }
 
   // Stratified limits; their positions move from draw to draw.
@@ -126,8 +133,7 @@ class Draws {
     for (std::size_t j = 0; j < limits_per_draw; ++j) {
       const double p = (static_cast<double>(j) + shift) / limits_per_draw;
       const double base = -damage.log10_damage(0, quantile(*law.limit, p));
-      add_items(
-          1.0 / limits_per_draw, [&](double z) { return base + sigma * z; }, drawn);
+      add_items([&](double z) { return base + sigma * z; }, drawn);
     }
     MixedLife lives(law.family);
     const std::vector<double> limits = edges(*law.limit, 100);
@@ -145,7 +151,7 @@ class Draws {
   const SnResult& result_;
   const LoadCycles& cycles_;
   const LoadQuestion& question_;
-  std::vector<double> places_;
+  Scores fine_, coarse_;
 };
 
 // At least as many damage sums as draws, with equal probability.
@@ -164,14 +170,25 @@ double power(double log10) {
 
 void add_lives(const std::vector<Drawn>& drawn, const LoadQuestion& question, LoadLife& life) {
   CellMixture next, damage;
+  std::vector<double> blocks, of_one;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const double shift = log10_sum(question.sum, i, 0);
-    for (const Drawn::Cell& cell : drawn[i].cells) {
-      const double weight = drawn[i].weight * cell.weight;
-      next.add(weight, cell.low + shift, cell.high + shift);
-      damage.add(weight, std::max(-cell.high, -most_decades), -cell.low);
+    const double weight = drawn[i].weight / static_cast<double>(drawn[i].items.size());
+    for (const std::vector<double>& item : drawn[i].items) {
+      blocks.clear();
+      of_one.clear();
+      for (const double at : item) {
+        blocks.push_back(at + shift);
+        of_one.push_back(std::max(-at, -most_decades));
+      }
+      next.add_curve(weight, drawn[i].scores->share, blocks);
+      damage.add_curve(weight, drawn[i].scores->share, of_one);
     }
   }
+  // A million cells: their distribution at these many places, exact there, answers all questions.
+  constexpr std::size_t places = 1024;
+  next.condense(places);
+  damage.condense(places);
   life.next05 = power(next.quantile(0.05));
   life.next50 = power(next.quantile(0.5));
   life.next95 = power(next.quantile(0.95));
@@ -203,17 +220,18 @@ void add_contributions(const SnResult& result, const std::vector<Drawn>& drawn,
   Eigen::VectorXd y(std::ssize(drawn));
   double items = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    // Mean and variance over items, whose cells are narrow.
-    double weight = 0, mean = 0, square = 0;
-    for (const Drawn::Cell& cell : drawn[i].cells) {
-      const double at = 0.5 * (cell.low + cell.high);
-      weight += cell.weight;
-      mean += cell.weight * at;
-      square += cell.weight * at * at;
+    // Mean and variance over items.
+    double mean = 0, square = 0;
+    for (const std::vector<double>& item : drawn[i].items) {
+      for (std::size_t k = 0; k < item.size(); ++k) {
+        mean += drawn[i].scores->share[k] * item[k];
+        square += drawn[i].scores->share[k] * item[k] * item[k];
+      }
     }
     if (!std::isfinite(square) || !std::isfinite(drawn[i].median)) return;
-    mean /= weight;
-    items += (square / weight - mean * mean) * drawn[i].weight;
+    const auto curves = static_cast<double>(drawn[i].items.size());
+    mean /= curves;
+    items += (square / curves - mean * mean) * drawn[i].weight;
     y[static_cast<Eigen::Index>(i)] = mean;
   }
   const Eigen::VectorXd& weights = result.posterior.weights;
