@@ -28,11 +28,11 @@ class DateQuery : public ScratchTest {
   }
 };
 
-const std::string pumps =
+const std::string pumps_with_dates =
     "pump;built;failed\nP1;28.02.2024;01.03.2024\nP2;01.03.2024;\nP3;01.01.2024;NA\n";
 
 TEST_F(DateQuery, LivesBetweenTwoDatesWithSuspensions) {
-  const Table table = queried(pumps, {"failed", "%d.%m.%Y", "built", "", "2024-12-31"});
+  const Table table = queried(pumps_with_dates, {"failed", "%d.%m.%Y", "built", "", "2024-12-31"});
   EXPECT_THAT(table.column("life").numbers, ElementsAre(2, 305, 365));
   EXPECT_EQ(table.column("life").name, "life [d]");
   EXPECT_THAT(table.column("status").text, ElementsAre("failure", "runout", "runout"));
@@ -69,22 +69,22 @@ TEST_F(DateQuery, NamesStayNames) {
 
 TEST_F(DateQuery, RefusalsNameTheCell) {
   const DatesWanted wanted{"failed", "%d.%m.%Y", "built", "", "2024-12-31"};
-  EXPECT_THAT(refusal(pumps, {"failed", "%d.%m.%Y", "built", "", ""}),
+  EXPECT_THAT(refusal(pumps_with_dates, {"failed", "%d.%m.%Y", "built", "", ""}),
               HasSubstr("row 2, column 'failed': is empty; state until which date"));
-  EXPECT_THAT(refusal(pumps + "P4;01.02.2024;31.02.2024\n", wanted),
+  EXPECT_THAT(refusal(pumps_with_dates + "P4;01.02.2024;31.02.2024\n", wanted),
               HasSubstr("row 4, column 'failed': '31.02.2024' is not a date of the form "
                         "day.month.year"));
-  EXPECT_THAT(refusal(pumps + "P4;01.02.2024;31.01.2024\n", wanted),
+  EXPECT_THAT(refusal(pumps_with_dates + "P4;01.02.2024;31.01.2024\n", wanted),
               HasSubstr("row 4, column 'built': '01.02.2024' is after '31.01.2024'"));
-  EXPECT_THAT(refusal(pumps + "P4;;31.01.2024\n", wanted),
+  EXPECT_THAT(refusal(pumps_with_dates + "P4;;31.01.2024\n", wanted),
               HasSubstr("row 4, column 'built': is empty"));
-  EXPECT_THAT(refusal(pumps, {"failed", "%d.%m.%Y", "built", "", "2024-02-29"}),
+  EXPECT_THAT(refusal(pumps_with_dates, {"failed", "%d.%m.%Y", "built", "", "2024-02-29"}),
               HasSubstr("row 1, column 'failed': '01.03.2024' is after the date until which"));
-  EXPECT_THAT(refusal(pumps, {"failed", "%d.%m.%Y", "built", "", "31.12.2024"}),
+  EXPECT_THAT(refusal(pumps_with_dates, {"failed", "%d.%m.%Y", "built", "", "31.12.2024"}),
               HasSubstr("'31.12.2024' is not a date; write it as 2024-12-31"));
-  EXPECT_THAT(refusal(pumps, {"failed", "%m/%d/%Y", "built", "", ""}),
+  EXPECT_THAT(refusal(pumps_with_dates, {"failed", "%m/%d/%Y", "built", "", ""}),
               HasSubstr("column 'failed': its cells are not dates of the form month/day/year"));
-  EXPECT_THAT(refusal(pumps, {"failed", "%d.%m.%Y", "failed", "", ""}),
+  EXPECT_THAT(refusal(pumps_with_dates, {"failed", "%d.%m.%Y", "failed", "", ""}),
               HasSubstr("choose another column"));
   EXPECT_THAT(
       refusal("a,b\n01/02/2024,2024-05-01\n", {"b", "%Y-%m-%d", "a", "", ""}),

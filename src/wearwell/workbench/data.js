@@ -247,7 +247,7 @@
   }
 
   // The study states other units and roles, or none.
-  const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update());
+  const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update?.());
 
   // A page that is opened again shows what the program has open.
   wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};

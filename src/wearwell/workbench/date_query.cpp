@@ -25,6 +25,11 @@ struct DateColumn {
   std::vector<std::optional<long long>> seconds;  // of each row; empty where the cell is
 };
 
+std::string without_blanks(const std::string& cell) {
+  const std::size_t begin = cell.find_first_not_of(' ');
+  return begin == cell.npos ? "" : cell.substr(begin, cell.find_last_not_of(' ') + 1 - begin);
+}
+
 bool is_absent_date(const std::string& cell) {
   return is_blank(cell) || is_missing_mark(cell);
 }
@@ -109,11 +114,11 @@ void require_order(const Table& table, const DateColumn& begin, const DateColumn
 std::string cell_sql(const Column& column) {
   std::set<std::string> marks = {""};
   for (const std::string& cell : column.text) {
-    if (is_missing_mark(cell)) marks.insert(cell);
+    if (is_missing_mark(cell)) marks.insert(without_blanks(cell));
   }
   std::string sql = fmt::format("trim(cast({} as varchar))", quoted(column.name, '"'));
   for (const std::string& mark : marks)
-    sql = fmt::format("nullif({}, trim({}))", sql, quoted(mark, '\''));
+    sql = fmt::format("nullif({}, {})", sql, quoted(mark, '\''));
   return sql;
 }
 
