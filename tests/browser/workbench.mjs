@@ -744,6 +744,7 @@ async function dates(browser, {name, ...options}) {
   const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
   check(summary('field-results') === summary('by-program'), `${name}: the program gives other digits`);
   check(JSON.parse(summary('by-program')).quantities.some((each) => each.name.startsWith('B10')), `${name}: no B10`);
+  await page.close();
   await stop();
 
   // Opened again, the table is as the study reads it; without the query it is that of the file.

@@ -34,10 +34,12 @@ struct DateParts {
 
 // A field that is not there gets -1.
 void take_field(std::string_view& text, char field, DateParts& parts) {
-  constexpr int turn = 69, century = 1900;
+  constexpr int turn = 69, century = 1900, first_year = 1000;
   switch (field) {
     case 'Y':
+      // DuckDB reads the first of 01-02-24 as the year 1.
       parts.year = taken_number(text, 4, 4);
+      if (parts.year < first_year) parts.year = -1;
       break;
     case 'y': {
       const int year = taken_number(text, 2, 2);
