@@ -64,14 +64,6 @@ await page.waitForFunction(() => /after|from/.test(document.querySelector('#live
 await answered();
 await page.evaluate(() => document.querySelectorAll('#live pre.command, #live pre.python').forEach((each) => { each.textContent = each.textContent.replaceAll(/\/[^ "]*\/(pumps-results)/g, '$1'); }));
 await page.locator('#live').screenshot({path: join(images, 'workbench-live.png')});
-
-await page.click('#step-ask');
-await page.fill('#next-goal', 'B10');
-await page.fill('#next-grid', 'running_hours [h] = 250 to 1000 by 250');
-await page.click('#next-form button');
-await page.waitForSelector('.card .plot', {timeout: 240000});
-await page.evaluate(() => document.querySelectorAll('.card pre').forEach((each) => { each.textContent = each.textContent.replaceAll(/\/[^ "]*\/(pumps-results)/g, '$1'); }));
-await page.locator('.card').first().screenshot({path: join(images, 'workbench-next.png')});
 await browser.close();
 child.kill('SIGINT');
 await new Promise((done) => { child.once('exit', done); });
