@@ -705,6 +705,64 @@ async function corrections(browser, {name, ...options}) {
   faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `${name}: ${each}`));
 }
 
+// Dates as a type: of a table with the dates on which units were put into use and failed, by the heading to a B10; the study has the query, and
+// `wearwell fit` the same digits. Dates that can be read in two ways are read in neither before one is chosen.
+async function dates(browser, {name, ...options}) {
+  const complaints = [], inside = fresh(name), {address, stop} = await serve(inside), context = await browser.newContext({locale: 'de-DE', ...options});
+  const page = await open(context, address, complaints);
+  const day = (at) => `${String(at % 12 + 1).padStart(2, '0')}/${String(at % 7 + 1).padStart(2, '0')}/202${at < 12 ? 3 : 4}`;
+  const rows = Array.from({length: 12}, (_, i) => `<b>U${i}</b>,${day(i)},${i % 4 === 3 ? '' : day(12 + (i * 5) % 12)}`);
+  await page.setInputFiles('#choose', {name: 'field.csv', mimeType: 'text/csv', buffer: Buffer.from(['unit,start,broke', ...rows, ''].join('\n'))});
+  await page.waitForSelector('#type-2', {timeout: 60000});
+  check((await page.textContent('#panel-data tbody')).includes('01/01/2023'), `${name}: a date is not shown as the file has it`);
+  await page.selectOption('#type-2', 'dates');
+  await looks(page, `${name} dates`, complaints);
+  check(await page.isVisible('#date-until'), `${name}: units without a date are not asked for`);
+  await page.fill('#date-until', '2025-01-31');
+  await page.click('#dates form button');
+  await page.waitForSelector('#banners .callout');
+  check((await page.textContent('#banners')).includes('broke'), `${name}: dates with two readings are read`);
+  await page.selectOption('#date-layout', '%d/%m/%Y');
+  await page.fill('#date-until', '2023-12-31');
+  await page.click('#dates form button');
+  await page.waitForFunction(() => document.getElementById('banners').textContent.includes('field.csv'), null, {timeout: 60000});
+  await page.selectOption('#date-layout', '%m/%d/%Y');
+  await page.fill('#date-until', '2025-01-31');
+  await page.click('#dates form button');
+  await page.waitForFunction(() => document.querySelector('#panel-data thead')?.textContent.includes('life [d]'), null, {timeout: 60000});
+  await looks(page, `${name} times`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-times.png`), fullPage: true});
+  await page.click('#step-model');
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  check(/^sql = /m.test(await page.inputValue('#study')), `${name}: the study has no query`);
+  await looks(page, `${name} model`, complaints);
+  await page.click('#step-fit');
+  await page.click('#panel-fit button');
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  const fit = spawnSync(wearwell, ['fit', 'field.toml', '-o', 'by-program', '--quiet'], {cwd: inside, encoding: 'utf8'});
+  check(fit.status <= 1, `${name}: wearwell fit: ${fit.stderr}`);
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  check(summary('field-results') === summary('by-program'), `${name}: the program gives other digits`);
+  check(JSON.parse(summary('by-program')).quantities.some((each) => each.name.startsWith('B10')), `${name}: no B10`);
+  await page.close();
+  await stop();
+
+  // Opened again, the table is as the study reads it; without the query it is that of the file.
+  const again = await serve(inside), second = await open(context, again.address, complaints);
+  await second.selectOption('#in-folder', 'field.toml');
+  await second.click('#panel-data .doors button');
+  await second.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await second.click('#step-data');
+  await second.waitForFunction(() => document.querySelector('#panel-data thead')?.textContent.includes('life [d]'), null, {timeout: 60000});
+  check(await second.textContent('#notice') === '', `${name}: the study opened again is said to differ: ${await second.textContent('#notice')}`);
+  await second.click('#dates button');
+  await second.waitForSelector('#type-2', {timeout: 60000});
+  check((await second.textContent('#notice')).includes('field.toml'), `${name}: another reading of the table is not noticed`);
+  await context.close();
+  await again.stop();
+  faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `${name}: ${each}`));
+}
+
 mkdirSync(screenshots, {recursive: true});
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -727,6 +785,7 @@ const walks = {
     await priors(browser, {name: 'priors-narrow-dark', ...narrowDark});
   },
   corrections: () => corrections(browser, {name: 'corrections-light', ...light}),
+  dates: () => dates(browser, {name: 'dates-narrow-dark', ...narrowDark}),
   errors: () => errors(browser),
   tabs: () => tabs(browser),
   readings: () => readings(browser),

@@ -30,6 +30,9 @@ namespace {
 // Without BIGINT, because 2.5 after thousands of whole numbers would be read as 3.
 constexpr const char* csv_types = "['DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
 
+// Other dates stay text: 01/02/2024 would silently be the first of February.
+constexpr const char* csv_dates = "dateformat = '%Y-%m-%d', timestampformat = '%Y-%m-%d %H:%M:%S'";
+
 /// The memory limit of DuckDB: half of the machine's memory, in MB.
 long memory_limit() {
   return sysconf(_SC_PHYS_PAGES) / 2 * (sysconf(_SC_PAGESIZE) / 1024) / 1024;
@@ -273,12 +276,13 @@ std::string DuckdbSession::reader() const {
     return fmt::format(
         "read_csv({}, compression = '{}', delim = {}, quote = '\"', escape = '\"', header = true, "
         "skip = 0, comment = '', strict_mode = true, null_padding = false, ignore_errors = false, "
-        "hive_partitioning = false, {})",
+        "hive_partitioning = false, {}, {})",
         path, read().gzip() ? "gzip" : "none",
         quoted(std::string(1, rewritten_ ? ',' : layout_->delimiter), '\''),
         rewritten_ ? fmt::format("auto_detect = false, columns = {{{}}}", fmt::join(types, ", "))
                    : fmt::format("names = [{}], auto_type_candidates = {}", fmt::join(names, ", "),
-                                 csv_types));
+                                 csv_types),
+        csv_dates);
   }
   if (file_.format() == TableFormat::json)
     return fmt::format(

@@ -88,6 +88,19 @@ int whole_year(int year, std::size_t digits) {
   return year < turn ? 2000 + year % century : 1900 + year;
 }
 
+// 31.01.2024, 31/01/2024 and 01/31/2024. Between points the day is first; elsewhere only a number
+// above 12 tells the day.
+std::optional<int> month_with_day(std::string_view text, const std::vector<std::string>& tokens) {
+  if (tokens[0].size() > 2 || tokens[1].size() > 2 || tokens[2].size() != 4) return {};
+  const int first = *month_number(tokens[0]), second = *month_number(tokens[1]);
+  const int year = *month_number(tokens[2]);
+  const bool points = text.find('.') == tokens[0].size();
+  if (!points && first <= months_of_year && second <= months_of_year && first != second) return {};
+  const bool month_first = !points && second > months_of_year;
+  const int month = month_first ? first : second, day = month_first ? second : first;
+  return is_day_of_month(year, month, day) ? month_of_year(year, month) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<int> month_in(std::string_view text) {
@@ -109,6 +122,7 @@ std::optional<int> month_in(std::string_view text) {
         tokens.size() >= 3 && number(2) && is_day_of_month(*first, *second, *number(2));
     return tokens.size() == 2 || day ? month_of_year(*first, *second) : std::nullopt;
   }
+  if (tokens.size() >= 3 && first && second && number(2)) return month_with_day(text, tokens);
   if (tokens.size() != 2) return {};
   if (first && second)
     return tokens[1].size() == year_digits && tokens[0].size() <= 2 ? month_of_year(*second, *first)

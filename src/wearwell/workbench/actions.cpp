@@ -15,6 +15,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/workbench/comparison_view.h"
+#include "wearwell/workbench/date_query.h"
 #include "wearwell/workbench/families_view.h"
 #include "wearwell/workbench/fit_run.h"
 #include "wearwell/workbench/folder_files.h"
@@ -75,7 +76,7 @@ std::shared_ptr<const OpenTable> table_of_target(Session& session, const HttpTar
 std::map<std::string, std::string> settings_of(const json& wish) {
   static constexpr std::array keys = {"sheet",        "range",       "header_row", "units_row",
                                       "decimal",      "thousands",   "delimiter",  "encoding",
-                                      "summary_rows", "hidden_rows", "comment"};
+                                      "summary_rows", "hidden_rows", "comment",    "sql"};
   std::map<std::string, std::string> settings;
   const json given = wish.value("settings", json::object());  // `items` refers to it
   for (const auto& [key, value] : given.items()) {
@@ -126,7 +127,13 @@ Json study_json(Session& session, const std::string& name) {
 }
 
 Json table_action(Session& session, const json& wish) {
-  return start_reading(session, table_of_wish(session, wish)->file, settings_of(wish));
+  const auto open = table_of_wish(session, wish);
+  auto settings = settings_of(wish);
+  if (wish.contains("dates")) {
+    settings = open->settings;
+    settings["sql"] = time_query(open->table, read_dates_wanted(wish.at("dates")), settings["sql"]);
+  }
+  return start_reading(session, open->file, settings);
 }
 
 Json guess_action(Session& session, const json& wish) {

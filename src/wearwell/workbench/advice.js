@@ -62,14 +62,15 @@
     wearwell.model.becomes(`${stem}-${suffix}.toml`, next);
   }
 
-  // The cell of an advice: its text, and a button for each change that it names. `folder`: of the result.
-  wearwell.adviceCell = (advice, folder) => {
+  // The cell of an advice: its text, and a button for each change that the program names. `folder`: of the result.
+  wearwell.adviceCell = ({advice, changes: named}, folder) => {
     const offer = (label, change, suffix) => wearwell.button(label, () => wearwell.attempt(() => follow(folder, change, suffix)), 'plain');
-    const buttons = [];
-    if (/\[subpopulations\]/.test(advice)) buttons.push(offer(strings.tryMixture, changes.mixture, 'mixture'));
-    if (/\bshare_defective\b/.test(advice)) buttons.push(offer(strings.tryShare, changes.share, 'share'));
-    for (const [, name] of advice.matchAll(/family = "([a-z0-9-]+)"/g)) buttons.push(offer(strings.tryFamily(name), (text) => changes.family(text, name), name));
-    if (/\b(another family|Weibull family)\b/.test(advice)) buttons.push(offer(strings.tryFamilies, null));
+    const buttons = named.map((each) => {
+      const [kind, name] = each.split(' ');
+      if (kind === 'families') return offer(strings.tryFamilies, null);
+      if (kind === 'family') return offer(strings.tryFamily(name), (text) => changes.family(text, name), name);
+      return offer({mixture: strings.tryMixture, share: strings.tryShare}[kind], changes[kind], kind);
+    });
     return element('td', {}, element('span', {lang: 'en'}, advice ?? ''), buttons.length ? element('div', {class: 'choices'}, ...buttons) : null);
   };
 })();

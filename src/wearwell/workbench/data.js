@@ -58,6 +58,8 @@
     if (state === 'failed') wearwell.quietly(() => { throw new Error(problem); });
   }
 
+  // The time that dates state; without them the columns of the file.
+  const readDates = (dates) => opens(() => wearwell.post('/api/table', dates ? {...named(), dates} : {...named(), settings: {...table.settings, sql: ''}}));
   const readWith = (wanted) => opens(() => wearwell.post('/api/table', {...named(), settings: wanted}));
 
   function sheets({file, sheets: names}) {
@@ -71,6 +73,7 @@
     if (column.empty) notes.push(strings.empty(column.empty));
     const role = table.wide ? {} : wearwell.roleField(column, index, table, (name, chosen) => { place.moved.textContent = strings.roleChanged(name, chosen); });
     return element('th', {scope: 'col', 'data-column': index}, element('span', {}, column.name), element('small', {}, notes.filter(Boolean).join(', ')), role.field, role.note,
+        column.dates ? wearwell.dateType(column, index, place.dates) : null,
         isNumber ? wearwell.unitField(column, index, (name, unit) => { place.moved.textContent = strings.unitChanged(name, unit || strings.noUnit); }) : null,
         column.refused ? element('small', {class: 'bad'}, strings.refused(column.refused)) : null,
         column.doubt ? element('small', {class: 'bad'}, column.doubt) : null);
@@ -113,13 +116,14 @@
   });
 
   function settings() {
-    const inputs = Object.entries(strings.settings).map(([key, label]) => [key, wearwell.field(label, `setting-${key}`, {value: table.settings[key] ?? ''})]);
+    const make = (key) => (key === 'sql' ? wearwell.area : wearwell.field);
+    const inputs = Object.entries(strings.settings).map(([key, label]) => [key, make(key)(label, `setting-${key}`, {value: table.settings[key] ?? ''})]);
     place.settings.replaceChildren(element('summary', {}, strings.stored), element('p', {}, table.layout),
         element('form', {class: 'fields'}, ...inputs.map(([, field]) => field), element('button', {}, strings.apply)));
     place.settings.querySelector('form').addEventListener('submit', (event) => {
       event.preventDefault();
       const wanted = {};
-      for (const [key, field] of inputs) { const {value} = field.querySelector('input'); if (value) wanted[key] = value; }
+      for (const [key, field] of inputs) { const {value} = field.querySelector('input, textarea'); if (value) wanted[key] = value; }
       readWith(wanted);
     });
   }
@@ -167,6 +171,7 @@
     place.wide.textContent = table.wide ? `${wearwell.capital(table.wide)}.` : '';
     settings();
     place.lines.show(table);
+    place.dates.show(table);
     await rows();
     if (table !== next) return;
     plotChoices();
@@ -189,6 +194,7 @@
     place.sheets = element('div', {});
     place.reading = wearwell.reading(ended);
     place.lines = wearwell.headingLines(readWith);
+    place.dates = wearwell.datePanel(readDates);
     place.grid = element('table', {});
     place.settings = element('details', {});
     place.rowsShown = element('p', {role: 'status'});
@@ -213,7 +219,7 @@
         element('div', {class: 'field'}, element('label', {for: 'plot-by'}, strings.colourBy), place.by)), place.plot);
     place.moved = element('p', {class: 'note', role: 'status'});
     place.wide = element('p', {class: 'note', hidden: true});
-    place.table = element('div', {hidden: true}, place.wide, place.settings, place.lines.panel, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
+    place.table = element('div', {hidden: true}, place.wide, place.settings, place.lines.panel, place.dates.panel, element('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': strings.dataTitle}, place.grid),
         element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
     panel.append(element('h2', {}, strings.dataTitle),
         element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
@@ -241,7 +247,7 @@
   }
 
   // The study states other units and roles, or none.
-  const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update());
+  const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update?.());
 
   // A page that is opened again shows what the program has open.
   wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};

@@ -41,7 +41,7 @@
     return element('div', {class: 'scroll whole', tabindex: 0, role: 'region', 'aria-label': strings.checks}, element('table', {class: 'checks'}, element('caption', {}, strings.checks),
         element('thead', {}, element('tr', {}, ...heads.map((each) => element('th', {scope: 'col'}, each)))),
         element('tbody', {}, ...all.map((each) => element('tr', {}, element('th', {scope: 'row'}, each.name),
-            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {lang: 'en'}, each.detail), advised ? wearwell.adviceCell(each.advice ?? '', folder) : null)))));
+            element('td', {}, element('span', {class: `verdict ${each.verdict}`}, strings.verdicts[each.verdict])), element('td', {lang: 'en'}, each.detail), advised ? wearwell.adviceCell(each, folder) : null)))));
   }
 
   async function result() {

@@ -4,8 +4,8 @@
   const {element, strings} = wearwell;
   const near = 20;  // rows below the headings that can be headings or units themselves
 
-  // Of Parquet and JSON the headings are no line. The rows of a wide table are not those of the file.
-  const hasLines = (table) => /\.(csv|tsv|txt|dat|asc|xlsx)(\.gz)?$/i.test(table.file) && !table.settings.range;
+  // Of Parquet and JSON the headings are no line. The rows of a wide table and of a query are not those of the file.
+  const hasLines = (table) => !table.settings.sql && /\.(csv|tsv|txt|dat|asc|xlsx)(\.gz)?$/i.test(table.file) && !table.settings.range;
 
   // {panel, show(table), cell(row)}. `read(settings)` reads the table again.
   wearwell.headingLines = (read) => {

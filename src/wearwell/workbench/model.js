@@ -159,14 +159,15 @@
     notice.replaceChildren();
     if (!table || !keys.length || !isKept() || keptFor === table.number) return;
     const files = keys.filter(({path}) => /^data\b.*\bfile$/.test(path)).map(({value}) => value.replace(/^\.\//, ''));
-    const differ = itsTable() === table.file ? Object.keys(strings.settings).filter((key) => (valueOf(`data.${key}`) ?? '') !== (table.settings[key] ?? '')) : [];
+    const read = {...table.settings, ...(table.wide ? {sql: table.sql} : {})};
+    const differ = itsTable() === table.file ? Object.keys(strings.settings).filter((key) => (valueOf(`data.${key}`) ?? '') !== (read[key] ?? '')) : [];
     if (files.includes(table.file) && !differ.length) return;
     const shown = (value) => (value === undefined || value === '' ? strings.notSet : value);
     const buttons = [wearwell.button(strings.guessTable(table.file), () => wearwell.attempt(guessTable), 'plain')];
     if (wearwell.data.has(itsTable())) buttons.push(wearwell.button(strings.openAsRead, () => openItsTable(), 'plain'));
     buttons.push(wearwell.button(strings.keepStudy, () => { keptFor = table.number; compare(); }, 'plain'));
     notice.append(element('div', {class: 'callout warn'}, element('p', {}, differ.length
-        ? strings.otherSettings(place.name.value, table.file, differ.map((key) => `${strings.settings[key]}: ${shown(valueOf(`data.${key}`))} / ${shown(table.settings[key])}`).join('; '))
+        ? strings.otherSettings(place.name.value, table.file, differ.map((key) => `${strings.settings[key]}: ${shown(valueOf(`data.${key}`))} / ${shown(read[key])}`).join('; '))
         : strings.otherTable(place.name.value, table.file)), element('div', {class: 'choices'}, ...buttons)));
   }
 

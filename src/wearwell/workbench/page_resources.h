@@ -23,6 +23,8 @@ std::string_view workbench_reading_js();
 std::string_view workbench_reading_js_sha256();
 std::string_view workbench_headings_js();
 std::string_view workbench_headings_js_sha256();
+std::string_view workbench_dates_js();
+std::string_view workbench_dates_js_sha256();
 std::string_view workbench_data_js();
 std::string_view workbench_data_js_sha256();
 std::string_view workbench_priors_js();

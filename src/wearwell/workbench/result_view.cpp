@@ -14,6 +14,7 @@
 #include "wearwell/prognosis/asked_life.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/saved_result.h"
+#include "wearwell/workbench/advice_changes.h"
 #include "wearwell/workbench/changed_prediction.h"
 #include "wearwell/workbench/command_line.h"
 #include "wearwell/workbench/folder_files.h"
@@ -107,6 +108,8 @@ ordered_json result_json(const std::filesystem::path& folder, Models models) {
   for (const present::Section& section : saved.sections) add_summary(section.blocks, json);
   for (const present::Table* each : present::tables(saved.sections))
     json["tables"].push_back(table_texts(*each));
+  for (ordered_json& check : json["checks"])
+    check["changes"] = advised_changes(check.value("advice", std::string()));
   add_lives(folder, models, json);
   add_lines(folder, json);
   return json;

@@ -16,6 +16,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/as_read.h"
+#include "wearwell/input/date_text.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/readable_cell.h"
 #include "wearwell/input/source.h"
@@ -89,6 +90,7 @@ ordered_json column_json(const Table& table, const Column& column) {
   }
   json["empty"] = empty;
   if (mostly) json["refused"] = refused;
+  if (auto dates = date_layouts(column); !dates.empty()) json["dates"] = std::move(dates);
   if (!column.doubt.empty()) json["doubt"] = printable(column.doubt);
   if (least <= largest && refused < most_refused) {
     json["least"] = least;
@@ -184,11 +186,14 @@ ordered_json labels_json(const Labels& labels) {
 OpenTable open_table(const std::filesystem::path& folder, const std::string& file,
                      const std::map<std::string, std::string>& settings) {
   const std::filesystem::path path = path_in(folder, file);
-  const std::string text = data_lines(settings, {});
+  std::map<std::string, std::string> of_file = settings;
+  std::optional<std::string> sql;
+  if (const auto query = of_file.extract("sql")) sql = query.mapped();
+  const std::string text = data_lines(of_file, {});
   const TableSettings read =
       text.empty() ? TableSettings() : read_table_settings(TomlReader::parse({"[data]", text}));
-  OpenTable open{file, settings, read_table(path, {}, {}, read)};
-  open.wide = wide_table(open.table);
+  OpenTable open{file, settings, read_table(path, sql, {}, read)};
+  if (!sql) open.wide = wide_table(open.table);
   if (open.wide)
     open.as_stored = std::exchange(open.table, read_table(path, open.wide->sql, {}, read));
   return open;
@@ -201,6 +206,7 @@ ordered_json table_json(const OpenTable& open) {
   json["settings"] = open.settings;
   if (open.wide) {
     json["wide"] = printable(wide_description(*open.wide));
+    json["sql"] = open.wide->sql;
     json["headings"] = ordered_json::array();
     for (const Column& each : open.as_stored.columns)
       json["headings"].push_back(printable(each.name));
