@@ -105,7 +105,8 @@ ww_staircase <- function(data, stress, event, count = NULL, reliability = c("50 
   study <- with_status(preset_study(columns, list(alternating_stress = stress, count = count)), event, columns)
   look_at_unused(columns, c(stress, event, count), TRUE, unused, "", counts = if (is.null(count)) "count = \"%s\"")
   asked <- predict_of(predict, list(reliability = I(reliability), credible_level = confidence))
-  one_line(preset_text("staircase", one_text(title, "title"), study, list(predict = asked), priors), study, NULL, NULL, fit, call, ...)
+  one_line(preset_text("staircase", one_text(title, "title"), study, list(predict = asked), priors), study, NULL, NULL, fit, call, ...,
+           arguments = c(credible_level = "confidence"))
 }
 
 ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, force = NULL, slip = NULL, limit = NULL, risk = "1 %", at = NULL,
@@ -130,7 +131,8 @@ ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, f
   extra <- list(conditions = constants, likelihood = list(family = one_text(family, "family")), predict = predict_of(predict, asked))
   if (one_truth(stages, "stages")) extra$update <- list(stages = "row")
   one_line(preset_text("archard-joint", one_text(title, "title"), study, extra, priors), study, NULL,
-           if (is.null(limit)) "no limit is given: no life is predicted; limit = \"100 mm^3\" gives one", fit, call, ...)
+           if (is.null(limit)) "no limit is given: no life is predicted; limit = \"100 mm^3\" gives one", fit, call, ...,
+           arguments = c(cycles = "at"))
 }
 
 ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pressure = NULL, force = NULL, length = NULL, bearing = NULL,
