@@ -104,6 +104,10 @@ def _values(column, where):
     if hasattr(column, "magnitude") and hasattr(column, "units"):  # pint
         column = column.magnitude
     dtype = getattr(column, "dtype", None)
+    if dtype is not None and not isinstance(dtype, np.dtype) and hasattr(column, "isna") and not hasattr(column, "where"):
+        import pandas  # whose array this is: a pandas.Categorical, an array of the dtype string
+
+        column = pandas.Series(column)
     if hasattr(column, "cat") and hasattr(dtype, "categories"):  # pandas' categories
         column = column.astype(object if dtype.categories.dtype == object else dtype.categories.dtype)
         dtype = column.dtype
