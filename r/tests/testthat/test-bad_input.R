@@ -98,7 +98,7 @@ test_that("frames of every kind are read or refused", {
 
 presets <- list(
   ww_sn = list(
-    study = function(frame) ww_sn(frame, "N", "S", event = "end", stress_ratio = "R", type = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE),
+    study = function(frame) ww_sn(frame, "S", "N", event = "end", stress_ratio = "R", label = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE),
     frame = list(N = c(1:7, 7) * 1e5, S = c(400, 380, 360, 340, 320, 310, 300, 290), end = rep(c(1, 1, 1, 0), 2), R = rep(-1, 8), batch = site, tests = rep(1, 8))),
   ww_staircase = list(
     study = function(frame) ww_staircase(frame, "S", "end", count = "tests", units = c(S = "MPa"), fit = FALSE),
@@ -107,7 +107,7 @@ presets <- list(
     study = function(frame) ww_joint(frame, "V", "n", work = "w", work_per_cycle = "6.2 N m", limit = "200 mm^3", units = c(V = "mm^3", n = "cycles", w = "N m"), fit = FALSE),
     frame = list(V = c(20, 35, 60, 80, 95, 120, 140, 155), n = 1:8 * 1000, w = rep(6.2, 8))),
   ww_bearing = list(
-    study = function(frame) ww_bearing(frame, "d", "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", bearing = "place",
+    study = function(frame) ww_bearing(frame, "d", "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
                                        units = c(d = "um", p = "MPa"), fit = FALSE),
     frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)))
 
@@ -140,7 +140,7 @@ test_that("texts of 0 and 1 are read as the codes, and what a preset refuses has
   values <- function(frame) presets$ww_sn$study(frame)$columns$status$values
   expect_identical(values(replace(good, "end", list(as.character(good$end)))), values(good))
   expect_identical(values(replace(good, "end", list(good$end == 1))), values(good))
-  sn <- function(...) ww_sn(good, "N", "S", event = "end", stress_ratio = "R", unused = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE, ...)
+  sn <- function(...) ww_sn(good, "S", "N", event = "end", stress_ratio = "R", unused = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE, ...)
   refused(sn(curve = "bent"), "curve: 'bent' is not allowed")
   refused(sn(correction = "none of them"), "correction: 'none of them' is not allowed")
   refused(sn(family = "cauchy"), "family: 'cauchy' is not allowed")
