@@ -29,10 +29,11 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
 
 ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL, threshold = FALSE, share_defective = FALSE, share_dead_on_arrival = FALSE,
                             subpopulations = NULL, by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, count = NULL, weights = NULL,
-                            unit = NULL, given = NULL, classical = FALSE, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+                            unit = NULL, given = NULL, b = c(1, 10, 50), confidence = 0.9, classical = FALSE, predict = NULL, title = NULL, unused = NULL,
+                            fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "standard", "threshold", "share_defective", "share_dead_on_arrival", "subpopulations", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "classical", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "standard", "threshold", "share_defective", "share_dead_on_arrival", "subpopulations", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "b", "confidence", "classical", "predict", "title",
                                           "unused", "fit"))
   require_family(family, standard)
   populations <- population_names(subpopulations)
@@ -74,7 +75,7 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL,
     title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study,
     constants = c(effects$constants, further$constants), populations = further$table,
     likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
-    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9),
+    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = as.list(b), credible_level = confidence),
                                    if (one_truth(classical, "classical")) list(classical = TRUE))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(if (is.null(standard)) family else standard, parameters, lives, study, effects, effect, by)
@@ -83,7 +84,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL,
   known$modes <- !is.null(modes)
   reader$used <- read$used
   reader$made <- names(study)
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, reader = reader)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, reader = reader,
+           arguments = c(credible_level = "confidence", b_lives = "b"))
 }
 
 # The columns of a study, as the formula and the arguments of ww_life() read those of a frame. `fitted`: of rows for a fit.

@@ -119,3 +119,19 @@ test_that("a preset without its columns says which are missing", {
   expect_error(ww_bearing(tests, "cycles", "stress"), "ww_bearing(): contact, radius, clearance are missing", fixed = TRUE)
   expect_error(ww_staircase(), "ww_staircase(): data, stress, event are missing", fixed = TRUE)
 })
+
+test_that("arguments are those of Python", {
+  stub <- paste(readLines(file.path(source_of_project(), "python", "wearwell", "__init__.pyi")), collapse = "\n")
+  of_python <- function(name) {
+    found <- regmatches(stub, regexpr(paste0("(?s)\ndef ", name, "\\(.*?\\) ->"), stub, perl = TRUE))
+    gsub("[ :]", "", regmatches(found, gregexpr("(?m)^    [a-z_0-9]+:", found, perl = TRUE))[[1]])
+  }
+  of_r <- list(sn = ww_sn, staircase = ww_staircase, joint = ww_joint, repairable = ww_repairable, returns = ww_returns,
+               life = getS3method("ww_life", "formula"), degradation = getS3method("ww_degradation", "formula"))
+  # What the left side of a formula says, and what ww_fit() takes of all.
+  elsewhere <- c("life", "event", "entry", "y", "seed", "method", "chains", "warmup", "draws", "threads", "report", "progress")
+  for (name in names(of_r)) {
+    expect_gt(length(of_python(name)), 10)
+    expect_identical(setdiff(of_python(name), c(names(formals(of_r[[name]])), elsewhere)), character(), info = name)
+  }
+})
