@@ -36,7 +36,7 @@ highlight_language = "none"
 
 # Python: the sources are read, the compiled part is not needed. Docstrings are in the form of numpydoc.
 napoleon_google_docstring = False
-autodoc_mock_imports = ["wearwell._core"]
+autodoc_mock_imports = ["wearwell._impl._core"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 smartquotes = False

@@ -1,6 +1,7 @@
 """The wheel: CMake builds the module, or where WEARWELL_BUILD names a build that has it, only installs it."""
 
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -16,7 +17,7 @@ with open(os.path.join(project, "CMakeLists.txt"), encoding="utf-8") as file:
 
 class CMakeBuild(build_ext):
     def build_extension(self, ext):
-        target = os.path.abspath(os.path.dirname(os.path.dirname(self.get_ext_fullpath(ext.name))))
+        target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parents[2]
         build = os.environ.get("WEARWELL_BUILD")
         if not build:
             build = os.path.join(project, "build", "wheel-build")
@@ -24,7 +25,7 @@ class CMakeBuild(build_ext):
                 "cmake", "-S", project, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DWEARWELL_BUILD_TESTS=OFF",
                 "-DWEARWELL_BUILD_BENCH=OFF", "-DWEARWELL_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"])
             subprocess.check_call(["cmake", "--build", build, "--target", "wearwell_python"])
-        subprocess.check_call(["cmake", "--install", build, "--component", "python", "--prefix", target])
+        subprocess.check_call(["cmake", "--install", build, "--component", "python", "--prefix", str(target)])
 
 
-setup(version=version, ext_modules=[Extension("wearwell._core", sources=[])], cmdclass={"build_ext": CMakeBuild})
+setup(version=version, ext_modules=[Extension("wearwell._impl._core", sources=[])], cmdclass={"build_ext": CMakeBuild})

@@ -3,7 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-/// The module wearwell._core: what Python asks of the library (wearwell/embed). Plain texts, numbers and arrays go over; everything that a
+/// The module wearwell._impl._core: what Python asks of the library (wearwell/embed). Plain texts, numbers and arrays go over; everything that a
 /// user sees is made of them in python/wearwell.
 namespace wearwell::python {
 

@@ -10,9 +10,9 @@
 
 namespace wearwell::python {
 
-// The exceptions are classes of wearwell._errors, so that they can be pickled and documented as Python's.
+// The exceptions are classes of wearwell._impl.errors, so that they can be pickled and documented as Python's.
 void add_errors(py::module_&) {
-  const py::module_ errors = py::module_::import("wearwell._errors");
+  const py::module_ errors = py::module_::import("wearwell._impl.errors");
   static const py::handle input = py::object(errors.attr("InputError")).release();
   static const py::handle machine = py::object(errors.attr("MachineError")).release();
   py::register_exception_translator([](std::exception_ptr thrown) {

@@ -80,6 +80,8 @@ def test_help_of_the_package_has_what_people_call_and_catch():
     classes = re.findall(r"(?m)^    class (\w+)\(", text)
     assert classes == [name for name in sorted(ww.__all__) if name in {"Fit", "Study", "Monitor"} or is_exception(getattr(ww, name))]
     assert len(text.split("\n")) < 4500
+    assert re.search(r"PACKAGE CONTENTS\n((?: +\w+\n)+)", text)[1].split() == ["bearing", "clutch", "plan"]
+    assert "_impl" not in text
     functions = {name for name in ww.__all__ if inspect.isfunction(getattr(ww, name))}
     assert functions == {name for name in functions if re.search(rf"(?m)^    {name}\(", text)}
     assert functions < set(dir(ww)) <= {*ww.__all__, *vars(ww)}

@@ -72,7 +72,7 @@ def sums_of_damage():
             made[key] = original(kind, arguments, about, name, tables, *others, **options)
         return made[key]
 
-    original = ww._spectra.found
+    original = ww._impl.spectra.found
     return once
 
 
@@ -101,7 +101,7 @@ def test_examples_run(name, folder, monkeypatch, request):
         examples[name].globs["url"] = request.getfixturevalue("monitor")
     if name not in ("CheckWarning", "MissingFileError", "fit"):
         monkeypatch.setattr(ww, "fit", request.getfixturevalue("fits"))
-    monkeypatch.setattr(ww._spectra, "found", request.getfixturevalue("sums_of_damage"))
+    monkeypatch.setattr(ww._impl.spectra, "found", request.getfixturevalue("sums_of_damage"))
     monkeypatch.chdir(folder)
     said = []
     with warnings.catch_warnings():

@@ -11,7 +11,7 @@ import pytest
 
 import wearwell as ww
 from conftest import source
-from wearwell._life_families import families
+from wearwell._impl.life_families import families
 
 pumps = {"hours": [312, 480, 510, 640, 700, 700, 150, 260, 420], "failed": [1, 1, 1, 1, 0, 0, 1, 1, 1]}
 few = {"method": "exact", "draws": 50, "chains": 2, "seed": 1, "report": False}

@@ -7,7 +7,7 @@ import pytest
 
 import wearwell as ww
 from conftest import source
-from wearwell._messages import in_arguments
+from wearwell._impl.messages import in_arguments
 
 
 @pytest.mark.parametrize("text, python", [

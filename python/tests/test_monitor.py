@@ -10,7 +10,7 @@ import pytest
 
 import wearwell as ww
 from monitored import monitored
-from wearwell._monitor import _plain
+from wearwell._impl.monitor import _plain
 from test_follow import fit, fleet, in_time, messages_of  # noqa: F401  (fixtures)
 
 token = "0123456789abcdef0123"

@@ -7,7 +7,7 @@ import warnings
 import pytest
 
 import wearwell as ww
-from wearwell._messages import in_arguments
+from wearwell._impl.messages import in_arguments
 from conftest import binary, clutch_study
 
 studies = ["accelerated/study", "bearing/study", "clutch/study", "degradation/steps", "fatigue/study", "joint/lognormal_flat", "joint/pointwise",

@@ -32,7 +32,7 @@ def test_wheel_holds_what_it_needs(tmp_path):
         names = archive.namelist()
         about = archive.read(f"wearwell-{ww.__version__}.dist-info/METADATA").decode()
         kind = archive.read(f"wearwell-{ww.__version__}.dist-info/WHEEL").decode()
-    for name in ("__init__.py", "__init__.pyi", "py.typed", "libduckdb.so"):
+    for name in ("__init__.py", "__init__.pyi", "py.typed", "_impl/libduckdb.so", "_impl/life_study.py"):
         assert f"wearwell/{name}" in names
     assert "Requires-Python: >=3.9" in about and "Requires-Dist: numpy" in about and "License: Apache-2.0" in about
     assert "Root-Is-Purelib: false" in kind
@@ -40,9 +40,9 @@ def test_wheel_holds_what_it_needs(tmp_path):
     done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-deps", "--no-index", "-q", "--target", here, wheel],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    module, = glob.glob(str(here / "wearwell" / "_core*.so"))
+    module, = glob.glob(str(here / "wearwell" / "_impl" / "_core*.so"))
     linked = subprocess.run(["ldd", module], capture_output=True, text=True).stdout
-    assert str(here / "wearwell" / "libduckdb.so") in linked and "not found" not in linked and "netcdf" not in linked
+    assert str(here / "wearwell" / "_impl" / "libduckdb.so") in linked and "not found" not in linked and "netcdf" not in linked
     # The way that docs/reference/python.md shows, with what was installed.
     with open(os.path.join(source, "docs", "reference", "python.md")) as file:
         way = re.search(r"## From nothing to NetCDF.*?```python\n(.*?)```", file.read(), re.S)[1]

@@ -51,41 +51,38 @@ Examples
 <wearwell.Plot 'probability': probability-paper>
 """
 
-from . import _errors
-from ._errors import CheckWarning, InputError, MachineError, MissingFileError, NotTrusted
-from . import _core
+from ._impl.errors import CheckWarning, InputError, MachineError, MissingFileError, NotTrusted
+from ._impl._core import version as __version__
 from . import bearing, clutch, plan
-from ._against import LivesAgainst
-from ._arrow import ArrowTable, arrow
-from ._backtest import Backtest, backtest
-from ._bearing_study import bearing as _fit_bearings
-from ._callable_module import make_callable as _make_callable
-from ._check import Check
-from ._clutch_study import clutch as _fit_clutch
-from ._compare import Comparison, compare
-from ._data import table
-from ._decide import decide
-from ._degradation_study import degradation
-from ._export import export_c, export_sql
-from ._fatigue_study import sn, staircase
-from ._fit import Fit
-from ._joint_study import joint
-from ._life_study import life
-from ._monitor import Monitor
-from ._plan import Plan
-from ._plots import Plot
-from ._positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
-from ._priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
-from ._repairable_study import repairable
-from ._returns_study import returns
-from ._spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectrum
-from ._study import Study, fit
-from ._tools import Selection, rainflow, select
-from ._track import Quantiles, UnitTracker, track
-from ._unit_life import unit_life
-from ._update import update
-
-__version__ = _core.version
+from ._impl.against import LivesAgainst
+from ._impl.arrow import ArrowTable, arrow
+from ._impl.backtest import Backtest, backtest
+from ._impl.bearing_study import bearing as _fit_bearings
+from ._impl.callable_module import make_callable as _make_callable
+from ._impl.check import Check
+from ._impl.clutch_study import clutch as _fit_clutch
+from ._impl.compare import Comparison, compare
+from ._impl.data import table
+from ._impl.decide import decide
+from ._impl.degradation_study import degradation
+from ._impl.export import export_c, export_sql
+from ._impl.fatigue_study import sn, staircase
+from ._impl.fit import Fit
+from ._impl.joint_study import joint
+from ._impl.life_study import life
+from ._impl.monitor import Monitor
+from ._impl.plan import Plan
+from ._impl.plots import Plot
+from ._impl.positive_priors import exponential, gamma, half_cauchy, half_normal, inverse_gamma, jeffreys
+from ._impl.priors import beta, default, flat, lognormal, normal, prior, student_t, uniform
+from ._impl.repairable_study import repairable
+from ._impl.returns_study import returns
+from ._impl.spectra import Damage, DesignCurves, LoadSpectrum, damage, design, spectrum
+from ._impl.study import Study, fit
+from ._impl.tools import Selection, rainflow, select
+from ._impl.track import Quantiles, UnitTracker, track
+from ._impl.unit_life import unit_life
+from ._impl.update import update
 
 _make_callable(bearing.__name__, _fit_bearings)
 _make_callable(clutch.__name__, _fit_clutch)
@@ -110,6 +107,12 @@ __all__ = [
 # What functions and fits return; help(fit.plot("life")) documents one. dir(), completion and help(wearwell) show what people call or catch.
 _answers = {"Check", "Plot", "Comparison", "UnitTracker", "Quantiles", "Backtest", "LivesAgainst", "Plan", "LoadSpectrum", "Damage", "DesignCurves",
             "Selection", "ArrowTable"}
+
+# Names are those that people import, in help, in messages of Python and in pickles.
+for _name in __all__:
+    for _each in getattr(globals()[_name], "__mro__", (globals()[_name],)):
+        if hasattr(_each, "__qualname__") and _each.__module__.startswith("wearwell._impl."):
+            _each.__module__ = __name__
 
 
 def __dir__():

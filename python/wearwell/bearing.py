@@ -12,9 +12,9 @@ Every quantity is a text with its unit, a number (of revolutions), or a pint qua
 
 import json
 
-from . import _core
-from ._errors import InputError, warn
-from ._toml import quantity
+from ._impl import _core
+from ._impl.errors import InputError, warn
+from ._impl.toml import quantity
 
 
 def _answer(command, contact, unit, limit, draws, seed, inputs):

@@ -3,8 +3,8 @@
 import json
 import os
 
-from . import _core
-from ._data import table_of
+from ._impl import _core
+from ._impl.data import table_of
 
 
 class CycleSum:

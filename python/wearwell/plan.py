@@ -7,12 +7,12 @@ texts with their units ("1e6 cycles"), pint quantities, or numbers where there i
 
 import os
 
-from ._errors import InputError
-from ._fit import Fit
-from ._plan import answer
-from ._question import files_and_tables
-from ._plan_lives import accelerate, demonstrate
-from ._study import Study
+from ._impl.errors import InputError
+from ._impl.fit import Fit
+from ._impl.plan import answer
+from ._impl.question import files_and_tables
+from ._impl.plan_lives import accelerate, demonstrate
+from ._impl.study import Study
 
 for _each in (accelerate, demonstrate):
     _each.__module__ = __name__

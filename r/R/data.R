@@ -8,6 +8,8 @@ column_values <- function(column, where) {
   if (inherits(column, c("Date", "POSIXt", "difftime"))) {
     stop_input(where, " holds dates or times (", class[1], "); give a number with a unit, like hours since the start")
   }
+  # as.double() alone does not know it: its bits would be read as another number.
+  if (inherits(column, "integer64")) stop_input(where, " is of class integer64; bit64::as.double.integer64() makes numbers")
   if (length(class)) {
     stop_input(where, " is of class ", class[1], "; a column is numeric, integer, logical, character or a factor (as.double() ",
                "makes numbers)")

@@ -39,10 +39,11 @@ ww_degradation.data.frame <- function(x, y, along, unit = NULL, ...) {
 }
 
 ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "normal", path = "line", starts_at_zero = NULL, start = FALSE,
-                                   unit = NULL, priors = NULL, units = NULL, given = NULL, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+                                   unit = NULL, priors = NULL, units = NULL, given = NULL, b = c(1, 10), confidence = 0.9, predict = NULL, title = NULL, unused = NULL,
+                                   fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_degradation)
-  require_options("ww_degradation", ..., own = c("data", "limit", "family", "path", "starts_at_zero", "start", "unit", "priors", "units", "given", "predict", "title",
+  require_options("ww_degradation", ..., own = c("data", "limit", "family", "path", "starts_at_zero", "start", "unit", "priors", "units", "given", "b", "confidence", "predict", "title",
                                                  "unused", "fit"))
   if (!is_path(family) || !family %in% degradation_families) stop_input("family is ", shown_value(family), "; it is one of ", words(degradation_families))
   if (!is_path(path) || !path %in% degradation_paths) stop_input("path is ", shown_value(path), "; it is one of ", words(degradation_paths))
@@ -95,7 +96,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   given <- lives_given(given, effects$conditions, NULL)
   of <- if (process) y else "path"
   questions <- c(list(along = s, at = list(quantity_text(2 * max(abs(along)), axis$unit))), if (length(given)) list(given = given),
-                 if (!is.null(limit)) list(limit = stats::setNames(list(quantity(limit, "limit")), of), b_lives = c(1, 10), credible_level = 0.9))
+                 if (!is.null(limit)) list(limit = stats::setNames(list(quantity(limit, "limit")), of), b_lives = as.list(b), credible_level = confidence))
   if (!process) likelihood[[2]] <- "path"
   text <- study_text(title = if (is.null(title)) paste(measured$name, "along", sides$axis) else one_text(title, "title"), columns = study,
                      constants = effects$constants[vapply(names(effects$constants), function(name) grepl(name, middle, fixed = TRUE), NA)],
@@ -112,7 +113,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                 item = if (is.null(label)) rep("", length(along)) else study[[label]]$values, unit = measured$unit, rows = length(along),
                 effects = Map(function(parameter, value) list(parameter = parameter, value = value), names(effects$values), effects$values),
                 units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "step_ratio", if (family == "normal") "sigma")], unit_of_prior))
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit))
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit),
+           arguments = c(credible_level = "confidence", b_lives = "b"))
 }
 
 # Where a power of the axis is 1.

@@ -1,7 +1,7 @@
 # Data from the field in one line: units that are repaired, and warranty returns. And lives of two fits against each other.
 
 ww_repairable <- function(data, age, unit, event = NULL, start = NULL, count = NULL, grouped = FALSE, process = c("power_law", "renewal", "phases"),
-                          end = NULL, rounding = NULL, phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, predict = NULL,
+                          end = NULL, rounding = NULL, phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, classical = FALSE, predict = NULL,
                           title = NULL, unused = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_repairable")
   require_options("ww_repairable", ..., own = names(formals(ww_repairable)))
@@ -33,7 +33,8 @@ ww_repairable <- function(data, age, unit, event = NULL, start = NULL, count = N
   if (length(constants)) text <- c(text, toml_table("conditions", constants))
   text <- c(text, fix_tables(mode, fixes))
   if (length(priors)) text <- c(text, toml_table("prior", checked_priors(priors, NULL)))
-  asked <- predict_of(predict, given_arguments(age = if (!is.null(at)) as.list(at), `next` = if (!is.null(ahead)) as.list(ahead)))
+  asked <- predict_of(predict, given_arguments(age = if (!is.null(at)) as.list(at), `next` = if (!is.null(ahead)) as.list(ahead),
+                                               classical = if (one_truth(classical, "classical")) TRUE))
   if (length(asked)) text <- c(text, toml_table("predict", asked))
   one_line(paste(text, collapse = "\n"), study, NULL, NULL, fit, call, ...)
 }
@@ -117,7 +118,7 @@ delay_of <- function(value, name) {
 
 ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, until = NULL, period = NULL, ages = "middle", warranty = NULL,
                        delay_to_use = NULL, delay_of_report = NULL, hold_out = NULL, family = "weibull", ahead = "12 month", cost_per_return = NULL,
-                       planned_sales = NULL, survival_to = NULL, priors = NULL, predict = NULL, title = "Warranty returns", fit = TRUE, ...) {
+                       planned_sales = NULL, survival_to = NULL, priors = NULL, b = c(1, 10, 50), predict = NULL, title = "Warranty returns", fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_returns")
   require_options("ww_returns", ..., own = names(formals(ww_returns)))
   families <- setdiff(names(life_families), "log-location-scale")  # each under its own name, without a further argument
@@ -143,7 +144,7 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
   own <- checked_priors(priors, parameters)
   shown <- proposed[setdiff(names(proposed), names(own))]
   proposed[names(own)] <- own
-  asked <- predict_of(predict, given_arguments(`next` = ahead, cost_per_return = cost_per_return, b_lives = c(1, 10, 50),
+  asked <- predict_of(predict, given_arguments(`next` = ahead, cost_per_return = cost_per_return, b_lives = as.list(b),
                                                survival_to = if (!is.null(survival_to)) as.list(survival_to),
                                                planned_sales = if (!is.null(planned_sales)) list(file = "planned_sales")))
   frames <- c(list(data = data), Filter(is.data.frame, list(delay_to_use = delay_to_use, delay_of_report = delay_of_report)),
@@ -153,7 +154,7 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
             toml_table("data.returns", columns),
             toml_table("likelihood.life", life_slots(family, parameters[1])),
             toml_table("prior", proposed), toml_table("predict", asked))
-  one_line(paste(text, collapse = "\n"), NULL, shown, NULL, fit, call, ..., tables = tables)
+  one_line(paste(text, collapse = "\n"), NULL, shown, NULL, fit, call, ..., tables = tables, arguments = c(b_lives = "b"))
 }
 
 ww_against <- function(fit, other, horizon = NULL, confidence = 0.9, at = NULL) {

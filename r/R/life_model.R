@@ -29,10 +29,11 @@ ww_life.data.frame <- function(x, life, event = NULL, entry = NULL, unit = NULL,
 
 ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL, threshold = FALSE, share_defective = FALSE, share_dead_on_arrival = FALSE,
                             subpopulations = NULL, by = NULL, mode = NULL, shape = NULL, stress = NULL, priors = NULL, units = NULL, count = NULL, weights = NULL,
-                            unit = NULL, given = NULL, classical = FALSE, predict = NULL, title = NULL, unused = NULL, fit = TRUE, ...) {
+                            unit = NULL, given = NULL, b = c(1, 10, 50), confidence = 0.9, classical = FALSE, predict = NULL, title = NULL, unused = NULL,
+                            fit = TRUE, ...) {
   call <- match.call()
   call[[1]] <- quote(ww_life)
-  require_options("ww_life", ..., own = c("data", "family", "standard", "threshold", "share_defective", "share_dead_on_arrival", "subpopulations", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "classical", "predict", "title",
+  require_options("ww_life", ..., own = c("data", "family", "standard", "threshold", "share_defective", "share_dead_on_arrival", "subpopulations", "by", "mode", "shape", "stress", "priors", "units", "count", "weights", "given", "b", "confidence", "classical", "predict", "title",
                                           "unused", "fit"))
   require_family(family, standard)
   populations <- population_names(subpopulations)
@@ -74,7 +75,7 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL,
     title = if (is.null(title)) paste0("Life of ", lives_name(lives, x)) else one_text(title, "title"), columns = study,
     constants = c(effects$constants, further$constants), populations = further$table,
     likelihood = list(life = likelihood), priors = proposed, own_priors = priors, random = effect, modes = modes$table,
-    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = c(1, 10, 50), credible_level = 0.9),
+    predict = predict_of(predict, c(if (length(given)) list(given = given), list(b_lives = as.list(b), credible_level = confidence),
                                    if (one_truth(classical, "classical")) list(classical = TRUE))))
   notes <- reference_notes(effects$conditions, location, parameters, by)
   known <- simulator_of(if (is.null(standard)) family else standard, parameters, lives, study, effects, effect, by)
@@ -83,7 +84,8 @@ ww_life.formula <- function(x, data = NULL, family = "weibull", standard = NULL,
   known$modes <- !is.null(modes)
   reader$used <- read$used
   reader$made <- names(study)
-  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, reader = reader)
+  one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, reader = reader,
+           arguments = c(credible_level = "confidence", b_lives = "b"))
 }
 
 # The columns of a study, as the formula and the arguments of ww_life() read those of a frame. `fitted`: of rows for a fit.
@@ -302,12 +304,18 @@ columns_table <- function(columns, entries = list()) {
   }, columns, names(columns)))
 }
 
-# The fit of a study's text with a frame, or the study. `values`: by argument what the caller wrote, for messages.
-one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL, reader = NULL, values = list()) {
+# The fit of a study's text with a frame, or the study. `values`: by argument what the caller wrote, for messages; `arguments`: by key of
+# the study, where the two have other names.
+one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NULL, replicates = NULL, reader = NULL, values = list(),
+                     arguments = character()) {
   if (is.null(tables)) {
     tables <- list(data = list(data = lapply(columns, `[[`, "values"), units = NULL, only = NULL))
   }
-  refused <- function(error) stop_input(with_heading(in_words_of_caller(conditionMessage(error), values), columns$status$heading))
+  refused <- function(error) {
+    message <- in_words_of_caller(conditionMessage(error), values)
+    for (key in names(arguments)) message <- sub(paste0("^", key, ":"), paste0(arguments[[key]], ":"), message)
+    stop_input(with_headings(message, columns))
+  }
   study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = refused)
   study$proposed <- if (is.null(proposed)) character() else proposed
   study$notes <- notes
@@ -321,9 +329,14 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
   with_call(found, call)
 }
 
-# The column of endings by its heading in the frame; the study calls it status.
-with_heading <- function(message, heading) {
-  if (is.null(heading)) message else sub("column 'status'", paste0("column '", heading, "'"), message, fixed = TRUE)
+# Columns by their headings in the frame: the study calls them by what they are, as status or alternating_stress.
+with_headings <- function(message, columns) {
+  named <- gregexpr("(column '|rows, and ')[A-Za-z_]+'", message)
+  regmatches(message, named) <- lapply(regmatches(message, named), function(found) {
+    parts <- regmatches(found, regexec("^(.*')([A-Za-z_]+)'$", found))
+    vapply(parts, function(part) paste0(part[2], if (is.null(columns[[part[3]]]$heading)) part[3] else columns[[part[3]]]$heading, "'"), "")
+  })
+  message
 }
 
 with_call <- function(fit, call) {
@@ -349,13 +362,19 @@ in_words_of_caller <- function(message, values = list()) {
 words_of_caller <- function(message) {
   message <- gsub("(^|\n)study(:[0-9]+)*: ", "\\1", message)
   message <- sub("\n +[^\n]* = [^\n]*\n *\\^ *(\n +right: [^\n]*)?$", "", message)
+  message <- sub("\n +\\[[^]\n]*\\]\n *\\^ *$", "", message)
+  message <- sub("^random_effects[.][^:]*: ", "", message)
   message <- sub("([0-9]) 1 must be ", "\\1 must be ", message)  # the unit of a plain number
-  message <- sub("; or define your own word in the study: .*$", paste0("; or a condition in place of the column, like ", "Surv(hours, end == \"broke\")"), message)
+  message <- sub("; or define your own word in the study: .*$", "; or make a column of truths of it, like data$failed <- data$end == \"broke\"", message)
   message <- gsub("give the study a status column", "state the event, Surv(..., EVENT)", message, fixed = TRUE)
   message <- gsub("write \\[failure_modes\\] runout = (\"[^\"]*\")", "write mode = list(column = ..., runout = \\1)", message)
   message <- gsub("\\bprior\\.([A-Za-z0-9_]+)", "priors: \\1", message, perl = TRUE)
   message <- gsub("^data[.]columns[.]", "column ", message)
   message <- sub("^(likelihood[.]life|constants)[.](threshold|share_[a-z_]+):", "\\2:", message)
+  message <- sub("^law[.]mean_stress:", "correction:", message)
+  message <- gsub("likelihood.depth_error", "depth_error", message, fixed = TRUE)
+  message <- sub("^(law|likelihood)[.](curve|fatigue_limit|scatter|family|depth_error):", "\\2:", message)
+  message <- sub("^predict[.]stress[.](.*)[.](alternating_stress|stress_ratio|mean_stress):", "at: '\\1': \\2:", message)
   message <- sub("^subpopulations[.]names:", "subpopulations:", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
   message <- gsub("needs predict\\.([a-z_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)

@@ -13,7 +13,9 @@ surv_types <- c("right", "left", "interval", "counting", "interval2")
 
 # The columns of a frame by the names that a formula may use: the heading, or, of "F [N]", F. Each is a list of values, heading, unit.
 frame_columns <- function(data, units, name = "data") {
+  if (is_path(data)) stop_input(name, " is \"", data, "\"; it is a data frame or a named list of columns (read.csv() reads a file)")
   require_columns(data, name)
+  if (!length(data)) stop_input(name, " has no columns")
   units <- unit_texts(units, "units")
   headings <- names(data)
   parts <- regmatches(headings, regexec("^\\s*(.*[^ ])\\s*[[(]([^])]*)[])]\\s*$", headings))
@@ -23,7 +25,7 @@ frame_columns <- function(data, units, name = "data") {
   twice <- short[duplicated(short)]
   if (length(twice)) stop_input(name, ": two columns are called '", twice[1], "'")
   unknown <- setdiff(names(units), c(headings, short))
-  if (length(unknown)) stop_input("units: ", name, " has no column '", unknown[1], "' (columns: ", words(headings), ")")
+  if (length(unknown)) no_column("units", name, unknown[1], headings)
   columns <- lapply(seq_along(headings), function(i) {
     values <- .subset2(data, i)
     unit <- if (has_unit[i]) parts[[i]][3] else ""
@@ -52,8 +54,12 @@ find_column <- function(columns, name, what) {
   if (name %in% names(columns)) return(columns[[name]])
   by_heading <- vapply(columns, function(each) each$heading == name, NA)
   if (any(by_heading)) return(columns[[which(by_heading)[1]]])
-  near <- names(columns)[order(utils::adist(name, names(columns), ignore.case = TRUE))[1]]
-  stop_input(what, ": ", table_name(columns), " has no column '", name, "' (columns: ", words(names(columns)), ")",
+  no_column(what, table_name(columns), name, names(columns))
+}
+
+no_column <- function(what, table, name, names) {
+  near <- names[order(utils::adist(name, names, ignore.case = TRUE))[1]]
+  stop_input(what, ": ", table, " has no column '", name, "' (columns: ", words(names), ")",
              if (length(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?"))
 }
 
@@ -84,13 +90,15 @@ numbers_for <- function(each, what) {
 # TRUE: failure. `codes`: the column's own.
 failures_of <- function(each, what) {
   values <- each$values
+  if (inherits(values, "AsIs")) oldClass(values) <- setdiff(oldClass(values), "AsIs")
   heading <- each$heading
   if (length(dim(values)) > 1 || is.character(values)) column_values(values, place_of(each))
   if (is.factor(values)) values <- as.character(values)
   if (is.character(values)) {
     empty <- which(is.na(values) | grepl("^[ \t]*$", values, useBytes = TRUE))
     if (length(empty)) stop_input(place_of_row(each, empty[1]), ": no value; state how this test ended")
-    return(values)
+    if (!all(are_codes(values))) return(values)
+    values <- codes_of(values)
   }
   if (is.numeric(values) && !is.object(values) || is.logical(values)) {
     if (anyNA(values)) stop_input(place_of_row(each, which(is.na(values))[1]), ": a value is missing; ", what, " needs one")
@@ -114,6 +122,13 @@ failures_of <- function(each, what) {
   stop_input(what, ": column '", heading, "' is ", kind_of(values), "; it holds truths, 0 and 1, or words")
 }
 
+# Texts and levels of factors that are codes: 0 and 1, true and false.
+are_codes <- function(texts) grepl("^[ \t]*([+-]?[0-9]+([.][0-9]*)?|true|false)[ \t]*$", texts, ignore.case = TRUE, useBytes = TRUE)
+codes_of <- function(texts) {
+  texts <- tolower(trimws(texts))
+  as.double(ifelse(texts == "true", "1", ifelse(texts == "false", "0", texts)))
+}
+
 is_name <- function(text) grepl("^[A-Za-z.][A-Za-z0-9._]*$", text)
 
 ended <- function(failures, otherwise) if (is.character(failures)) failures else ifelse(failures, "failure", otherwise)
@@ -135,7 +150,7 @@ lives_of_side <- function(side, columns, env) {
   found <- evaluated(side, columns, env, "the formula's left side")
   if (inherits(found$values, "Surv")) return(lives_of_surv(found$values, found$unit, all.vars(side)))
   lives <- numbers_for(found, "the formula's left side")
-  new_lives(list(life = study_column(lives, found$unit)), found, all.vars(side), known = FALSE)
+  new_lives(list(life = study_column(lives, found$unit, found$heading)), found, all.vars(side), known = FALSE)
 }
 
 new_lives <- function(columns, found, used, known = TRUE) {
@@ -170,7 +185,7 @@ lives_of_call <- function(side, columns, env) {
   }
   if (type %in% c("right", "left")) {
     needs(is.null(second), "a time and an event; two times are of type counting, interval or interval2")
-    life <- list(life = study_column(times, time$unit))
+    life <- list(life = study_column(times, time$unit, time$heading))
     if (is.null(call$event)) return(new_lives(life, time, used, known = FALSE))
     life$status <- ending_column(event(), if (type == "right") "runout" else "left")
     return(new_lives(life, time, used))
@@ -183,7 +198,7 @@ lives_of_call <- function(side, columns, env) {
     needs(!is.null(call$event), "a start, a stop and an event")
     late <- which(to <= times)
     if (length(late)) stop_input("Surv(): row ", late[1], " stops at ", to[late[1]], ", not after its start, ", times[late[1]])
-    return(new_lives(list(life = study_column(to, second$unit), entry = study_column(times, time$unit),
+    return(new_lives(list(life = study_column(to, second$unit, second$heading), entry = study_column(times, time$unit, time$heading),
                           status = ending_column(event(), "runout")), second, used))
   }
   if (type == "interval") {
@@ -254,7 +269,7 @@ looks_like_ending <- function(each) {
   is.character(values) && (named && length(unique(values)) <= 6 || all(grepl(word, values[!is.na(values)], ignore.case = TRUE)) && !all(is.na(values)))
 }
 
-# The words of both are those of the Python package (python/wearwell/_idle_columns.py).
+# The words of both are those of the Python package (python/wearwell/_impl/idle_columns.py).
 of_counts <- "^(counts?|weights?|n|quantity|qty|freq|frequency|number)$"
 of_units <- "^(units?|machines?|serial|id|(unit|machine|serial)[ ._-]?(id|no|nr|number))$"
 

@@ -99,9 +99,9 @@ with_folders <- function(fits, names, of, work) {
     core(C_write_folder, folder, files_of(each))
     folder
   }, "")
-  usual <- ifelse(vapply(fits, is_path, NA), folders, c(letters, seq_along(fits)[-(1:26)])[seq_along(fits)])
+  usual <- as.character(ifelse(vapply(fits, is_path, NA), folders, c(letters, seq_along(fits)[-(1:26)])[seq_along(fits)]))
   if (is.null(names)) names <- usual
-  names <- ifelse(names == "", usual, names)
+  names[names == ""] <- usual[names == ""]
   work(stats::setNames(folders, enc2utf8(names)))
 }
 

@@ -50,8 +50,7 @@ kinds <- list(
     text
   })
 
-frame_with <- function(column, values) {
-  frame <- list(hours = hours, event = event, site = site, temperature = temperature)
+frame_with <- function(column, values, frame = list(hours = hours, event = event, site = site, temperature = temperature)) {
   frame[[column]] <- values
   structure(frame, class = "data.frame", row.names = 1:8)
 }
@@ -95,4 +94,57 @@ test_that("frames of every kind are read or refused", {
   refused(forms$effects(unclass(good)$hours), "data is double")
   refused(forms$effects(mean), "data is closure")
   refused(forms$effects(list(1, 2)), "the columns have no names")
+})
+
+presets <- list(
+  ww_sn = list(
+    study = function(frame) ww_sn(frame, "S", "N", event = "end", stress_ratio = "R", label = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE),
+    frame = list(N = c(1:7, 7) * 1e5, S = c(400, 380, 360, 340, 320, 310, 300, 290), end = rep(c(1, 1, 1, 0), 2), R = rep(-1, 8), batch = site, tests = rep(1, 8))),
+  ww_staircase = list(
+    study = function(frame) ww_staircase(frame, "S", "end", count = "tests", units = c(S = "MPa"), fit = FALSE),
+    frame = list(S = c(300, 310, 320, 310, 300, 310, 320, 310), end = rep(0:1, 4), tests = rep(1, 8))),
+  ww_joint = list(
+    study = function(frame) ww_joint(frame, "V", "n", work = "w", work_per_cycle = "6.2 N m", limit = "200 mm^3", units = c(V = "mm^3", n = "cycles", w = "N m"), fit = FALSE),
+    frame = list(V = c(20, 35, 60, 80, 95, 120, 140, 155), n = 1:8 * 1000, w = rep(6.2, 8))),
+  ww_bearing = list(
+    study = function(frame) ww_bearing(frame, "d", "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
+                                       units = c(d = "um", p = "MPa"), fit = FALSE),
+    frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)))
+
+for (preset in names(presets)) {
+  test_that(paste("columns of presets are read, or refused by their headings:", preset), {
+    study <- presets[[preset]]$study
+    good <- presets[[preset]]$frame
+    text <- study(good)$text
+    for (column in names(good)) {
+      for (kind in c("as is", "factor", "NA", "infinite", "minus infinity", "date", "difftime", "integer64", "list", "functions", "matrix", "frame", "bytes")) {
+        frame <- frame_with(column, kinds[[kind]](good[[column]]), good)
+        found <- tryCatch(ww_description(study(frame)), error = identity)
+        about <- paste(preset, column, kind)
+        if (kind %in% c("as is", "factor")) {
+          expect_identical(study(frame)$text, text, info = about)
+        } else if (inherits(found, "condition")) {
+          expect_s3_class(found, "wearwell_input_error")
+          expect_match(conditionMessage(found), paste0("\\bcolumn '", column, "'"), info = about)
+        }
+      }
+    }
+    expect_identical(study(structure(good, class = c("tbl_df", "tbl", "data.frame"), row.names = 1:8))$text, text)
+    refused(study(data.frame()), "data has no columns")
+    refused(study("tests.csv"), "data is \"tests.csv\"; it is a data frame")
+  })
+}
+
+test_that("texts of 0 and 1 are read as the codes, and what a preset refuses has the names of its arguments", {
+  good <- presets$ww_sn$frame
+  values <- function(frame) presets$ww_sn$study(frame)$columns$status$values
+  expect_identical(values(replace(good, "end", list(as.character(good$end)))), values(good))
+  expect_identical(values(replace(good, "end", list(good$end == 1))), values(good))
+  sn <- function(...) ww_sn(good, "S", "N", event = "end", stress_ratio = "R", unused = "batch", count = "tests", units = c(N = "cycles", S = "MPa"), fit = FALSE, ...)
+  refused(sn(curve = "bent"), "curve: 'bent' is not allowed")
+  refused(sn(correction = "none of them"), "correction: 'none of them' is not allowed")
+  refused(sn(family = "cauchy"), "family: 'cauchy' is not allowed")
+  refused(sn(at = "300 kg"), "at: '300 kg': alternating_stress: unit 'kg'")
+  refused(ww_joint(presets$ww_joint$frame, "V", "n", work_per_cycle = "6.2 N m", at = "soon", units = c(V = "mm^3", n = "cycles"), fit = FALSE), "at: entry 1: 'soon'")
+  refused(ww_staircase(presets$ww_staircase$frame, "S", "end", confidence = 2, units = c(S = "MPa"), fit = FALSE), "confidence: must lie between 0 and 1")
 })

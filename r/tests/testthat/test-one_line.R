@@ -63,7 +63,7 @@ test_that("staircase, joint and bearing are the studies of their files", {
   refused(ww_joint(joint, "volume", "cycles"), "work_per_cycle is missing")
   refused(ww_joint(joint, "volum", "cycles", work_per_cycle = "1 N m"), "volume: data has no column 'volum'")
   worn <- read.csv(example("bearing", "inspections.csv"))
-  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", bearing = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
+  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", unit = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
                                       depth_error = "2 um", units = c(depth_um = "um", clearance_um = "um", force_N = "N"), ..., fit = FALSE)
   two <- bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um", given = list(clearance = "30 um", pressure = "1.5 MPa"))
   expect_match(two$text, "[conditions]\ncontact = \"stationary\"\nradius = \"10 mm\"\nlength = \"20 mm\"", fixed = TRUE)
@@ -108,14 +108,30 @@ test_that("presets name columns that they do not use", {
   worn <- read.csv(example("bearing", "inspections.csv"))
   bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", contact = "stationary", radius = "10 mm", clearance = "25 um",
                                       pressure = "1 MPa", units = c(depth_um = "um"), fit = FALSE, ...)
-  expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write bearing = \"bearing\", or unused = \"bearing\" if that is so")
-  expect_length(said(bearing(bearing = "bearing")), 0)
+  expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write unit = \"bearing\", or unused = \"bearing\" if that is so")
+  expect_length(said(bearing(unit = "bearing")), 0)
 })
 
 test_that("a preset without its columns says which are missing", {
   tests <- data.frame(stress = c(400, 350, 300), cycles = c(1e5, 3e5, 1e6))
   expect_error(ww_sn(cycles ~ stress, data = tests),
-               "ww_sn(): stress is missing; it takes a data frame and names of its columns: ww_sn(data, life = , stress = , ...)", fixed = TRUE)
+               "ww_sn(): life is missing; it takes a data frame and names of its columns: ww_sn(data, stress = , life = , ...)", fixed = TRUE)
   expect_error(ww_bearing(tests, "cycles", "stress"), "ww_bearing(): contact, radius, clearance are missing", fixed = TRUE)
   expect_error(ww_staircase(), "ww_staircase(): data, stress, event are missing", fixed = TRUE)
+})
+
+test_that("arguments are those of Python", {
+  stub <- paste(readLines(file.path(source_of_project(), "python", "wearwell", "__init__.pyi")), collapse = "\n")
+  of_python <- function(name) {
+    found <- regmatches(stub, regexpr(paste0("(?s)\ndef ", name, "\\(.*?\\) ->"), stub, perl = TRUE))
+    gsub("[ :]", "", regmatches(found, gregexpr("(?m)^    [a-z_0-9]+:", found, perl = TRUE))[[1]])
+  }
+  of_r <- list(sn = ww_sn, staircase = ww_staircase, joint = ww_joint, repairable = ww_repairable, returns = ww_returns,
+               life = getS3method("ww_life", "formula"), degradation = getS3method("ww_degradation", "formula"))
+  # What the left side of a formula says, and what ww_fit() takes of all.
+  elsewhere <- c("life", "event", "entry", "y", "seed", "method", "chains", "warmup", "draws", "threads", "report", "progress")
+  for (name in names(of_r)) {
+    expect_gt(length(of_python(name)), 10)
+    expect_identical(setdiff(of_python(name), c(names(formals(of_r[[name]])), elsewhere)), character(), info = name)
+  }
 })
