@@ -9,6 +9,8 @@
 namespace wearwell::formula_model {
 namespace {
 
+constexpr double sharp = 8;  // rates of which even nodes are many
+
 // The y with y + e^y = b: Wright's omega function is e^y.
 double log_wright_omega(double b) {
   if (!(b > -700)) return b;
@@ -59,6 +61,31 @@ bool ExtremeValueUnit::fill(Nodes& nodes, const Mode& mode, double width) const 
   return true;
 }
 
+// Without failures: the normal density times a Gumbel distribution function, which rises within 1/rate.
+// Nodes are dense there: z is the place of the rise + 2 sinh(t)/rate.
+std::optional<double> ExtremeValueUnit::sharply_cut(Nodes& nodes) const {
+  constexpr double step = 0.05, stretch = 2, farthest = 40;  // farthest of t
+  const double steep = std::abs(rate), rise = log_sum / steep, per = stretch / steep;
+  double highest = -infinity;
+  nodes.count = 0;
+  for (const int way : {1, -1}) {
+    for (int n = way > 0 ? 0 : 1;; ++n) {
+      const double t = way * n * step, off = std::sinh(t), hazard = std::exp(-stretch * off);
+      const double z = rise + per * off;
+      const double log_f = std::log(std::cosh(t)) - hazard - 0.5 * z * z;
+      if (nodes.count == Nodes::most || !(std::abs(t) < farthest)) return {};
+      if (!(log_f > highest - rule_fallen)) break;
+      highest = std::max(highest, log_f);
+      nodes.z[nodes.count] = rate > 0 ? z : -z;
+      nodes.f[nodes.count] = log_f;
+      nodes.hazard[nodes.count] = hazard;
+      nodes.odd[nodes.count++] = n % 2 != 0;
+    }
+  }
+  const auto integral = settled(nodes, step * per);
+  return integral ? std::optional(*integral - half_log_two_pi) : std::nullopt;
+}
+
 std::optional<double> ExtremeValueUnit::log_integral(Nodes& nodes,
                                                      std::span<const double> gaps) const {
   // Where a normal integrand is cut off in its tail, half of the nodes do not tell how sharply: the
@@ -66,7 +93,10 @@ std::optional<double> ExtremeValueUnit::log_integral(Nodes& nodes,
   constexpr double cut = 0.7, most_of_cut = 0.5;
   const Mode about = mode();
   if (!(std::isfinite(about.z) && about.width > 0)) return {};
-  const bool is_cut = std::exp(log_sum - rate * about.z) < cut;
+  constexpr double farthest = 8.3, nothing = -37;  // of z; of the logarithm of a hazard
+  const bool is_cut =
+      std::exp(log_sum - rate * about.z) < cut && log_sum + farthest * std::abs(rate) > nothing;
+  if (is_cut && failures == 0 && std::abs(rate) > sharp) return sharply_cut(nodes);
   for (const double gap : gaps) {
     const double width = gap * about.width;
     if (is_cut && std::abs(rate) * width > most_of_cut) continue;

@@ -33,7 +33,7 @@ struct ExtremeValueUnit {
   };
 
   /// log of the integral of exp(at(z)) dz over the square root of 2 pi, by the trapezoidal rule about
-  /// the mode. Empty if it does not converge: the shape times the scatter is in the hundreds.
+  /// the mode. Empty if it does not converge.
   std::optional<double> log_integral(Nodes& nodes, std::span<const double> gaps = coarse) const;
 
  private:
@@ -42,6 +42,7 @@ struct ExtremeValueUnit {
   };
   Mode mode() const;
   bool fill(Nodes& nodes, const Mode& mode, double width) const;
+  std::optional<double> sharply_cut(Nodes& nodes) const;
 };
 
 }  // namespace wearwell::formula_model
