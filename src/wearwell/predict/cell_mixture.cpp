@@ -64,6 +64,22 @@ std::vector<double> ends_at(std::vector<std::pair<double, double>> points, doubl
   return ends;
 }
 
+// Of a cell from `low` on: its weight up to each of these places within it, and its density there.
+struct Cubic {
+  double weight, at_low, at_high;
+};
+void add_cubic(const Cubic& cell, double low, double length, std::span<const double> places,
+               double* __restrict up_to, double* __restrict density) {
+  const double weight = cell.weight, a = cell.at_low, b = cell.at_high;
+  const double square = 3 - 2 * a - b, cube = a + b - 2, scale = 1 / length;
+  const double* __restrict at = places.data();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double u = (at[k] - low) * scale;
+    up_to[k] += weight * u * (a + u * (square + u * cube));
+    density[k] += weight * scale * (a + u * (2 * square + u * 3 * cube));
+  }
+}
+
 // A probable bracket of the quantile, from a sample of the cells. Not used for few cells.
 template <class Cells>
 std::pair<double, double> about(const Cells& cells, double share) {
@@ -231,12 +247,12 @@ void CellMixture::condense(std::size_t most) {
                                       ends.begin());
     const double length = cell.high - cell.low, a = cell.at_low, b = cell.at_high;
     if (length > 0 && ends[k] == cell.low) right[k++] += cell.weight * a / length;
-    const double square = 3 - 2 * a - b, cube = a + b - 2, scale = 1 / length;
-    for (; ends[k] < cell.high; ++k) {
-      const double u = (ends[k] - cell.low) * scale;
-      up_to[k] += cell.weight * u * (a + u * (square + u * cube));
-      density[k] += cell.weight * scale * (a + u * (2 * square + u * 3 * cube));
-    }
+    const auto past = static_cast<std::size_t>(
+        std::lower_bound(ends.begin() + static_cast<std::ptrdiff_t>(k), ends.end(), cell.high) -
+        ends.begin());
+    add_cubic({cell.weight, a, b}, cell.low, length, std::span(ends).subspan(k, past - k),
+              up_to.data() + k, density.data() + k);
+    k = past;
     if (length > 0 && ends[k] == cell.high) left[k] += cell.weight * b / length;
     ended_here[k] += cell.weight;
   }

@@ -600,27 +600,29 @@ class FormulaLikelihood : public LogDensity {
  private:
   static double number(double value) { return value < infinity ? value : -infinity; }
 
-  // By a table or by sums over steps, each unit by its own rule.
+  // By a table or by sums over steps or lives, each unit by its own rule.
   static std::optional<double> quick_sum(Scratch& scratch, std::span<const double> x,
                                          std::span<double> gradient) {
-    if (!scratch.tabled && !scratch.steps) return {};
-    scratch.rows.move_to(x.data());
-    if (scratch.tabled) {
-      scratch.tabled->move();
-      return scratch.tabled->sum(gradient);
-    }
-    scratch.steps->move();
-    return scratch.steps->sum(gradient);
+    std::optional<double> sum;
+    with_quick_units(scratch, x, [&](auto& units) { sum = units.sum(gradient); });
+    return sum;
   }
   static bool quick_each(Scratch& scratch, std::span<const double> x, std::vector<double>& each) {
-    if (!scratch.tabled && !scratch.steps) return false;
+    bool done = false;
+    with_quick_units(scratch, x, [&](auto& units) { done = units.each(each); });
+    return done;
+  }
+  template <class Visit>
+  static void with_quick_units(Scratch& scratch, std::span<const double> x, const Visit& visit) {
+    if (!scratch.tabled && !scratch.steps && !scratch.extreme) return;
     scratch.rows.move_to(x.data());
-    if (scratch.tabled) {
-      scratch.tabled->move();
-      return scratch.tabled->each(each);
-    }
-    scratch.steps->move();
-    return scratch.steps->each(each);
+    const auto at = [&](auto& units) {
+      units.move();
+      visit(units);
+    };
+    if (scratch.tabled) return at(*scratch.tabled);
+    if (scratch.extreme) return at(*scratch.extreme);
+    at(*scratch.steps);
   }
 
   std::shared_ptr<const FormulaRows> rows_;
@@ -752,6 +754,7 @@ FormulaRows::FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t 
     : model_(std::move(model)), rows_(rows), columns_(bind_columns(*model_, rows)) {
   linear_ = is_linear(*model_, columns_);
   proportional_ = is_proportional(*model_, columns_);
+  extreme_ = has_extreme_values(*model_, columns_);
   if (again_and_again && !linear_) tabled_ = tabled_form(*model_, columns_);
   if (again_and_again) gathered_ = gathered_columns(*model_, columns_);
 }
@@ -786,6 +789,11 @@ const latent::UnitIntegrals& FormulaRows::integrate(const double* x) const {
   } else if (scratch.tabled) {
     scratch.tabled->move();
     latent::integrate(*scratch.tabled, scratch.integrals);
+  } else if (scratch.extreme) {
+    scratch.extreme->move();
+    if (!scratch.extreme->integrate(scratch.integrals)) {
+      latent::integrate(scratch.rows, scratch.integrals);
+    }
   } else {
     latent::integrate(scratch.rows, scratch.integrals);
   }
@@ -795,10 +803,11 @@ const latent::UnitIntegrals& FormulaRows::integrate(const double* x) const {
 FormulaRows::Scratch& FormulaRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
-    scratch.reset(new Scratch{UnitRows(*model_, columns_), {}, {}, {}, {}, {}, {}});
+    scratch.reset(new Scratch{UnitRows(*model_, columns_), {}, {}, {}, {}, {}, {}, {}});
     if (!gathered_.empty()) scratch->gathered = std::make_unique<UnitRows>(*model_, gathered_);
     if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
     if (proportional_) scratch->steps = std::make_unique<StepUnits>(scratch->rows);
+    if (extreme_) scratch->extreme = std::make_unique<ExtremeValueUnits>(scratch->rows);
     if (tabled_) {
       std::call_once(table_made_, [&] { table_ = make_table(scratch->rows, *tabled_); });
       if (table_) scratch->tabled = std::make_unique<TabledUnits>(scratch->rows, *tabled_, table_);

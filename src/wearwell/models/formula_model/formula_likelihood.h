@@ -11,6 +11,7 @@
 
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/formula_model/formula_extreme_value.h"
 #include "wearwell/models/formula_model/formula_linear.h"
 #include "wearwell/models/formula_model/formula_model.h"
 #include "wearwell/models/formula_model/formula_steps.h"
@@ -139,6 +140,8 @@ class FormulaRows {
     /// for a process whose mean is proportional to its effect
     std::unique_ptr<StepUnits> steps;
     std::unique_ptr<TabledUnits> tabled;  ///< for a curve with one random effect
+    /// for Weibull and extreme value lives with one effect on their log scale
+    std::unique_ptr<ExtremeValueUnits> extreme;
     latent::UnitIntegrals integrals;
     std::vector<double> value;
     std::unique_ptr<UnitRows>
@@ -162,7 +165,7 @@ class FormulaRows {
   std::shared_ptr<const FormulaModel> model_;
   std::size_t rows_;
   std::vector<BoundColumn> columns_, gathered_;
-  bool linear_ = false, proportional_ = false;
+  bool linear_ = false, proportional_ = false, extreme_ = false;
   std::optional<TabledForm> tabled_;
   mutable std::once_flag table_made_;
   mutable std::shared_ptr<const MismatchTable> table_;

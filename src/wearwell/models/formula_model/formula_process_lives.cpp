@@ -66,6 +66,32 @@ struct Standings {
   }
 };
 
+// Nodes of a unit's one effect that are equally spaced: every so many of them are enough for lives.
+struct EvenNodes {
+  double first = 0, step = 0, sd = 0, stride = 1;
+
+  static EvenNodes of(const std::vector<latent::Sweep>& sweeps, std::size_t unit) {
+    EvenNodes even;
+    if (sweeps.size() < 3) return even;
+    const double z[] = {sweeps[0].z[unit], sweeps[1].z[unit], sweeps[2].z[unit]};
+    if (!(std::abs(z[2] - 2 * z[1] + z[0]) < 1e-9 * std::abs(z[1] - z[0]))) return even;
+    double mean = 0, square = 0;
+    for (const latent::Sweep& each : sweeps) {
+      const double off = each.z[unit] - z[0];
+      if (!(each.weight[unit] > 0)) continue;
+      mean += each.weight[unit] * off;
+      square += each.weight[unit] * off * off;
+    }
+    even.first = z[0];
+    even.step = std::abs(z[1] - z[0]);
+    even.sd = std::sqrt(std::max(0.0, square - mean * mean));
+    return even;
+  }
+  bool keeps(double z) const {
+    return stride == 1 || std::fmod(std::round(std::abs(z - first) / step), stride) == 0;
+  }
+};
+
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
@@ -154,19 +180,47 @@ class Part {
         add_unit(u, nullptr, all[limit_.path.seen[u].unit], weight, 1);
       return;
     }
-    for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
-      const auto& seen = limit_.path.seen;
-      const bool any = std::any_of(
-          seen.begin(), seen.end(),
-          [&](const LimitedPath::SeenUnit& each) { return sweep.weight[each.unit] > least_share; });
+    const auto& seen = limit_.path.seen;
+    const std::vector<latent::Sweep>& sweeps = rows_.integrate(x).sweeps;
+    std::vector<EvenNodes> even(ahead_.size());
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+      const latent::Sweep& sweep = sweeps[i];
+      const auto counts = [&](std::size_t u) {
+        return sweep.weight[seen[u].unit] > least_share && even[u].keeps(sweep.z[seen[u].unit]);
+      };
+      bool any = false;
+      for (std::size_t u = 0; u < ahead_.size() && !any; ++u) any = counts(u);
       if (!any) continue;
       const std::vector<Standing> all = units.standings(sweep.z, limit_.column);
       for (std::size_t u = 0; u < ahead_.size(); ++u) {
         const std::size_t unit = seen[u].unit;
-        if (!(sweep.weight[unit] > least_share)) continue;
-        add_unit(u, &sweep.z[unit * effects_], all[unit], weight, sweep.weight[unit]);
+        if (i == 0 && effects_ == 1) even[u] = even_nodes(u, sweeps, all[unit]);
+        if (!counts(u)) continue;
+        const double share = even[u].stride * sweep.weight[unit];
+        add_unit(u, &sweep.z[unit * effects_], all[unit], weight, share);
       }
     }
+  }
+
+  // The first node is that of the mode. A step of h standard deviations of the effect has an error of
+  // about exp(-2 pi^2/(h^2 (1 + r^2))) if the passage moves by r of its own standard deviations over one
+  // of the effect.
+  EvenNodes even_nodes(std::size_t u, const std::vector<latent::Sweep>& sweeps,
+                       const Standing& stands) {
+    constexpr double two_square_pi = 19.739, exponent = 16;
+    const std::size_t unit = limit_.path.seen[u].unit;
+    EvenNodes even = EvenNodes::of(sweeps, unit);
+    const double distance = sign_ * (limit_.path.limit - stands.at);
+    if (!(even.step > 0) || !stands.cells.empty() || !(distance > 0)) return even;
+    const Population& population = rows_.mine().rows.population();
+    const double z[] = {even.first, even.first + even.sd};
+    const double here = population.value(rows_.model(), 0, z);
+    const double there = population.value(rows_.model(), 0, z + 1);
+    const double scale = scale_at(ahead_[u], z, limit_.path.seen[u].now);
+    const double r = std::abs(there / here - 1) / std::sqrt(scale / distance);
+    const double h = std::sqrt(two_square_pi / (exponent * (1 + r * r)));
+    if (h > 0) even.stride = std::max(1.0, std::floor(h * even.sd / even.step));
+    return even;
   }
 
   // `of_unit`: the share of these effects in the unit's posterior at a point of this weight.

@@ -7,6 +7,7 @@
 
 #include "wearwell/latent/unit_integral.h"
 #include "wearwell/models/formula_model/formula_model.h"
+#include "wearwell/models/formula_model/lognormal_unit.h"
 #include "wearwell/models/formula_model/noisy_steps.h"
 
 namespace wearwell::formula_model {
@@ -87,6 +88,8 @@ class StepUnits final : public latent::UnitTerms {
   void log_densities(const Unit& unit, const double* z, double* log_f) const;
   bool rebuild(const Unit& unit, const LaplaceApproximation& about, double width);
   std::optional<double> integral(const Unit& unit, std::span<const double> gaps);
+  std::optional<double> quick_integral(const Unit& unit, bool with_nodes);
+  std::optional<LognormalUnit> quadratic(const Unit& unit) const;
   void take(Unit& unit, double z, double weight, Moments& moments, Population& by) const;
   void give(std::size_t u, const Moments& moments);
 
@@ -100,6 +103,7 @@ class StepUnits final : public latent::UnitTerms {
   std::vector<std::size_t> alike_of_;  // of each row
   std::vector<Unit> unit_;
   Nodes nodes_;
+  std::vector<LognormalUnit::Node> kept_;
 };
 
 }  // namespace wearwell::formula_model

@@ -105,6 +105,34 @@ std::optional<double> StepUnits::integral(const Unit& unit, std::span<const doub
   return {};
 }
 
+// A unit whose log-likelihood is quadratic in q, with a lognormal effect.
+std::optional<LognormalUnit> StepUnits::quadratic(const Unit& unit) const {
+  const Population& population = rows_.population();
+  const bool lognormal = model_.effects[0].lognormal && base_ == population.middle[0];
+  if (scaled_ || !lognormal || !unit.alike.empty()) return {};
+  if (unit.by_log != 0 || unit.by_inverse != 0 || !(unit.by_square < 0)) return {};
+  const double h = -2 * unit.by_square;
+  return LognormalUnit{unit.by_one / h - 1, h, population.scatter[0]};
+}
+
+// Where the nodes are not needed all of them are evaluated at once.
+std::optional<double> StepUnits::quick_integral(const Unit& unit, bool with_nodes) {
+  if (const auto form = quadratic(unit)) {
+    if (const auto log_integral = form->log_integral(with_nodes ? &kept_ : nullptr);
+        log_integral && (!with_nodes || kept_.size() <= Nodes::most)) {
+      nodes_.count = 0;
+      for (std::size_t i = 0; with_nodes && i < kept_.size(); ++i) {
+        nodes_.z[i] = kept_[i].z;
+        nodes_.f[i] = kept_[i].weight;
+        ++nodes_.count;
+      }
+      const double top = unit.constant + 0.5 * unit.by_one * (unit.by_one / form->h);
+      return top + *log_integral - half_log_two_pi;
+    }
+  }
+  return integral(unit, rule_gaps);
+}
+
 std::optional<double> StepUnits::sum(std::span<double> gradient) {
   double sum = 0;
   Population by;
@@ -112,7 +140,7 @@ std::optional<double> StepUnits::sum(std::span<double> gradient) {
   for (std::size_t u = 0; u < unit_.size(); ++u) {
     Unit& unit = unit_[u];
     if (!(unit.constant > -infinity)) return -infinity;
-    const auto log_integral = integral(unit, rule_gaps);
+    const auto log_integral = quick_integral(unit, !gradient.empty());
     if (!log_integral) return {};
     sum += *log_integral;
     if (gradient.empty()) continue;
@@ -190,7 +218,7 @@ bool StepUnits::each(std::vector<double>& log_likelihood) {
   log_likelihood.assign(unit_.size(), -infinity);
   for (std::size_t u = 0; u < unit_.size(); ++u) {
     if (!(unit_[u].constant > -infinity)) continue;
-    const auto log_integral = integral(unit_[u], rule_gaps);
+    const auto log_integral = quick_integral(unit_[u], false);
     if (!log_integral) return false;
     log_likelihood[u] = *log_integral;
   }
