@@ -55,6 +55,19 @@ TEST_F(NewLifeTables, UnitsWithDatesOfSaleAndReturn) {
   EXPECT_NEAR(middle("slope"), 1.2, 0.5);
 }
 
+// One cell tells for its column which number is the day; where none does, the column is refused.
+TEST_F(NewLifeTables, DatesWithTheDayFirst) {
+  write("days.csv",
+        "serial,sale date,return date\n1,05/01/2024,\n2,03/02/2024,01/05/2024\n"
+        "3,25/03/2024,13/06/2024\n4,01/04/2024,\n");
+  EXPECT_EQ(here("new --from days.csv days").exit_code, 0);
+  EXPECT_THAT(content("days/study.toml"), HasSubstr("until    = \"2024-06\""));
+  write("either.csv", "serial,sale date,return date\n1,05/01/2024,\n2,03/02/2024,13/05/2024\n");
+  EXPECT_THAT(refused("--from either.csv refused"),
+              AllOf(HasSubstr("row 1, column 'sale date': '05/01/2024' has two readings"),
+                    HasSubstr("%d/%m/%Y and %m/%d/%Y"), HasSubstr("write 2024-01-31")));
+}
+
 // A cell that is no date is named, with what is allowed; the same of a unit without a date of sale.
 TEST_F(NewLifeTables, DatesThatCannotBeRead) {
   const auto refused = [&](const std::string& rows) {

@@ -80,15 +80,15 @@ void add_names(std::vector<std::string>& names, const std::vector<std::string>& 
 }
 
 // A period of one row, of the kind of `until`.
-Period unit_period(const Table& units, const std::string& column, std::size_t row,
+Period unit_period(const Table& units, const PeriodColumn& column, std::size_t row,
                    const Period& until, std::string& prefix) {
-  const auto period = period_in(cell_word(units.column(column), row));
+  const auto period = column.at(row);
   if (!period || period->calendar != until.calendar)
     throw InputError(fmt::format(
-        "{} is not a {}: use {}", quoted_place(units, column, row),
+        "{} is not a {}: use {}", quoted_place(units, column.name(), row),
         until.calendar ? "month or day, as `until` is" : "number of a period, as `until` is",
         allowed_months));
-  require_kind(units, column, row, *period, prefix);
+  require_kind(units, column.name(), row, *period, prefix);
   return *period;
 }
 
@@ -96,9 +96,11 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const ModeW
                      const Period& until) {
   UnitCounts counts;
   std::string prefix = until.prefix;
+  const PeriodColumn sales_of(units.column(columns.sold)),
+      returns_of(units.column(columns.returned));
   for (std::size_t row = 0; row < units.rows; ++row) {
     const double number = columns.quantity.empty() ? 1 : units_in(units, columns.quantity, row, -1);
-    const Period sold = unit_period(units, columns.sold, row, until, prefix);
+    const Period sold = unit_period(units, sales_of, row, until, prefix);
     counts.rows += number;
     if (sold.number > until.number) {
       counts.late_sales += number;
@@ -109,7 +111,7 @@ UnitCounts counts_of(const Table& units, const UnitColumns& columns, const ModeW
     const bool came_back = !cell_word(units.column(columns.returned), row).empty();
     const std::vector<std::string> modes = modes_of_unit(units, columns, words, row, came_back);
     if (!came_back) continue;
-    const Period returned = unit_period(units, columns.returned, row, until, prefix);
+    const Period returned = unit_period(units, returns_of, row, until, prefix);
     if (returned.number < sold.number)
       throw InputError(fmt::format("{}: a return before the sale, '{}'",
                                    quoted_place(units, columns.returned, row),

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
 #include "wearwell/base/contains.h"
 #include "wearwell/base/error.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/input/date_text.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/status_words.h"
 
@@ -32,15 +36,35 @@ std::optional<Period> period_in(const std::string& text) {
   return Period{false, std::stoi(text.substr(begin)), text.substr(0, begin)};
 }
 
+PeriodColumn::PeriodColumn(const Column& column) : column_(column) {
+  const std::vector<std::string> layouts = date_layouts(column);
+  // A year of two digits may be the day.
+  if (layouts.size() != 1 || layouts.front().find("%y") != std::string::npos) return;
+  const bool all = std::all_of(
+      column.text.begin(), column.text.end(),
+      [&](const std::string& cell) { return is_blank(cell) || date_in(cell, layouts.front()); });
+  if (all) layout_ = layouts.front();
+}
+
+std::optional<Period> PeriodColumn::at(std::size_t row) const {
+  using namespace std::chrono;
+  const std::string cell = cell_word(column_, row);
+  const auto date = layout_.empty() ? std::nullopt : date_in(cell, layout_);
+  if (!date) return period_in(cell);
+  const year_month_day day{floor<days>(sys_seconds(seconds(*date)))};
+  return Period{true, 12 * static_cast<int>(day.year()) +
+                          static_cast<int>(static_cast<unsigned>(day.month())) - 1};
+}
+
 std::string quoted_place(const Table& table, const std::string& column, std::size_t row) {
   return fmt::format("{}: '{}'", place(table, column, row), cell_word(table.column(column), row));
 }
 
-Period required_period(const Table& table, const std::string& column, std::size_t row) {
-  const auto period = period_in(cell_word(table.column(column), row));
+Period required_period(const Table& table, const PeriodColumn& column, std::size_t row) {
+  const auto period = column.at(row);
   if (!period)
     throw InputError(fmt::format("{} is not a period of sale: use {}",
-                                 quoted_place(table, column, row), allowed_months));
+                                 quoted_place(table, column.name(), row), allowed_months));
   return *period;
 }
 

@@ -24,11 +24,24 @@ struct Period {
 /// The period that a heading or a cell names; empty if it names none.
 std::optional<Period> period_in(const std::string& text);
 
+/// The periods that the cells of a column name. Where one layout alone fits all its dates (one of them is 25/06/2025), they are
+/// read by it, 01/02/2024 too.
+class PeriodColumn {
+ public:
+  explicit PeriodColumn(const Column& column);
+  const std::string& name() const { return column_.name; }
+  std::optional<Period> at(std::size_t row) const;
+
+ private:
+  const Column& column_;
+  std::string layout_;  // of `strptime`; empty unless one alone fits
+};
+
 /// "FILE, row 3, column 'sold': 'May'".
 std::string quoted_place(const Table& table, const std::string& column, std::size_t row);
 
 /// The period of sale in a cell. Throws InputError that names the cell.
-Period required_period(const Table& table, const std::string& column, std::size_t row);
+Period required_period(const Table& table, const PeriodColumn& column, std::size_t row);
 
 /// Throws InputError if this period of a table is numbered in another way than those before: weeks beside months. A number
 /// alone takes the kind of the others. `prefix` is theirs.

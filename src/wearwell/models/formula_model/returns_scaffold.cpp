@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/input/date_text.h"
 #include "wearwell/input/month_text.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/input/status_words.h"
@@ -89,13 +90,14 @@ struct Dates {
 // Empty unless more cells hold dates than anything else.
 std::optional<Dates> dates_in(const Table& table, const Column& column) {
   Dates dates;
+  const PeriodColumn periods(column);
   for (std::size_t row = 0; row < table.rows; ++row) {
     const std::string cell = cell_word(column, row);
     if (cell.empty()) {
       if (!dates.empty_row) dates.empty_row = row;
       continue;
     }
-    const auto period = period_in(cell);
+    const auto period = periods.at(row);
     if (!period || !period->calendar) {
       if (dates.others++ == 0) dates.other_row = row;
       continue;
@@ -125,10 +127,22 @@ void require_dates(const Table& table, const Column& column, const Dates& dates,
                                  place(table, column.name, *dates.empty_row)));
 }
 
+// Day and month can be exchanged in all cells of the column.
+void refuse_two_readings(const Table& table, const Column& column) {
+  const std::vector<std::string> layouts = date_layouts(column);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (!date_in(cell_word(column, row), layouts.front())) continue;
+    throw InputError(
+        fmt::format("{} has two readings, {} and {}, and no cell of the column tells which: write "
+                    "2024-01-31, or state the layout with a query (data.sql, strptime)",
+                    quoted_place(table, column.name, row), layouts[0], layouts[1]));
+  }
+}
+
 // One row for each unit: a date of sale, and a date of return that is empty for units still in use.
 std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
   const Table& table = roles.table();
-  const Column *sold = nullptr, *returned = nullptr;
+  const Column *sold = nullptr, *returned = nullptr, *doubtful = nullptr;
   Dates sales, returns;
   std::vector<std::string> unread;
   for (const Column& each : table.columns) {
@@ -141,11 +155,14 @@ std::optional<Scaffold> first_units_study(ColumnRoles& roles) {
     } else if (dates && may_be_return) {
       returned = &each;
       returns = *dates;
+    } else if ((may_be_sale || may_be_return) && date_layouts(each).size() > 1) {
+      (may_be_sale ? sold : returned) = doubtful = &each;
     } else {
       unread.push_back(each.name);
     }
   }
   if (!sold || !returned) return {};
+  if (doubtful) refuse_two_readings(table, *doubtful);
   require_dates(table, *sold, sales, true);
   require_dates(table, *returned, returns, false);
   const int last = std::max(sales.last, returns.last);

@@ -101,7 +101,7 @@ void require_last_column(const Table& table, const Heading& last) {
                   table.source, last.column->name));
 }
 
-Period period_of_sale(const Table& table, const std::string& column, std::size_t row,
+Period period_of_sale(const Table& table, const PeriodColumn& column, std::size_t row,
                       const Heading& like) {
   const Period sale = required_period(table, column, row);
   if (sale.is_like(like.period) || (!sale.calendar && !like.period.calendar)) return sale;
@@ -109,9 +109,9 @@ Period period_of_sale(const Table& table, const std::string& column, std::size_t
     throw InputError(fmt::format(
         "{} is a month, but the column '{}' a number: write months of return as headings. If the "
         "columns are months in service (0, 1, 2 ...), shift each row to the month of return",
-        quoted_place(table, column, row), like.column->name));
+        quoted_place(table, column.name(), row), like.column->name));
   throw InputError(fmt::format("{} is a number, but the column '{}' a month",
-                               quoted_place(table, column, row), like.column->name));
+                               quoted_place(table, column.name(), row), like.column->name));
 }
 
 // Adds the returns of a row to those of its period of sale; those of the row alone.
@@ -209,8 +209,9 @@ std::map<int, std::vector<std::size_t>> rows_of_periods(const Table& table,
                                                         const std::vector<Heading>& headings) {
   std::map<int, std::vector<std::size_t>> rows;
   std::string prefix = headings.front().period.prefix;
+  const PeriodColumn sold(table.column(columns.period));
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const Period period = period_of_sale(table, columns.period, row, headings.front());
+    const Period period = period_of_sale(table, sold, row, headings.front());
     require_kind(table, columns.period, row, period, prefix);
     std::vector<std::size_t>& of = rows[period.number];
     if (!of.empty() && columns.mode.empty())
@@ -258,8 +259,9 @@ std::optional<TriangleColumns> triangle_columns(const Table& table) {
       continue;
     }
     std::size_t periods = 0;
+    const PeriodColumn cells(each);
     for (std::size_t row = 0; row < table.rows; ++row) {
-      const auto period = period_in(cell_word(each, row));
+      const auto period = cells.at(row);
       // A quantity is a number, too.
       periods += period && period->calendar == headings[0].period.calendar &&
                  (period->calendar || (period->number >= first - 1 && period->number <= last));
@@ -338,8 +340,9 @@ std::vector<std::pair<int, int>> read_planned_sales(const TomlReader& keys, cons
   const std::string period_column = heading("sold", 0), quantity_column = heading("quantity", 1);
   std::string prefix = names.prefix;
   std::vector<std::pair<int, int>> planned;
+  const PeriodColumn sold(table.column(period_column));
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const Period period = required_period(table, period_column, row);
+    const Period period = required_period(table, sold, row);
     if (period.calendar != names.calendar)
       throw InputError(fmt::format("{} must be {}, as in the returns",
                                    quoted_place(table, period_column, row),
