@@ -13,7 +13,7 @@ import pytest
 
 import wearwell as ww
 from conftest import source
-from wearwell import _marks
+from wearwell._impl import marks as marks_module
 
 pumps = pd.read_csv(os.path.join(os.path.dirname(__file__), "peers", "pumps.csv"))
 
@@ -73,10 +73,10 @@ def test_pictures_without_scripts_hold_every_point(name):
         page = plot.to_html()
         tree = ElementTree.fromstring(page[page.index("<svg"):page.index("</svg>") + 6])
         assert "nan" not in page and "inf" not in page.lower().replace("information", "")
-        marks, across, up = _marks.marks_of(plot._figures[0]["specification"])
+        marks, across, up = marks_module.marks_of(plot._figures[0]["specification"])
         points = sum(sum(map(math.isfinite, mark.columns["y"])) for mark in marks if mark.kind == "point" and mark.shape == "circle")
         assert len(tree.findall(".//{*}circle")) == points
-        assert across.low < across.high and up.low < up.high and (len(_marks.ticks_of(across)) >= 2 or not across.numbers)
+        assert across.low < across.high and up.low < up.high and (len(marks_module.ticks_of(across)) >= 2 or not across.numbers)
         clips.add(tree.find(".//{*}clipPath").get("id"))
     assert len(clips) == len([each for each in fit.plots if fit.plot(each).figures == [each]])
 
@@ -118,10 +118,10 @@ def test_matplotlib_gets_the_same_numbers():
 
 
 def test_numbers_of_axes():
-    assert [_marks.number_text(each) for each in (0, 0.05, 1e-6, 2e7, 12345)] == ["0", "0.05", "10⁻⁶", "2×10⁷", "12345"]
-    linear = _marks.Axis("", False, 0.0, 10.3, None, True)
-    assert [at for at, _ in _marks.ticks_of(linear)] == [0, 2, 4, 6, 8, 10]
-    assert [label for _, label in _marks.ticks_of(linear._replace(logarithmic=True, low=0.9, high=1100.0))] == ["1", "10", "100", "1000"]
+    assert [marks_module.number_text(each) for each in (0, 0.05, 1e-6, 2e7, 12345)] == ["0", "0.05", "10⁻⁶", "2×10⁷", "12345"]
+    linear = marks_module.Axis("", False, 0.0, 10.3, None, True)
+    assert [at for at, _ in marks_module.ticks_of(linear)] == [0, 2, 4, 6, 8, 10]
+    assert [label for _, label in marks_module.ticks_of(linear._replace(logarithmic=True, low=0.9, high=1100.0))] == ["1", "10", "100", "1000"]
 
 
 # ---- Lives.
