@@ -29,7 +29,6 @@ namespace {
 // Without BOOLEAN, because a column with only the letter F (failures) would be read as false.
 // Without BIGINT, because 2.5 after thousands of whole numbers would be read as 3.
 constexpr const char* csv_types = "['DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
-
 // Other dates stay text: 01/02/2024 would silently be the first of February.
 constexpr const char* csv_dates = "dateformat = '%Y-%m-%d', timestampformat = '%Y-%m-%d %H:%M:%S'";
 

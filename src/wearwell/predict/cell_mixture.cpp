@@ -34,52 +34,6 @@ double derivative(std::span<const double> value, std::size_t i, std::size_t firs
   return i + 1 <= last ? y(i + 1) - y(i) : y(i) - y(i - 1);
 }
 
-// Shares between 0 and 1, ascending: half of them evenly spaced, half with evenly spaced logits.
-std::vector<double> shares_of_ends(std::size_t count) {
-  const double last_logit = std::log(1e9);
-  std::vector<double> shares;
-  for (std::size_t k = 0; k < count / 2; ++k) {
-    const double u = (static_cast<double>(k) + 0.5) / static_cast<double>(count / 2);
-    shares.push_back(u);
-    shares.push_back(1 / (1 + std::exp(last_logit * (1 - 2 * u))));
-  }
-  std::sort(shares.begin(), shares.end());
-  return shares;
-}
-
-// Of points with weights, those where the weight up to them first reaches each share.
-std::vector<double> ends_at(std::vector<std::pair<double, double>> points, double all,
-                            const std::vector<double>& shares) {
-  std::sort(points.begin(), points.end());
-  std::vector<double> ends = {points.front().first};
-  double sum = 0;
-  auto share = shares.begin();
-  for (const auto& [place, weight] : points) {
-    sum += weight;
-    if (share == shares.end() || sum < *share * all) continue;
-    while (share != shares.end() && sum >= *share * all) ++share;
-    if (place > ends.back()) ends.push_back(place);
-  }
-  if (points.back().first > ends.back()) ends.push_back(points.back().first);
-  return ends;
-}
-
-// Of a cell from `low` on: its weight up to each of these places within it, and its density there.
-struct Cubic {
-  double weight, at_low, at_high;
-};
-void add_cubic(const Cubic& cell, double low, double length, std::span<const double> places,
-               double* __restrict up_to, double* __restrict density) {
-  const double weight = cell.weight, a = cell.at_low, b = cell.at_high;
-  const double square = 3 - 2 * a - b, cube = a + b - 2, scale = 1 / length;
-  const double* __restrict at = places.data();
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const double u = (at[k] - low) * scale;
-    up_to[k] += weight * u * (a + u * (square + u * cube));
-    density[k] += weight * scale * (a + u * (2 * square + u * 3 * cube));
-  }
-}
-
 // A probable bracket of the quantile, from a sample of the cells. Not used for few cells.
 template <class Cells>
 std::pair<double, double> about(const Cells& cells, double share) {
@@ -210,68 +164,6 @@ double CellMixture::mean() const {
     all += cell.weight;
   }
   return sum / all;
-}
-
-void CellMixture::condense(std::size_t most) {
-  if (cells_.size() <= most + 2) return;
-  double never = 0, ended = 0, lowest = infinity, highest = -infinity;
-  std::vector<std::pair<double, double>> points;
-  points.reserve(cells_.size() + 2);
-  for (const Cell& cell : cells_) {
-    if (std::isnan(cell.low) || std::isnan(cell.high) || cell.low == -infinity) return;
-    if (cell.high == infinity) {
-      never += cell.weight;
-      continue;
-    }
-    ended += cell.weight;
-    points.emplace_back(0.5 * cell.low + 0.5 * cell.high, cell.weight);
-    lowest = std::min(lowest, cell.low);
-    highest = std::max(highest, cell.high);
-  }
-  std::vector<Cell> few;
-  if (never > 0) few.push_back({.weight = never, .low = infinity, .high = infinity});
-  if (points.empty()) {
-    cells_ = std::move(few);
-    return;
-  }
-  points.emplace_back(lowest, 0);
-  points.emplace_back(highest, 0);
-  const std::vector<double> ends = ends_at(std::move(points), ended, shares_of_ends(most - 1));
-  // Weight up to each end and density there, of cells that reach beyond it; weight of the cells that
-  // end there; densities of cells that only begin (right) or end (left) there.
-  const std::size_t n = ends.size();
-  std::vector<double> up_to(n), density(n), ended_here(n), left(n), right(n);
-  for (const Cell& cell : cells_) {
-    if (cell.high == infinity) continue;
-    auto k = static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), cell.low) -
-                                      ends.begin());
-    const double length = cell.high - cell.low, a = cell.at_low, b = cell.at_high;
-    if (length > 0 && ends[k] == cell.low) right[k++] += cell.weight * a / length;
-    const auto past = static_cast<std::size_t>(
-        std::lower_bound(ends.begin() + static_cast<std::ptrdiff_t>(k), ends.end(), cell.high) -
-        ends.begin());
-    add_cubic({cell.weight, a, b}, cell.low, length, std::span(ends).subspan(k, past - k),
-              up_to.data() + k, density.data() + k);
-    k = past;
-    if (length > 0 && ends[k] == cell.high) left[k] += cell.weight * b / length;
-    ended_here[k] += cell.weight;
-  }
-  double sum = 0;
-  for (std::size_t k = 0; k < n; ++k) up_to[k] += sum += ended_here[k];
-  if (up_to[0] > 0) few.push_back({.weight = up_to[0], .low = ends[0], .high = ends[0]});
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    constexpr double most_relative = 3;  // keeps the cubic monotone
-    Cell cell{.weight = up_to[k + 1] - up_to[k], .low = ends[k], .high = ends[k + 1]};
-    if (!(cell.weight > 0)) continue;
-    const double mean = cell.weight / (cell.high - cell.low);
-    const auto relative = [&](double at) {
-      return static_cast<float>(std::clamp(at / mean, 0.0, most_relative));
-    };
-    cell.at_low = relative(density[k] + right[k]);
-    cell.at_high = relative(density[k + 1] + left[k + 1]);
-    few.push_back(cell);
-  }
-  cells_ = std::move(few);
 }
 
 CellMixture CellMixture::beyond(double x) const {
