@@ -29,6 +29,12 @@ wearwell_longest(100
   "cli: Tutorial.PrintsWhatItShows/how_to_fleet"
   "cli: Tutorial.PrintsWhatItShows/how_to_failure_modes")
 wearwell_longest(70
+  "numbers: Processors"
+  "cli: NewLifeTables"
+  "cli: FatigueStudy"
+  "cli: Generated"
+  "python: workbench"
+  "monitor: Stores"
   "python: plan"
   "python: types"
   "python: update"
@@ -46,6 +52,19 @@ wearwell_longest(70
   "cli: Tutorial.PrintsWhatItShows/reference_clutch"
   "cli: Tutorial.PrintsWhatItShows/tutorials_several_units")
 wearwell_longest(40
+  "fleet: DuckdbFleet"
+  "cli: FitCommand"
+  "cli: FatigueLife"
+  "cli: NewFromTables"
+  "cli: Clutch"
+  "cluster: Cluster"
+  "cluster: ClickhouseFleet"
+  "cluster: ClickhouseShards"
+  "infer: SamplerOnKnown"
+  "in_service: ReadingsFleet"
+  "monitor_program: Programs"
+  "monitor_program: BrokerPrograms"
+  "python: life_populations"
   "python: answers"
   "python: fits"
   "python: netcdf"
