@@ -95,4 +95,8 @@ bool is_missing_mark(std::string_view cell) {
   return is_one_of(marks, trimmed(cell));
 }
 
+bool is_absent(std::string_view cell) {
+  return is_blank(cell) || is_missing_mark(cell);
+}
+
 }  // namespace wearwell

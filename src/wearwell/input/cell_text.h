@@ -22,4 +22,7 @@ bool is_blank(std::string_view cell);
 /// Whether a cell marks a missing value: "NA", "n/a", "#NV", "-".
 bool is_missing_mark(std::string_view cell);
 
+/// Whether a cell has no value: it is blank or marks a missing one.
+bool is_absent(std::string_view cell);
+
 }  // namespace wearwell

@@ -85,10 +85,6 @@ std::vector<std::string> known_layouts() {
   return layouts;
 }
 
-bool is_absent(const std::string& cell) {
-  return is_blank(cell) || is_missing_mark(cell);
-}
-
 bool begins_with_digit(const std::string& cell) {
   const std::string_view text = without_blanks(cell);
   return !text.empty() && text.front() >= '0' && text.front() <= '9';

@@ -78,7 +78,7 @@ std::optional<CellValue> readable_cell(const Table&, const Column& column, std::
   if (!column.doubt.empty()) return {};
   if (column.is_number) return CellValue{column.numbers[index]};
   const std::string& text = column.text[index];
-  if (is_blank(text) || is_missing_mark(text)) return CellValue();
+  if (is_absent(text)) return CellValue();
   const auto found = cell_text(text);
   CellValue value;
   if (found) value.sign = found->sign;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/predicate.hpp>
 #include <optional>
 #include <set>
 #include <vector>
@@ -25,13 +25,10 @@ struct DateColumn {
   std::vector<std::optional<long long>> seconds;  // of each row; empty where the cell is
 };
 
+// As `trim` of SQL.
 std::string without_blanks(const std::string& cell) {
   const std::size_t begin = cell.find_first_not_of(' ');
   return begin == cell.npos ? "" : cell.substr(begin, cell.find_last_not_of(' ') + 1 - begin);
-}
-
-bool is_absent_date(const std::string& cell) {
-  return is_blank(cell) || is_missing_mark(cell);
 }
 
 // "%d.%m.%Y" -> "day.month.year".
@@ -65,7 +62,7 @@ DateColumn dates_in(const Table& table, const std::string& heading, const std::s
   DateColumn dates{&column, layout, {}};
   for (std::size_t row = 0; row < table.rows; ++row) {
     dates.seconds.push_back(date_in(column.text[row], layout));
-    if (!dates.seconds.back() && !is_absent_date(column.text[row]))
+    if (!dates.seconds.back() && !is_absent(column.text[row]))
       throw refused_cell(table, column, row,
                          fmt::format("{} is not a date of the form {}", shown_cell(column, row),
                                      layout_words(layout)));
@@ -133,15 +130,10 @@ std::string difference_sql(const std::string& begin, const std::string& end, boo
 
 // A heading that the table does not have yet.
 std::string new_heading(const Table& table, const std::string& name, const std::string& of) {
-  const auto is_same = [](const std::string& a, const std::string& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-      return std::tolower(x) == std::tolower(y);
-    });
-  };
+  using namespace boost::algorithm;
   const bool taken =
       std::any_of(table.columns.begin(), table.columns.end(), [&](const Column& each) {
-        return is_same(each.name, name) ||
-               is_same(each.name.substr(0, name.size() + 1), name + " ");
+        return iequals(each.name, name) || istarts_with(each.name, name + " ");
       });
   return taken ? fmt::format("{} {}", of, name) : name;
 }

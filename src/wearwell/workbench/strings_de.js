@@ -31,7 +31,7 @@ wearwell.languages.de = {
   unitInText: (line) => `Die Einheit ist in Zeile ${line} der Studie selbst zu ändern.`,
   typeOf: (column) => `Typ von ${column}`, asText: 'Text', asDates: 'Datum …', dateParts: {d: 'Tag', m: 'Monat', Y: 'Jahr', y: 'Jahr', H: 'Stunde', M: 'Minute', S: 'Sekunde'},
   datesOf: (column) => `${column} enthält Datumsangaben`, datesLead: 'Eine Studie rechnet mit Zeiten: Die Spalte wird zur Zeit seit einem anderen Datum. Die Abfrage dazu wird in die Studie geschrieben.',
-  dateLayout: 'Schreibweise der Datumsangaben', chooseLayout: 'Bitte wählen: mehrere Lesarten sind möglich', chooseLayoutFirst: (column) => `Die Datumsangaben von ${column} lassen sich auf mehrere Arten lesen. Wählen Sie ihre Schreibweise.`,
+  dateLayout: 'Schreibweise der Datumsangaben', chooseLayout: 'Mehrdeutig: bitte wählen', chooseLayoutFirst: (column) => `Die Datumsangaben von ${column} lassen sich auf mehrere Arten lesen. Wählen Sie ihre Schreibweise.`,
   timeSince: 'Zeit seit', sinceFirst: 'dem ersten Datum der Tabelle', sinceFirstOf: (column) => `dem ersten Datum je ${column}`,
   inUseUntil: (n) => `${n} Zellen sind leer: diese Einheiten waren in Betrieb bis`, readTimes: 'Als Zeiten lesen',
   byQuery: 'Eine Abfrage bildet diese Spalten; in der Studie steht sie als data.sql.', withoutQuery: 'Spalten wie in der Datei lesen',

@@ -31,7 +31,7 @@ wearwell.languages.en = {
   unitInText: (line) => `The unit is to be changed in line ${line} of the study itself.`,
   typeOf: (column) => `Type of ${column}`, asText: 'text', asDates: 'dates …', dateParts: {d: 'day', m: 'month', Y: 'year', y: 'year', H: 'hour', M: 'minute', S: 'second'},
   datesOf: (column) => `${column} holds dates`, datesLead: 'A study computes with times: the column becomes the time since another date. The query that does it is written into the study.',
-  dateLayout: 'How the dates are written', chooseLayout: 'Choose: they can be read in several ways', chooseLayoutFirst: (column) => `The dates of ${column} can be read in several ways. Choose how they are written.`,
+  dateLayout: 'How the dates are written', chooseLayout: 'Two readings: choose one', chooseLayoutFirst: (column) => `The dates of ${column} can be read in several ways. Choose how they are written.`,
   timeSince: 'Time since', sinceFirst: 'the first date of the table', sinceFirstOf: (column) => `the first date of each ${column}`,
   inUseUntil: (n) => `${n} cells are empty: such units were in use until`, readTimes: 'Read as times',
   byQuery: 'A query makes these columns; the study has it as data.sql.', withoutQuery: 'Read the columns as the file has them',
