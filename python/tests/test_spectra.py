@@ -188,7 +188,7 @@ def test_errors_of_design_and_spectrum(fitted, tmp_path):
 
 
 def test_interrupt_stops_a_sum_of_damage(fitted):
-    """The whole takes 4 s of processor."""
+    """The rest takes 1.2 s of processor or more; a stop 0.01 to 0.15, also beside other work."""
     sent = []
 
     def interrupt():
@@ -198,4 +198,4 @@ def test_interrupt_stops_a_sum_of_damage(fitted):
     threading.Timer(0.2, interrupt).start()
     with pytest.raises(KeyboardInterrupt):
         fitted[0].damage({"range [MPa]": [900.0], "mean [MPa]": [0.0], "cycles": [1.0]})
-    assert time.process_time() - sent[0] < 2  # half of the whole: on a busy machine the main thread hears of it late
+    assert time.process_time() - sent[0] < 0.8

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/predict/cell_mixture.h"
 
@@ -86,6 +87,7 @@ void CellMixture::condense(std::size_t most) {
   const std::size_t n = ends.size();
   std::vector<double> up_to(n), density(n), ended_here(n), left(n), right(n);
   for (const Cell& cell : cells_) {
+    check_stop();
     if (cell.high == infinity) continue;
     auto k = static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), cell.low) -
                                       ends.begin());

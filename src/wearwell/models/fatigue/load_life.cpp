@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/monitor.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/predict/cell_mixture.h"
@@ -172,6 +173,7 @@ void add_lives(const std::vector<Drawn>& drawn, const LoadQuestion& question, Lo
   CellMixture next, damage;
   std::vector<double> blocks, of_one;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
+    check_stop();
     const double shift = log10_sum(question.sum, i, 0);
     const double weight = drawn[i].weight / static_cast<double>(drawn[i].items.size());
     for (const std::vector<double>& item : drawn[i].items) {
