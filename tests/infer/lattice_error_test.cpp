@@ -116,6 +116,7 @@ void compare(const std::string& what, const Goodman& study, int panels) {
   ASSERT_EQ(exact.failure, "") << what;
   const Four of_mean = (exact.mean.array() - truth.mean).abs() / truth.sd;
   const Four of_square = ((exact.sd.array() / truth.sd).square() - 1).abs();
+  EXPECT_LE(exact.error, 1e-5) << what;
   EXPECT_LE(of_mean.maxCoeff(), exact.error) << what << ": " << of_mean.transpose();
   EXPECT_LE(of_square.maxCoeff(), exact.error) << what << ": " << of_square.transpose();
 }
@@ -140,7 +141,8 @@ TEST(LatticeError, Springs) {
   compare("case 2", springs(9), 12);
 }
 
-// Bounds from half a standard deviation to many about what made the lives.
+// Bounds from half a standard deviation to many about what made the lives. Even steps would leave a
+// mass of 0.0015 beyond the lattice of the first.
 TEST(LatticeError, LifeTestsUnderMeanStressThatBoundsCut) {
   for (const std::uint64_t seed : {1, 3, 4}) {
     Rng rng(20261123, seed);
@@ -161,7 +163,7 @@ TEST(LatticeError, LifeTestsUnderMeanStressThatBoundsCut) {
     study.b = {b - reach(0.05), b + reach(0.05)};
     study.strength = {std::max(log10_sut - reach(0.25), 9.01), log10_sut + reach(2)};
     study.sigma = {sigma * (0.1 + 0.4 * rng.uniform()), sigma * (1.5 + 3 * rng.uniform())};
-    compare(fmt::format("study {}", seed), study, 12);
+    compare(fmt::format("study {}", seed), study, 16);
   }
 }
 

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "wearwell/base/monitor.h"
 #include "wearwell/bayes/posterior_along.h"
@@ -43,6 +45,22 @@ constexpr int farthest = 3000;  // steps along an axis; with more, the mass is c
 constexpr double widest_reported = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 constexpr double longest_on_line = 0.7;
+
+// Coordinates of an outer axis: v, in which steps are even, and u of the chart. With a finite `far`
+// steps in u are nearly even about the center and grow exponentially beyond, so that long tails end
+// after few lines.
+struct Axis {
+  double center = 0, far = INFINITY;
+  struct Place {
+    double u, slope;
+  };
+  Place at(double v) const {
+    if (std::isinf(far)) return {center + v, 1};
+    const double e = std::exp(v / far);
+    return {center + 0.5 * far * (e - 1 / e), 0.5 * (e + 1 / e)};
+  }
+};
+using Axes = std::array<Axis, outer>;
 
 std::uint64_t key(const Index& index) {
   std::uint64_t packed = 0;
@@ -150,10 +168,9 @@ ErrorEstimate beyond_lattice(const Terms& quarter, const Terms& half) {
 
 class Lattice {
  public:
-  /// Filled down to `log_negligible` relative to the highest density.
-  Lattice(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
-          double log_negligible)
-      : posterior_(posterior), chart_(chart), steps_(steps), log_negligible_(log_negligible) {
+  Lattice(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
+          const Steps& steps)
+      : posterior_(posterior), chart_(chart), axes_(axes), steps_(steps) {
     reference_ = density(place({}, -1, 0, 0));
   }
   Lattice(const Lattice&) = delete;
@@ -166,55 +183,57 @@ class Lattice {
                       });
   }
 
-  // Empty, or the reason for stopping.
-  std::string fill(long most, Progress* progress) {
-    constexpr long most_kept = 1'500'000;  // some tens of megabytes
-    std::vector<Line> ring(1);
-    known_.emplace(key(ring.front().index), 0);
+  // Down to `log_negligible` relative to the highest density; what is there stays. Empty, or the
+  // reason for stopping.
+  std::string fill(double log_negligible, long most, Progress* progress) {
+    log_negligible_ = log_negligible;
+    std::vector<Line> ring;
+    if (lines_.empty()) {
+      ring.resize(1);
+      known_.emplace(key(ring.front().index), 0);
+    } else {
+      lengthen(progress);
+      if (const std::string failure = surround(0, ring); !failure.empty()) return failure;
+    }
     while (!ring.empty()) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ring.size(), 8), [&](const auto& part) {
-        Sides sides;
-        for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i], sides);
-      });
-      const long nodes = nodes_;
-      for (const Line& line : ring) {
-        nodes_ += static_cast<long>(line.values.size());
-        highest_ = std::max(highest_, line.highest);
-      }
-      if (progress) progress->advance(nodes_ - nodes);
       const std::size_t before = lines_.size();
-      std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
+      add(std::move(ring), progress);
       ring.clear();
       if (highest_ > 300 && !set_reference()) return "the density is unbounded";
-      for (std::size_t i = before; i < lines_.size(); ++i) {
-        const Line& line = lines_[i];
-        if (line.highest < highest_ + log_negligible_) continue;
-        for (int a = 0; a < outer; ++a) {
-          for (const int way : {-1, 1}) {
-            Line next;
-            next.index = line.index;
-            next.index[a] = static_cast<std::int16_t>(next.index[a] + way);
-            if (std::abs(next.index[a]) > farthest) {
-              return "its mass is unbounded: the posterior is improper or far too wide";
-            }
-            next.middle = line.middle;
-            next.width = line.width;
-            if (known_.emplace(key(next.index), lines_.size() + ring.size()).second) {
-              ring.push_back(std::move(next));
-            }
-          }
-        }
-      }
+      if (const std::string failure = surround(before, ring); !failure.empty()) return failure;
       if (nodes_ > most) return fmt::format("no convergence in {} evaluations", nodes_);
-      if (keeps_ && nodes_ > most_kept) {
-        keeps_ = false;
-        for (Line& line : lines_) std::vector<Located>().swap(line.kept);
-      }
     }
     return {};
   }
 
   long nodes() const { return nodes_; }
+
+  // Axes about the medians, stretched beyond the central mass.
+  Axes stretched_axes() const {
+    Axes axes;
+    for (std::size_t a = 0; a < outer; ++a) {
+      std::map<int, double> marginal;
+      double all = 0;
+      for (const Line& line : lines_) {
+        double mass = 0;
+        for (const double v : line.values) mass += std::exp(v) * line.width;
+        marginal[line.index[a]] += mass;
+        all += mass;
+      }
+      const auto quantile = [&](double p) {
+        double below = 0;
+        for (const auto& [index, mass] : marginal) {
+          if (below + mass >= p * all) return steps_[a] * (index - 0.5 + (p * all - below) / mass);
+          below += mass;
+        }
+        return steps_[a] * marginal.rbegin()->first;
+      };
+      constexpr double central = 0.9, normal = 1.645;
+      const double sd = (quantile(0.5 + central / 2) - quantile(0.5 - central / 2)) / (2 * normal);
+      axes[a] = {.center = quantile(0.5), .far = 5 * std::max(sd, 0.5 * steps_[a])};
+    }
+    return axes;
+  }
 
   double log_of(double mass) const {
     for (const double step : steps_) mass *= step;
@@ -303,6 +322,63 @@ class Lattice {
  private:
   static constexpr int directions = 27;     // directions of the outer axes, with opposites and zero
   static constexpr double shell_depth = 3;  // of log density
+
+  // Fills these lines.
+  void add(std::vector<Line> ring, Progress* progress) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ring.size(), 8), [&](const auto& part) {
+      Sides sides;
+      for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i], sides);
+    });
+    std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
+    count(lines_.size() - ring.size(), progress);
+  }
+
+  // Continues lines that ended at a higher density than is negligible now.
+  void lengthen(Progress* progress) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 8), [&](const auto& part) {
+      Sides sides;
+      for (std::size_t i = part.begin(); i != part.end(); ++i) lengthen(lines_[i], sides);
+    });
+    nodes_ = 0;
+    count(0, progress);
+  }
+
+  // Counts the nodes of lines from `first` on.
+  void count(std::size_t first, Progress* progress) {
+    constexpr long most_kept = 1'500'000;  // some tens of megabytes
+    for (std::size_t i = first; i < lines_.size(); ++i) {
+      nodes_ += static_cast<long>(lines_[i].values.size());
+      highest_ = std::max(highest_, lines_[i].highest);
+    }
+    if (progress && nodes_ > reported_)
+      progress->advance(nodes_ - std::exchange(reported_, nodes_));
+    if (!keeps_ || nodes_ <= most_kept) return;
+    keeps_ = false;
+    for (Line& line : lines_) std::vector<Located>().swap(line.kept);
+  }
+
+  // Adds to `ring` the unknown neighbours of lines from `first` on with mass that matters. Empty, or
+  // the reason for stopping.
+  std::string surround(std::size_t first, std::vector<Line>& ring) {
+    for (std::size_t i = first; i < lines_.size(); ++i) {
+      const Line& line = lines_[i];
+      if (line.highest < highest_ + log_negligible_) continue;
+      for (std::size_t a = 0; a < outer; ++a) {
+        for (const int way : {-1, 1}) {
+          Line next;
+          next.index = line.index;
+          next.index[a] = static_cast<std::int16_t>(next.index[a] + way);
+          if (std::abs(next.index[a]) > farthest)
+            return "its mass is unbounded: the posterior is improper or far too wide";
+          if (!known_.emplace(key(next.index), lines_.size() + ring.size()).second) continue;
+          next.middle = line.middle;
+          next.width = line.width;
+          ring.push_back(std::move(next));
+        }
+      }
+    }
+    return {};
+  }
 
   // The direction of a wave: -1, 0 or 1 along each outer axis.
   static std::array<int, outer> way_of(int direction) {
@@ -498,12 +574,16 @@ class Lattice {
   // The three coordinates: step (index + shift along one axis).
   Place place(const Index& index, int axis, double shift, double on_line) const {
     Eigen::Vector4d along;
-    for (int i = 0; i < outer; ++i)
-      along[i] = steps_[static_cast<std::size_t>(i)] *
-                 (index[static_cast<std::size_t>(i)] + (i == axis ? shift : 0));
+    double slopes = 1;
+    for (int i = 0; i < outer; ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      const Axis::Place there = axes_[a].at(steps_[a] * (index[a] + (i == axis ? shift : 0)));
+      along[i] = there.u;
+      slopes *= there.slope;
+    }
     along[outer] = on_line;
     Place place;
-    place.log_jacobian = chart_.to_real(along, place.z);
+    place.log_jacobian = chart_.to_real(along, place.z) + std::log(slopes);
     return place;
   }
   Place at(const Line& line, double t) const {
@@ -622,42 +702,58 @@ class Lattice {
       middle = there;
       if (std::abs(move) < 0.05 * line.width) break;
     }
-    middle = walk.value(line.middle);
-    line.highest = middle;
-    const Located there = walk.located();
+    line.values.push_back(walk.value(line.middle));
+    line.highest = line.values.front();
+    if (keeps_) line.kept.push_back(walk.located());
+    walk_outward(walk, line, sides);
+  }
+
+  // Nodes of a line beyond its present ones.
+  void lengthen(Line& line, Sides& sides) const {
+    const double end = std::max(line.highest, highest_) + log_negligible_;
+    if (!(line.values.front() > end) && !(line.values.back() > end)) return;
+    Walk walk(*this, line);
+    walk_outward(walk, line, sides);
+  }
+
+  void walk_outward(Walk& walk, Line& line, Sides& sides) const {
+    const auto farther = [&](double value) {
+      return value > std::max(line.highest, highest_) + log_negligible_;
+    };
+    const int last = line.first + static_cast<int>(line.values.size()) - 1;
     for (const int way : {-1, 1}) {
       std::vector<double>& values = sides.values[way < 0 ? 0 : 1];
       std::vector<Located>& kept = sides.kept[way < 0 ? 0 : 1];
       values.clear();
       kept.clear();
-      for (int t = 1; t <= most_across; ++t) {
-        const double v = walk.value(line.middle + way * t * steps_[outer] * line.width);
+      double v = way < 0 ? line.values.front() : line.values.back();
+      const bool first = line.values.size() == 1;
+      for (int t = (way < 0 ? line.first : last) + way;
+           std::abs(t) <= most_across && (farther(v) || (first && values.empty())); t += way) {
+        v = walk.value(line.middle + t * steps_[outer] * line.width);
         values.push_back(v);
         if (keeps_) kept.push_back(walk.located());
         line.highest = std::max(line.highest, v);
-        if (!(v > std::max(line.highest, highest_) + log_negligible_)) break;
       }
     }
-    const auto join = [](const auto& at, const auto& both) {
-      std::decay_t<decltype(both[0])> all;
-      all.reserve(both[0].size() + 1 + both[1].size());
-      all.assign(both[0].rbegin(), both[0].rend());
-      all.push_back(at);
-      all.insert(all.end(), both[1].begin(), both[1].end());
-      return all;
+    const auto join = [](auto& here, const auto& both) {
+      here.reserve(here.size() + both[0].size() + both[1].size());
+      here.insert(here.begin(), both[0].rbegin(), both[0].rend());
+      here.insert(here.end(), both[1].begin(), both[1].end());
     };
-    line.first = -static_cast<int>(sides.values[0].size());
-    line.values = join(middle, sides.values);
-    if (keeps_) line.kept = join(there, sides.kept);
+    line.first -= static_cast<int>(sides.values[0].size());
+    join(line.values, sides.values);
+    if (keeps_) join(line.kept, sides.kept);
   }
 
   const Posterior& posterior_;
   const LatticeChart& chart_;
+  Axes axes_;
   Steps steps_;
-  double log_negligible_;
+  double log_negligible_ = 0;
   double reference_;
   double highest_ = -INFINITY;
-  long nodes_ = 0;
+  long nodes_ = 0, reported_ = 0;
   int moves_ = 0;      // of the reference
   bool keeps_ = true;  // whether positions of nodes are stored
   std::vector<Line> lines_;
@@ -675,17 +771,25 @@ Steps steps_of(double step) {
 
 // A filled lattice, or the reason of its failure.
 struct Filled {
-  std::unique_ptr<Lattice> lattice;
+  Lattice lattice;
   std::string failure;
   ErrorEstimates error_estimates;
   double error = INFINITY;  // infinite unless filled
+  long evaluations = 0;     // of the last filling
 
-  Filled(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
-         double log_negligible, long most, const ExactSettings& settings)
-      : lattice(std::make_unique<Lattice>(posterior, chart, steps, log_negligible)),
-        failure(lattice->fill(most, settings.progress)) {
+  Filled(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
+         const Steps& steps, double log_negligible, long most, const ExactSettings& settings)
+      : lattice(posterior, chart, axes, steps) {
+    fill(log_negligible, most, settings);
+  }
+
+  void fill(double log_negligible, long most, const ExactSettings& settings) {
+    const long before = lattice.nodes();
+    failure = lattice.fill(log_negligible, most, settings.progress);
+    evaluations = lattice.nodes() - before;
+    error = INFINITY;
     if (!failure.empty()) return;
-    error_estimates = lattice->error_estimates(settings.second_moments);
+    error_estimates = lattice.error_estimates(settings.second_moments);
     error = error_estimates.steps + error_estimates.beyond;
   }
 };
@@ -702,7 +806,8 @@ Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, doub
     const double faster = steps[a] > coarse ? 1.5 : 1;
     const double finer =
         1 + too_much / (-4 * faster * std::log(std::min(error_estimate.decay, 0.9)));
-    const double step = too_much > 0 ? steps[a] / std::clamp(finer, least, most) : steps[a];
+    const bool refined = too_much > 0 && error_estimates.steps > 0.5 * tolerance;
+    const double step = refined ? steps[a] / std::clamp(finer, least, most) : steps[a];
     next[a] = std::min(widest[a], step);
   }
   return next;
@@ -710,6 +815,88 @@ Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, doub
 
 double mean_step(const Steps& steps) {
   return std::pow(steps[0] * steps[1] * steps[2] * steps[3], 1.0 / d);
+}
+
+// Coordinates and a coarse lattice in them.
+struct Coordinates {
+  const LatticeChart* chart = nullptr;
+  Axes axes;
+  std::shared_ptr<Filled> coarse;
+};
+
+// The lattice with the least error, if it is acceptable, or the reason of its failure.
+struct Refined {
+  std::shared_ptr<Filled> best;
+  std::string failure;  // empty if the error is below the tolerance
+  long evaluations = 0;
+};
+
+constexpr double coarsest = 1;
+
+// Refines and deepens until the error is at most `enough` and steps are at most `widest`.
+Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
+               const Steps& widest, const ExactSettings& settings) {
+  const double first_end = log_negligible(settings.tolerance);
+  double end = first_end;
+  bool may_deepen = true;
+  std::shared_ptr<Filled> filled = in.coarse;
+  Refined refined;
+  double before = INFINITY, step_before = coarsest;
+  for (Steps steps = steps_of(coarsest); refined.evaluations < settings.max_evaluations;) {
+    if (settings.stop.stop_requested()) throw Cancelled();
+    if (!filled)
+      filled =
+          std::make_shared<Filled>(posterior, *in.chart, in.axes, steps, end, most_nodes, settings);
+    refined.evaluations += filled->evaluations;
+    if (!filled->failure.empty()) {
+      refined.failure = filled->failure;
+      if (end == first_end) break;
+      // Too many nodes in the tails; the mass beyond is then reported.
+      end = first_end;
+      may_deepen = false;
+      if (refined.best == filled) refined.best.reset();
+      filled.reset();
+      continue;
+    }
+    const double error = filled->error;
+    const ErrorEstimates error_estimates = filled->error_estimates;
+    if (error <= std::max(enough, acceptable) && !(refined.best && refined.best->error < error))
+      refined.best = filled;
+    const bool fine = std::equal(steps.begin(), steps.end(), widest.begin(), std::less_equal<>());
+    if (error <= enough && fine) {
+      refined.failure.clear();
+      break;
+    }
+    refined.failure = fmt::format("no convergence in {} evaluations", refined.evaluations);
+    // With a kink or a jump errors decrease only by a power of the step; a refinement that exceeds
+    // the evaluations is not started. A small change of the step shows no power.
+    const double step = mean_step(steps);
+    if (!std::isfinite(before) || step < 0.9 * step_before) {
+      const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
+      const bool hopeless =
+          std::isfinite(before) &&
+          (error_estimates.steps >= before || std::pow(error_estimates.steps / enough, 4 / power) *
+                                                      static_cast<double>(refined.evaluations) >
+                                                  static_cast<double>(settings.max_evaluations));
+      before = error_estimates.steps;
+      step_before = step;
+      if (hopeless && refined.best && refined.best->error <= good_enough) break;
+    }
+    const Steps finer = next_steps(steps, error_estimates, enough, widest);
+    // The mass beyond is about proportional to the density at the end.
+    const double most_beyond = 0.5 * enough;
+    const bool deeper = may_deepen && error_estimates.beyond > most_beyond;
+    if (deeper) end -= std::clamp(1.5 * std::log(error_estimates.beyond / most_beyond), 1.0, 4.0);
+    if (finer != steps) {
+      steps = finer;
+      filled.reset();
+    } else if (deeper) {
+      filled->fill(end, most_nodes, settings);
+    } else {
+      break;
+    }
+  }
+  return refined;
 }
 
 }  // namespace
@@ -723,90 +910,59 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     map.emplace(posterior, whitening);
     along = ridge_chart(*map);
   }
-  // Chooses between the charts by lattices of medium steps. If one is expensive, chooses the other.
-  constexpr double coarsest = 1, telling = 0.7;
-  constexpr long few_nodes = 140'000, enough_nodes = 400'000;
   // Error estimates of coarse lattices are several times too large.
   const bool coarse = settings.tolerance >= good_enough;
   const double enough = coarse ? 5 * settings.tolerance : settings.tolerance;
-  const double first_end = log_negligible(settings.tolerance);
-  double end = first_end;
-  bool may_deepen = true;
-  const LatticeChart* chart = straight ? straight.get() : along.get();
-  std::optional<Filled> filled(std::in_place, posterior, *chart, steps_of(coarsest), end,
-                               most_nodes, settings);
-  if (!settings.along_ridge && !map->affine() && !(filled->error <= enough)) {
-    const bool expensive = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
-    const auto filled_on = [&](const LatticeChart& of, double step, long most) {
-      return Filled(posterior, of, steps_of(step), end, most, settings);
-    };
+  const auto filled_on = [&](const LatticeChart& chart, const Axes& axes, double step, long most) {
+    return std::make_shared<Filled>(posterior, chart, axes, steps_of(step),
+                                    log_negligible(settings.tolerance), most, settings);
+  };
+  Coordinates in;
+  in.chart = straight ? straight.get() : along.get();
+  in.coarse = filled_on(*in.chart, {}, coarsest, most_nodes);
+  // Chooses between the charts by lattices of medium steps. If one is expensive, chooses the other.
+  constexpr double telling = 0.7;
+  constexpr long few_nodes = 140'000, enough_nodes = 400'000;
+  if (!settings.along_ridge && !map->affine() && !(in.coarse->error <= enough)) {
+    const bool expensive = !in.coarse->failure.empty() || in.coarse->lattice.nodes() > few_nodes;
     // A chart whose coarse lattice has 50 % more nodes is not better; few nodes suffice to see
     // this.
     const auto rounder = [&] {
-      const long most = filled->lattice->nodes() / 2 * 3;
-      return filled_on(*along, coarsest, most).failure.empty() &&
-             filled_on(*along, telling, enough_nodes).error <
-                 filled_on(*straight, telling, enough_nodes).error;
+      return filled_on(*along, {}, coarsest, in.coarse->lattice.nodes() / 2 * 3)->failure.empty() &&
+             filled_on(*along, {}, telling, enough_nodes)->error <
+                 filled_on(*straight, {}, telling, enough_nodes)->error;
     };
-    if (expensive ? filled_on(*along, coarsest, few_nodes).failure.empty() : rounder()) {
-      chart = along.get();
-      filled.reset();
+    if (expensive ? filled_on(*along, {}, coarsest, few_nodes)->failure.empty() : rounder()) {
+      in.chart = along.get();
+      in.coarse = filled_on(*in.chart, {}, coarsest, most_nodes);
     }
   }
   const Steps widest = steps_of(coarse ? coarsest : widest_reported);
+  Refined refined;
+  // Long tails take most nodes. If axes that end them soon do not converge, even ones remain.
+  constexpr long long_tails = 30'000;
+  if (in.coarse->failure.empty() && in.coarse->lattice.nodes() > long_tails) {
+    Coordinates stretched = in;
+    stretched.axes = in.coarse->lattice.stretched_axes();
+    const long most = in.coarse->lattice.nodes() / 2;
+    stretched.coarse = filled_on(*in.chart, stretched.axes, coarsest, most);
+    if (stretched.coarse->failure.empty())
+      refined = refine(posterior, stretched, enough, widest, settings);
+  }
+  if (!refined.best || !refined.failure.empty()) {
+    Refined even = refine(posterior, in, enough, widest, settings);
+    even.evaluations += refined.evaluations;
+    if (even.best || !refined.best) refined = std::move(even);
+  }
   ExactPosterior exact;
-  std::optional<Filled> best;
-  long evaluations = 0;
-  double before = INFINITY, step_before = coarsest;
-  for (Steps steps = steps_of(coarsest); evaluations < settings.max_evaluations;) {
-    if (settings.stop.stop_requested()) throw Cancelled();
-    if (!filled) filled.emplace(posterior, *chart, steps, end, most_nodes, settings);
-    const long nodes = filled->lattice->nodes();
-    evaluations += nodes;
-    if (!filled->failure.empty()) {
-      exact.failure = filled->failure;
-      if (end == first_end) break;
-      // Too many nodes in the tails; the mass beyond is then reported.
-      end = first_end;
-      may_deepen = false;
-      filled.reset();
-      continue;
-    }
-    const double error = filled->error;
-    const ErrorEstimates error_estimates = filled->error_estimates;
-    if (error <= std::max(enough, acceptable) && !(best && best->error < error))
-      best = std::move(filled);
-    const bool fine = std::equal(steps.begin(), steps.end(), widest.begin(), std::less_equal<>());
-    if (error <= enough && fine) break;
-    // With a kink or a jump errors decrease only by a power of the step; a refinement that exceeds
-    // the evaluations is not started.
-    const double step = mean_step(steps);
-    const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
-    const bool hopeless =
-        std::isfinite(before) && step < step_before &&
-        (error_estimates.steps >= before ||
-         std::pow(error_estimates.steps / enough, 4 / power) * static_cast<double>(evaluations) >
-             static_cast<double>(settings.max_evaluations));
-    before = error_estimates.steps;
-    step_before = step;
-    if (hopeless && best && best->error <= good_enough) break;
-    exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
-    const Steps steps_now = steps;
-    const double end_now = end;
-    steps = next_steps(steps, error_estimates, enough, widest);
-    // The mass beyond is about proportional to the density at the end.
-    const double most_beyond = 0.5 * enough;
-    if (may_deepen && error_estimates.beyond > most_beyond)
-      end -= std::clamp(1.5 * std::log(error_estimates.beyond / most_beyond), 1.0, 4.0);
-    if (steps == steps_now && end == end_now) break;
-    filled.reset();
+  if (refined.best) {
+    exact = refined.best->lattice.result(settings.second_moments, settings.cells);
+    exact.error = refined.best->error;
+  } else {
+    exact.failure = refined.failure;
   }
-  if (best) {
-    exact = best->lattice->result(settings.second_moments, settings.cells);
-    exact.error = best->error;
-  }
-  exact.evaluations = evaluations;
-  exact.along_ridge = chart == along.get();
+  exact.evaluations = refined.evaluations;
+  exact.along_ridge = in.chart == along.get();
   return exact;
 }
 

@@ -12,10 +12,11 @@ namespace wearwell {
 /// parameters between two bounds are Gaussianized, so that tails like exp(-|z|) become normal. One
 /// direction is integrated along lines about their own modes. The lattice of the other three is
 /// filled outward from the mode as long as there is density, and each axis is refined separately
-/// until the error is below `tolerance`. The error is estimated from the decay of the Fourier
-/// transform of density and moments, given by sums over every second and every fourth node along
-/// every axis and diagonal, and from the mass of the outermost shells. Cells contain the parabola
-/// through the log density of their neighbours.
+/// until the error is below `tolerance`. Where a coarse lattice shows long tails, steps along these
+/// axes grow exponentially beyond the central mass (u = far sinh(v/far), even in v). The error is
+/// estimated from the decay of the Fourier transform of density and moments, given by sums over
+/// every second and every fourth node along every axis and diagonal, and from the mass of the
+/// outermost shells. Cells contain the parabola through the log density of their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by the fourth power of the step, so
 /// that quantiles keep an error of some thousandths of a standard deviation (two hundredths on a
