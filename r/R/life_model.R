@@ -377,7 +377,7 @@ words_of_caller <- function(message) {
   message <- sub("^predict[.]stress[.](.*)[.](alternating_stress|stress_ratio|mean_stress):", "at: '\\1': \\2:", message)
   message <- sub("^subpopulations[.]names:", "subpopulations:", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
-  message <- gsub("needs predict\\.([a-z_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)
+  message <- gsub("needs predict\\.([a-z_]+)", "needs predict = list(\\1 = ...)", message, perl = TRUE)
   message <- gsub("\\bpredict\\.next\\b", "ahead", message, perl = TRUE)
   message <- gsub("\\bpredict\\.([a-z_]+)", "\\1", message, perl = TRUE)
   gsub("\\bconditions\\.([a-z_]+)", "\\1", message, perl = TRUE)
