@@ -375,6 +375,8 @@ words_of_caller <- function(message) {
   message <- gsub("likelihood.depth_error", "depth_error", message, fixed = TRUE)
   message <- sub("^(law|likelihood)[.](curve|fatigue_limit|scatter|family|depth_error):", "\\2:", message)
   message <- sub("^predict[.]stress[.](.*)[.](alternating_stress|stress_ratio|mean_stress):", "at: '\\1': \\2:", message)
+  message <- sub(", or name the column of failure modes: [data.returns] mode", "", message, fixed = TRUE)
+  message <- gsub("data.returns.", "", message, fixed = TRUE)
   message <- sub("^subpopulations[.]names:", "subpopulations:", message)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
   message <- gsub("needs predict\\.([a-z_]+)", "needs predict = list(\\1 = ...)", message, perl = TRUE)
