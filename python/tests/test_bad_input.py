@@ -116,6 +116,8 @@ def test_columns_of_each_kind_of_other_functions(monkeypatch, name):
     good, call = others[name]
     assert call(pd.DataFrame(good))
     for column, kind in itertools.product(good, kinds):
+        if kind == "fractions" and any(each != each for each in good[column]):
+            continue  # there is no fraction of NaN
         values = kinds[kind](list(good[column]))
         try:
             assert call(pd.DataFrame({**good, column: values}))
