@@ -89,3 +89,54 @@ def test_a_table_without_rows_or_columns_is_refused(life):
         life({"hours": hours, "event": [1], "group": group, "T": stress})
     with pytest.raises(ww.InputError, match="data has no column"):
         life(pd.DataFrame())
+
+
+# Of the other functions: a table of each, and the names that refusals may have beside the column's.
+tests = {"S": stress, "N": [1e5, 9e4] * 4, "end": ["failed"] * 7 + ["runout"]}
+others = {
+    "repairable": ({"age": [100.0, 250, 400, 90, 300, 500, 40, 420], "unit": list("AAABBBCC"), "event": ["failure", "failure", "end"] * 2 + ["failure", "end"]},
+                   lambda frame: ww.repairable(frame, "age", unit="unit", event="event", units={"age": "h"})),
+    "staircase": ({"S": stress, "end": event, "k": [1] * 8}, lambda frame: ww.staircase(frame, "S", "end", count="k", units={"S": "MPa"})),
+    "triangle": ({"shipped": ["Jan 2010", "Feb 2010", "Mar 2010", "Apr 2010"], "quantity": [100, 140, 150, 120], "Feb 2010": [3, np.nan, np.nan, np.nan],
+                  "Mar 2010": [3, 2, np.nan, np.nan], "Apr 2010": [5, 4, 4, np.nan], "May 2010": [6.0, 5, 4, 3]}, lambda frame: ww.returns(frame)),
+    "returned": ({"sold": ["2024-01", "2024-02", "2024-03", "2024-04"] * 2, "back": ["2024-05", "", "2024-08", ""] * 2},
+                 lambda frame: ww.returns(frame, sold="sold", returned="back", until="2024-12")),
+    "decide": ({"life [h]": hours, "weight": [1.0] * 8}, lambda frame: ww.decide(frame, failure_cost="12000 EUR", replacement_cost="900 EUR")),
+    "spectrum": ({"stress": [0.0, 500, -100, 400, -300, 200, 50, 300]}, lambda frame: ww.spectrum(frame, column="stress", units={"stress": "MPa"})),
+    "degradation": ({"w": hours, "km": [10.0, 20, 30, 40] * 2, "m": list("AAAABBBB")}, lambda frame: ww.degradation(frame, "w", "km", unit="m")),
+    "bearing": ({"d": hours, "t": [10.0, 20, 30, 40] * 2, "v": [60.0] * 8, "u": list("AAAABBBB")},
+                lambda frame: ww.bearing(frame, "d", contact="journal", radius="10 mm", clearance="20 um", time="t", speed="v", pressure="1 MPa", unit="u",
+                                         units={"d": "um", "t": "h", "v": "rpm"})),
+}
+
+
+@pytest.mark.parametrize("name", others)
+def test_columns_of_each_kind_of_other_functions(monkeypatch, name):
+    monkeypatch.setattr(ww.Study, "fit", lambda study, *_, **__: study.description())
+    good, call = others[name]
+    assert call(pd.DataFrame(good))
+    for column, kind in itertools.product(good, kinds):
+        if kind == "fractions" and any(each != each for each in good[column]):
+            continue  # there is no fraction of NaN
+        values = kinds[kind](list(good[column]))
+        try:
+            assert call(pd.DataFrame({**good, column: values}))
+        except ww.InputError as error:
+            named = "|".join(re.sub(r" \[.*", "", each) for each in good)
+            assert re.search(rf"(?<!\w)({named}|status|sold|lives|bearing|measured depth|prior, data and model)(?!\w)", str(error)), (column, kind, error)
+            assert "[data" not in str(error) and "data.returns" not in str(error), (column, kind, error)
+
+
+def test_numbers_of_categories_with_missing_cells():
+    sold = {"shipped": ["Jan 2010", "Feb 2010"], "quantity": [100, 140], "Feb 2010": pd.Categorical([3, None]), "Mar 2010": pd.Categorical([3, 2])}
+    as_numbers = {**sold, "Feb 2010": [3, np.nan], "Mar 2010": [3, 2]}
+    first, second = (ww.returns(pd.DataFrame(each), method="exact", draws=100, seed=1, report=False) for each in (sold, as_numbers))
+    assert first.parameters.equals(second.parameters)
+
+
+def test_what_is_no_table_of_lives():
+    costs = {"failure_cost": "12000 EUR", "replacement_cost": "900 EUR"}
+    with pytest.raises(ww.InputError, match="lives is None; it is a fit"):
+        ww.decide(None, **costs)
+    with pytest.raises(ww.InputError, match="lives, row 3, column 'weight': inf must be finite"):
+        ww.decide({"life [h]": hours, "weight": [1, 1, np.inf, 1, 1, 1, 1, 1]}, **costs)

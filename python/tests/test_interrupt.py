@@ -37,7 +37,6 @@ def subjects():
             "hours": pd.DataFrame({"hours": lives}),
             "many": ww.life({"hours": lives[:200_000]}, "hours", units={"hours": "h"}, seed=1, draws=100, method="exact", report=False)}
     made.update(wide=linear(400, 40), terms=linear(400, 9), repairs=repairs(20_000))
-    made["folder"] = os.path.join(examples, "formula", "wear.csv")
     return made
 
 
@@ -63,15 +62,13 @@ def readings(n):
     return pd.DataFrame({"s": np.linspace(1, 100, n), "F": 20.0, "machine": ""})
 
 
-# What takes longer than the interrupt waits, on a machine with nothing else to do.
+# Each takes 1.6 s of the processor or more, so that the bound below shows whether it was ended.
 calls = {
     "decide, a table": lambda s: ww.decide(s["lives"], **costs),
-    "decide, another reading": lambda s: ww.decide(s["liners"], **costs, unit="1", inspect_after="5 km", given={"force": "20 N"}),
     "plan next, independent tests": lambda s: ww.plan.next(s["springs"], goal="B10 at softer spring", candidates=springs_to_test(400)),
     "plan next, units that differ": lambda s: ww.plan.next(s["liners"], goal="k", candidates=readings(100)),
     "ask": lambda s: s["liners"].ask({"along": "distance", "at": [f"{k} km" for k in range(1, 400)], "given": {"force": "20 N"}}),
     "update": lambda s: s["liners"].update(pd.DataFrame({"h_um": [50.0], "F": [20.0], "s": [30.0], "machine": ["1"]})),
-    "backtest": lambda s: s["liners"].backtest(s["folder"], pd.DataFrame({"machine": [str(i) for i in range(1, 13)], "life [km]": 80.0})),
     "select": lambda s: ww.select(s["wide"], "y", inputs=[f"x{k}" for k in range(40)], degree=1),
     "select, nested": lambda s: ww.select(s["terms"], "y", inputs=[f"x{k}" for k in range(9)], degree=2, nested=10),
     "repairable": lambda s: ww.repairable(s["repairs"], "age", unit="unit", event="event", units={"age": "h"}),
@@ -83,7 +80,7 @@ calls = {
 
 @pytest.mark.parametrize("name", calls)
 def test_ctrl_c_ends_a_question(subjects, name):
-    """The processor's time is counted: other work on the machine does not matter. The bound is generous."""
+    """The processor's time is counted: other work on the machine does not matter. It is 0.2 s at most where nothing else runs."""
     sent = []
 
     def interrupt():
@@ -98,7 +95,7 @@ def test_ctrl_c_ends_a_question(subjects, name):
             timer.cancel()
     finally:
         timer.join()
-    assert time.process_time() - sent[0] < 2
+    assert time.process_time() - sent[0] < 0.6
 
 
 def test_the_next_question_is_answered(subjects):

@@ -327,6 +327,40 @@ def test_presets_are_their_study_files():
     assert "'failure': 0} reads 0 or False" in refusal(ww.staircase, {"S": [1.0, 2], "censored": [0, 1]}, "S", "censored", units={"S": "MPa"})
 
 
+def test_stresses_asked_of_an_sn_curve():
+    tests = {"S [MPa]": [450, 450, 400, 400, 350, 350, 300], "N": [3.1e4, 4.4e4, 9e4, 1.3e5, 3.2e5, 2.4e5, 1.1e6]}
+    asked = lambda at, **options: tomllib.loads(made(ww.sn, tests, "S", "N", at=at, **options).toml)
+    assert asked("320 MPa")["predict"]["stress"] == {"320 MPa": {"alternating_stress": "320 MPa"}}
+    several = asked([320, "0.33 GPa"], stress_ratio=-1, scatter="grows")
+    assert several["predict"]["stress"]["320"] == {"alternating_stress": "320 MPa", "stress_ratio": -1}
+    assert several["predict"]["stress"]["0.33 GPa"]["alternating_stress"] == "0.33 GPa" and several["law"]["scatter"] == "grows"
+    shaft = {"alternating_stress": 320, "stress_ratio": 0}
+    assert asked({"shaft": shaft}, stress_ratio=-1)["predict"]["stress"] == {"shaft": {**shaft, "alternating_stress": "320 MPa"}}
+    assert refusal(ww.sn, tests, "S", "N", at="soon").startswith("at: 'soon': alternating_stress: 'soon' is not a number with a unit")
+    assert "scatter is 'growing'" in refusal(ww.sn, tests, "S", "N", scatter="growing")
+
+
+def test_readings_that_scatter_by_a_share_of_the_path():
+    toml = tomllib.loads(made(ww.degradation, wear, "wear", "km", unit="machine", family="lognormal").toml)
+    assert toml["likelihood"]["wear"] == {"family": "lognormal", "median": "path", "log_sd": "sigma"} and toml["formula"]["path"] == "rate * km"
+    assert toml["prior"]["sigma"] == {"distribution": "half-normal", "scale": 1}
+    assert "need" in refusal(ww.degradation, wear, "wear", "km", unit="machine", family="lognormal", starts_at_zero=False)
+    ended = wear.assign(failed=[0, 1] * (len(wear) // 2))
+    assert "unused=" in refusal(ww.degradation, ended, "wear", "km", unit="machine")
+    assert tomllib.loads(made(ww.degradation, ended, "wear", "km", unit="machine", unused="failed").toml)["data"]["unused"] == ["failed"]
+
+
+def test_a_joint_after_each_inspection():
+    looks = {"n": [1, 100, 1000], "V": [1.6, 2.6, 8.1]}
+    fit = ww.joint(looks, "V", "n", work_per_cycle="6 N m", units={"V": "mm^3"}, stages=True, method="exact", draws=100, report=False)
+    assert len(fit.results["stages"]) == 3
+    assert "stages is 1" in refusal(ww.joint, looks, "V", "n", work_per_cycle="6 N m", units={"V": "mm^3"}, stages=1)
+    assert "predict={'work_per_cycle'" in refusal(ww.joint, {**looks, "W": [6, 600, 6000]}, "V", "n", work_per_cycle="6 N m", work="W")
+    several = {"d [um]": [3, 5], "n": [1e4, 2e4], "c [um]": [20, 30]}
+    message = refusal(ww.bearing, several, "d", contact="journal", radius="10 mm", clearance="c", pressure="1 MPa", revolutions="n", limit="80 um")
+    assert "needs predict={'clearance': ...}" in message
+
+
 def test_clutch_of_tables_in_memory():
     """Of tables too short to be fitted: the example of the docstring is fitted."""
     point = {"slip_speed [rpm]": [1200.0], "torque [N m]": [25.0], "temperature [degC]": [120.0], "closing_time [s]": [0.9]}

@@ -66,7 +66,7 @@ def counted(fitted):
     """Damage of counted cycles: a sum over 30 000 points of the posterior takes seconds, so tests share it."""
     cycles = pd.DataFrame({"range": [900, 480], "mean": [0, 50], "count": [2, 2000]})
     with pytest.warns(ww.CheckWarning, match="extrapolation warns: .* of the damage is due to amplitudes below the tested range") as caught:
-        found = fitted[0].damage(cycles, units="MPa", block="100 h", b_lives=[1, 5, 10], confidence=0.95)
+        found = fitted[0].damage(cycles, units="MPa", block="100 h", b=[1, 5, 10], confidence=0.95)
     assert caught[0].filename == __file__
     return cycles, found
 

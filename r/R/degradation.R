@@ -56,7 +56,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
   }
   if (is.null(data)) data <- data_of_formula(x)
   columns <- frame_columns(data, units)
-  sides <- degradation_sides(x, unit)
+  one_unit <- identical(unit, FALSE)
+  sides <- degradation_sides(x, if (!one_unit) unit)
   measured <- evaluated(x[[2]], columns, environment(x), "the formula's left side")
   if (!is.symbol(x[[2]])) measured$name <- "wear"
   readings <- numbers_for(measured, "the formula's left side")
@@ -81,6 +82,7 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                  units = if (is.null(sides$unit)) "| %s in the formula, or unit = \"%s\" of a frame")
   require_finite(readings, measured$heading)
   require_finite(along, axis$heading)
+  if (is.null(label) && !one_unit) require_one_path(along, sides$axis, measured$name)
   line <- line_of_readings(study, s, y, label, family, if (start) FALSE else starts_at_zero)
   middle <- path_of_degradation(path, line, s, axis$unit, along, effects)
   start <- start && !is.null(label)
@@ -115,6 +117,14 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                 units = lapply(proposed[names(proposed) %in% c("rate", "start", "start_scatter", "step_ratio", if (family == "normal") "sigma")], unit_of_prior))
   one_line(text$text, study, text$proposed, notes, fit, call, ..., replicates = known, values = list(limit = limit),
            arguments = c(credible_level = "confidence", b_lives = "b"))
+}
+
+# Without a column of units all rows are of one.
+require_one_path <- function(along, axis, measured) {
+  row <- which(diff(along) < 0)[1] + 1
+  if (is.na(row)) return()
+  stop_input("unit is missing: ", axis, " falls at row ", row, " from ", number_text(along[row - 1]), " to ", number_text(along[row]), ", so the rows are of several ",
+             "units; | UNIT in the formula names the column that tells them apart, or unit = FALSE says that all rows of ", measured, " are of one")
 }
 
 # Where a power of the axis is 1.

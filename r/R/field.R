@@ -1,8 +1,8 @@
 # Data from the field in one line: units that are repaired, and warranty returns. And lives of two fits against each other.
 
 ww_repairable <- function(data, age, unit, event = NULL, start = NULL, count = NULL, grouped = FALSE, process = c("power_law", "renewal", "phases"),
-                          end = NULL, rounding = NULL, phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL, priors = NULL, units = NULL, classical = FALSE, predict = NULL,
-                          title = NULL, unused = NULL, fit = TRUE, ...) {
+                          end = NULL, rounding = NULL, phase_ends = NULL, reference_age = NULL, mode = NULL, fixes = NULL, at = NULL, ahead = NULL,
+                          units = NULL, priors = NULL, classical = FALSE, predict = NULL, unused = NULL, title = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_repairable")
   require_options("ww_repairable", ..., own = names(formals(ww_repairable)))
   if (missing(process)) process <- process[1]
@@ -118,7 +118,7 @@ delay_of <- function(value, name) {
 
 ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, until = NULL, period = NULL, ages = "middle", warranty = NULL,
                        delay_to_use = NULL, delay_of_report = NULL, hold_out = NULL, family = "weibull", ahead = "12 month", cost_per_return = NULL,
-                       planned_sales = NULL, survival_to = NULL, priors = NULL, b = c(1, 10, 50), predict = NULL, title = "Warranty returns", fit = TRUE, ...) {
+                       planned_sales = NULL, survival_to = NULL, priors = NULL, b = c(1, 10, 50), predict = NULL, title = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_returns")
   require_options("ww_returns", ..., own = names(formals(ww_returns)))
   families <- setdiff(names(life_families), "log-location-scale")  # each under its own name, without a further argument
@@ -150,7 +150,7 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
   frames <- c(list(data = data), Filter(is.data.frame, list(delay_to_use = delay_to_use, delay_of_report = delay_of_report)),
               if (!is.null(planned_sales)) list(planned_sales = with_text_dates(planned_sales)))
   tables <- lapply(frames, function(frame) list(data = frame, units = NULL, only = NULL))
-  text <- c(toml_table("", list(title = one_text(title, "title"), model = "formula")), toml_table("data", list(file = "data")),
+  text <- c(toml_table("", list(title = if (is.null(title)) "Warranty returns" else one_text(title, "title"), model = "formula")), toml_table("data", list(file = "data")),
             toml_table("data.returns", columns),
             toml_table("likelihood.life", life_slots(family, parameters[1])),
             toml_table("prior", proposed), toml_table("predict", asked))

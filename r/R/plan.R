@@ -80,9 +80,9 @@ ww_plan_demonstrate <- function(goal, confidence = 0.9, failures = 0, specimens 
                               distribution = distribution, shape = shape, sigma = sigma, truth = truth, sudden_death = sudden_death))
 }
 
-ww_plan_inspect <- function(lives, risk = NULL, total_risk = NULL, warning = NULL, until = NULL, step = NULL, unit = NULL, new = FALSE,
+ww_plan_inspect <- function(lives, at = NULL, risk = NULL, total_risk = NULL, warning = NULL, until = NULL, step = NULL, unit = NULL, new = FALSE,
                             inspection_cost = NULL, failure_cost = NULL, replacement_cost = NULL, downtime_cost = NULL,
-                            visit_cost = NULL, given = NULL, at = NULL, in_service = NULL, threads = 0, progress = FALSE) {
+                            visit_cost = NULL, given = NULL, in_service = NULL, threads = 0, progress = FALSE) {
   arguments <- list(at = at, risk = risk, total_risk = total_risk, warning = warning, until = until, step = step, unit = unit, new = new,
                     inspection_cost = inspection_cost, failure_cost = failure_cost, replacement_cost = replacement_cost,
                     downtime_cost = downtime_cost, visit_cost = visit_cost, given = given)
@@ -131,10 +131,10 @@ ww_plan_next <- function(fit, goal, candidates = NULL, grid = NULL, specimens = 
           threads = threads, progress = progress)
 }
 
-ww_plan_accelerate <- function(use, highest, until, specimens, goal = "B10", relation = "arrhenius", family = "weibull", shape = NULL,
+ww_plan_accelerate <- function(use, highest, until, specimens, stop = NULL, goal = "B10", relation = "arrhenius", family = "weibull", shape = NULL,
                                sigma = NULL, failing_at_use = NULL, failing_at_highest = NULL, life_at_highest = NULL,
                                activation_energy = NULL, exponent = NULL, slope = NULL, lowest = NULL, low = NULL, middle_share = 0.2,
-                               least_failures = 4, stop = NULL) {
+                               least_failures = 4) {
   plan_of("accelerate", list(use = use, highest = highest, until = until, specimens = specimens, stop = stop, goal = goal, relation = relation,
                              family = family, shape = shape, sigma = sigma, failing_at_use = failing_at_use,
                              failing_at_highest = failing_at_highest, life_at_highest = life_at_highest,

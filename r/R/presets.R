@@ -57,16 +57,16 @@ preset_call <- function(call, name) {
 given_arguments <- function(...) Filter(Negate(is.null), list(...))
 
 ww_sn <- function(data, stress, life, event = NULL, stress_ratio = NULL, mean_stress = NULL, correction = NULL, curve = "basquin",
-                  fatigue_limit = "none", family = "log10-normal", count = NULL, label = NULL, units = NULL, priors = NULL, b = c(1, 10),
-                  confidence = 0.9, survival_to = NULL, required_life = NULL, reliability = NULL, predict = NULL, unused = NULL, title = NULL,
-                  scatter = "constant", at = NULL, conditions = NULL, fit = TRUE, ...) {
+                  fatigue_limit = "none", family = "log10-normal", scatter = "constant", count = NULL, label = NULL, units = NULL, priors = NULL,
+                  b = c(1, 10), confidence = 0.9, at = NULL, survival_to = NULL, required_life = NULL, reliability = NULL, predict = NULL,
+                  unused = NULL, title = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_sn")
   own <- names(formals(ww_sn))
   require_options("ww_sn", ..., own = own)
   columns <- frame_columns(data, units)
   study <- preset_study(columns, list(life = life, alternating_stress = stress, label = label, count = count))
   study <- with_status(study, event, columns)
-  constants <- as.list(conditions)
+  constants <- list()
   for (name in c("stress_ratio", "mean_stress")) {
     value <- get(name)
     if (is.null(value)) next
@@ -74,13 +74,13 @@ ww_sn <- function(data, stress, life, event = NULL, stress_ratio = NULL, mean_st
     if (!is.null(found$column)) study <- c(study, preset_study(columns, stats::setNames(list(found$column), name))) else
       constants[[name]] <- found$constant
   }
-  if (is.null(stress_ratio) && is.null(mean_stress)) {
-    stop_input("stress_ratio or mean_stress is missing: -1 for fully reversed tests, or a column of data")
-  }
   look_at_unused(columns, c(life, stress, event, label, count, stress_ratio, mean_stress), !is.null(event), unused, "event = \"COLUMN\"",
                  counts = if (is.null(count)) "count = \"%s\"")
   if (!is.null(stress_ratio) && !is.null(mean_stress)) stop_input("stress_ratio and mean_stress say the same in two ways; give one of them")
   if (is.null(correction)) correction <- if (any(c("stress_ratio", "mean_stress") %in% names(study))) "goodman" else "none"
+  if (!identical(correction, "none") && is.null(stress_ratio) && is.null(mean_stress)) {
+    stop_input("correction = ", shown_value(correction), " needs stress_ratio or mean_stress: a column, or a value such as -1 of all tests")
+  }
   law <- list(mean_stress = correction)
   if (!identical(curve, "basquin")) law$curve <- one_text(curve, "curve")
   if (!identical(fatigue_limit, "none")) law$fatigue_limit <- one_text(fatigue_limit, "fatigue_limit")
@@ -92,8 +92,16 @@ ww_sn <- function(data, stress, life, event = NULL, stress_ratio = NULL, mean_st
   text <- preset_text("sn", one_text(title, "title"), study,
                       list(conditions = constants, law = law, likelihood = list(family = one_text(family, "family")), predict = asked), priors)
   if (length(at)) {
-    if (is.null(names(at)) && is.character(at)) names(at) <- at
-    lines <- lapply(at, function(each) if (is.list(each)) each else c(list(alternating_stress = quantity(each, "at")), ratio_of(constants)))
+    if (is.null(names(at))) names(at) <- vapply(at, function(each) as.character(quantity(each, "at")), "")
+    of_tests <- function(each) {
+      value <- quantity(each, "at")
+      if (is.character(value)) value else quantity_text(value, study$alternating_stress$unit)
+    }
+    lines <- lapply(at, function(each) {
+      if (!is.list(each)) return(c(list(alternating_stress = of_tests(each)), ratio_of(constants)))
+      if (!is.null(each$alternating_stress)) each$alternating_stress <- of_tests(each$alternating_stress)
+      each
+    })
     text <- paste(text, toml_table("predict.stress", lines), sep = "\n")
   }
   one_line(text, study, NULL, NULL, fit, call, ..., arguments = c(credible_level = "confidence", b_lives = "b"))
@@ -118,23 +126,24 @@ ww_staircase <- function(data, stress, event, count = NULL, limit_family = "norm
            arguments = c(credible_level = "confidence"))
 }
 
-ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, force = NULL, slip = NULL, limit = NULL, risk = "1 %", at = NULL,
+ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, force = NULL, slip = NULL, limit = NULL, risk = NULL, at = NULL,
                      family = "normal", count = NULL, units = NULL, priors = NULL, b = c(1, 10), confidence = 0.9, predict = NULL, unused = NULL,
-                     title = NULL, stages = FALSE, conditions = NULL, fit = TRUE, ...) {
+                     title = NULL, stages = FALSE, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_joint")
   require_options("ww_joint", ..., own = names(formals(ww_joint)))
   columns <- frame_columns(data, units)
   study <- preset_study(columns, list(cycles = cycles, volume = volume, work = work, force = force, slip = slip, count = count))
-  if (is.null(work_per_cycle) && is.null(work) && is.null(force)) {
+  if (is.null(work_per_cycle) && is.null(work) && (is.null(force) || is.null(slip))) {
     stop_input("work_per_cycle is missing, the friction work of one cycle like \"6.2 N m\"; or work, or force and slip: columns of data")
   }
-  constants <- as.list(conditions)
-  asked <- given_arguments(cycles = if (!is.null(at)) as.list(at), limit = if (!is.null(limit)) quantity(limit, "limit"))
-  if (!is.null(limit)) asked <- c(asked, list(risk = risk, b_lives = as.list(b), credible_level = confidence))
-  if (!is.null(work_per_cycle)) {
-    if (is.null(work) && is.null(force)) constants$work_per_cycle <- quantity(work_per_cycle, "work_per_cycle") else
-      asked$work_per_cycle <- quantity(work_per_cycle, "work_per_cycle")
+  if (!is.null(work_per_cycle) && !(is.null(work) && is.null(force))) {
+    stop_input("work_per_cycle and ", if (is.null(work)) "force" else "work", " say the same of the rows in two ways; give one of them, and the work ",
+               "of one cycle for which lives are predicted by predict = list(work_per_cycle = \"6 N m\")")
   }
+  constants <- given_arguments(work_per_cycle = if (!is.null(work_per_cycle)) quantity(work_per_cycle, "work_per_cycle"))
+  if (is.null(at) && !is.null(work_per_cycle) && is.numeric(study$cycles$values)) at <- 2 * max(study$cycles$values, 1, na.rm = TRUE)
+  asked <- given_arguments(cycles = quantities(at, "at"), limit = if (!is.null(limit)) quantity(limit, "limit"), risk = if (!is.null(risk)) quantity(risk, "risk"))
+  if (!is.null(limit)) asked <- c(asked, list(b_lives = as.list(b), credible_level = confidence))
   look_at_unused(columns, c(volume, cycles, work, force, slip, count), TRUE, unused, "", noun = "joint", counts = if (is.null(count)) "count = \"%s\"", count_as = "those of one joint",
                  units = "ww_degradation(..., unit = \"%s\"), whose rate differs from unit to unit")
   extra <- list(conditions = constants, likelihood = list(family = one_text(family, "family")), predict = predict_of(predict, asked))
@@ -145,18 +154,21 @@ ww_joint <- function(data, volume, cycles, work_per_cycle = NULL, work = NULL, f
            arguments = c(cycles = "at", credible_level = "confidence", b_lives = "b"))
 }
 
-ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pressure = NULL, force = NULL, length = NULL, unit = NULL,
-                       limit = NULL, risk = "1 %", at = NULL, depth_error = NULL, family = "normal", count = NULL, units = NULL, priors = NULL,
-                       b = c(1, 10), confidence = 0.9, predict = NULL, unused = NULL, title = NULL, speed = NULL, given = NULL, fit = TRUE, ...) {
+ww_bearing <- function(data, depth, contact, radius, clearance, unit = NULL, revolutions = NULL, time = NULL, speed = NULL, pressure = NULL,
+                       force = NULL, length = NULL, limit = NULL, risk = NULL, at = NULL, depth_error = NULL, family = "normal", count = NULL,
+                       units = NULL, priors = NULL, b = c(1, 10), confidence = 0.9, predict = NULL, unused = NULL, title = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_bearing")
   require_options("ww_bearing", ..., own = names(formals(ww_bearing)))
   columns <- frame_columns(data, units)
-  study <- preset_study(columns, list(revolutions = revolutions, depth = depth, bearing = unit, count = count))
+  study <- preset_study(columns, list(depth = depth, bearing = unit, count = count))
+  if (is.null(revolutions) && (is.null(time) || is.null(speed))) {
+    stop_input("revolutions is missing: the column of the revolutions until each inspection; or time and speed")
+  }
   if (is.null(pressure) && (is.null(force) || is.null(length))) {
     stop_input("pressure is missing, like \"1.5 MPa\" or a column of data; or force and length")
   }
   constants <- list()
-  arguments <- given_arguments(contact = contact, radius = radius, clearance = clearance, pressure = pressure, force = force, length = length)
+  arguments <- given_arguments(contact = contact, radius = radius, clearance = clearance, revolutions = revolutions, time = time, speed = speed, pressure = pressure, force = force, length = length)
   for (name in names(arguments)) {
     value <- arguments[[name]]
     if (name == "contact" && is_path(value) && value %in% c("stationary", "journal", "bushing") && !value %in% names(columns)) {
@@ -167,7 +179,7 @@ ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pre
     if (!is.null(found$column)) study <- c(study, preset_study(columns, stats::setNames(list(found$column), name))) else
       constants[[name]] <- found$constant
   }
-  look_at_unused(columns, c(depth, revolutions, unit, count, unlist(arguments)), TRUE, unused, "", noun = "bearing", counts = if (is.null(count)) "count = \"%s\"",
+  look_at_unused(columns, c(depth, unit, count, unlist(arguments)), TRUE, unused, "", noun = "bearing", counts = if (is.null(count)) "count = \"%s\"",
                  units = if (is.null(unit)) "unit = \"%s\"")
   likelihood <- c(list(family = one_text(family, "family")), given_arguments(depth_error = if (!is.null(depth_error)) quantity(depth_error, "depth_error")))
   notes <- NULL
@@ -175,9 +187,9 @@ ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pre
     priors <- c(priors, list(k_scatter = ww_half_normal(1)))
     notes <- paste0("the wear rate differs from ", unit, " to ", unit, ": k_scatter, with the prior half-normal, scale 1")
   }
-  asked <- given_arguments(revolutions = quantities(at, "at"))
-  if (!is.null(limit)) asked <- c(asked, list(limit = quantity(limit, "limit"), risk = risk, b_lives = as.list(b), credible_level = confidence), given_arguments(speed = if (!is.null(speed)) quantity(speed, "speed")),
-                                  as.list(given))
+  asked <- given_arguments(revolutions = quantities(at, "at"), limit = if (!is.null(limit)) quantity(limit, "limit"),
+                           risk = if (!is.null(risk)) quantity(risk, "risk"))
+  if (!is.null(limit)) asked <- c(asked, list(b_lives = as.list(b), credible_level = confidence))
   if (is.null(title)) title <- paste0("Bearing wear: ", depth)
   one_line(preset_text("bearing-wear", one_text(title, "title"), study,
                        list(conditions = constants, likelihood = likelihood, predict = predict_of(predict, asked)), priors),
@@ -185,23 +197,30 @@ ww_bearing <- function(data, depth, revolutions, contact, radius, clearance, pre
            arguments = c(revolutions = "at", credible_level = "confidence", b_lives = "b"))
 }
 
-ww_clutch <- function(design, cycles, weighings, density, depth, area, balance = "1 mg", traces = NULL, points = NULL, levels = c(0.5, 1),
-                      replicates = 50, units = NULL, title = "Clutch wear", fit = TRUE, ...) {
+ww_clutch <- function(design, cycles, weighings, density, depth, area, balance_sd, traces = NULL, points = NULL, levels = NULL,
+                      missing_cycles = "refuse", search = NULL, replicates = NULL, units = NULL, title = NULL, fit = TRUE, ...) {
   call <- preset_call(match.call(), "ww_clutch")
   require_options("ww_clutch", ..., own = names(formals(ww_clutch)))
   tables <- given_arguments(design = design, cycles = cycles, weighings = weighings, traces = traces)
+  unknown <- setdiff(names(units), names(tables))
+  if (length(unknown)) stop_input("units: '", unknown[1], "' is no table; tables are ", words(names(tables)), ", as units = list(cycles = c(torque = \"N m\"))")
   given <- lapply(stats::setNames(names(tables), names(tables)), function(name) {
     if (!is_path(tables[[name]])) require_columns(tables[[name]], name)
     list(data = tables[[name]], units = units[[name]], only = NULL)
   })
-  parts <- c(toml_table("", list(title = one_text(title, "title"), model = "clutch-wear")),
-             toml_table("data", as.list(stats::setNames(names(tables), names(tables)))),
+  parts <- c(toml_table("", list(title = if (is.null(title)) "Clutch wear" else one_text(title, "title"), model = "clutch-wear")),
+             toml_table("data", c(as.list(stats::setNames(names(tables), names(tables))),
+                                  if (!identical(missing_cycles, "refuse")) list(missing_cycles = one_text(missing_cycles, "missing_cycles")))),
              toml_table("lining", list(density = quantity(density, "density"), depth = quantity(depth, "depth"), area = quantity(area, "area"))),
-             toml_table("balance", list(sd = quantity(balance, "balance"))), toml_table("uncertainty", list(replicates = whole(replicates, "replicates", 0, 10000))))
+             toml_table("balance", list(sd = quantity(balance_sd, "balance_sd"))))
+  if (length(search)) parts <- c(parts, toml_table("search", as.list(search)))
+  if (!is.null(replicates)) parts <- c(parts, toml_table("uncertainty", list(replicates = whole(replicates, "replicates", 0, 10000))))
+  if (!is.null(levels)) parts <- c(parts, toml_table("life", list(levels = as.list(levels))))
   if (length(points)) {
     if (is.null(names(points))) stop_input("points has no names; it is like list(launch = list(slip_speed = \"1700 rpm\", ...))")
-    parts <- c(parts, toml_table("life", list(levels = as.list(levels))))
     for (name in names(points)) parts <- c(parts, toml_table(paste0("life.points.", toml_key(name)), as.list(points[[name]])))
   }
-  one_line(paste(parts, collapse = "\n"), NULL, NULL, NULL, fit, call, ..., tables = given)
+  one_line(paste(parts, collapse = "\n"), NULL, NULL, NULL, fit, call, ..., tables = given,
+           arguments = c(`lining.density` = "density", `lining.depth` = "depth", `lining.area` = "area", `balance.sd` = "balance_sd",
+                         `data.missing_cycles` = "missing_cycles"))
 }

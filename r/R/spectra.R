@@ -25,7 +25,7 @@ ww_damage <- function(fit, loads, column = NULL, units = NULL, method = "four-po
                       progress = FALSE) {
   history <- load_history(loads, units)
   arguments <- c(history$given, list(column = column, method = method, residual = residual, time = time, scale = scale, rule = rule,
-                                     knee = knee, damage_sum = damage_sum, block = block, b_lives = b, confidence = confidence))
+                                     knee = knee, damage_sum = damage_sum, block = block, b = b, confidence = confidence))
   about <- fit_or_folder(fit)
   found <- answer_of("damage", "life", arguments, run = about$run, path = about$path, tables = history$tables, progress = progress)
   keys <- c("q05", "q50", "q95", "bound", "predictive")

@@ -12,14 +12,14 @@ one_number <- function(x, what) {
 }
 
 ww_select <- function(data, response, inputs = character(), degree = NULL, terms = character(), criterion = "loo", keep = 10,
-                      near = 0, force = character(), weights = "", folds = 0, nested = NULL, seed = 1, time = Inf, threads = 0,
+                      near = 0, force = character(), weights = "", folds = 0, nested = NULL, seed = 1, time = NULL, threads = 0,
                       report = FALSE) {
   most <- .Machine$integer.max
   asked <- list(response = one_text(response, "response"), inputs = texts(inputs, "inputs"), degree = whole(degree, "degree", 0, 100),
                 terms = texts(terms, "terms"), weights = one_text(weights, "weights"), force = texts(force, "force"))
   how <- list(criterion = one_text(criterion, "criterion"), keep = whole(keep, "keep", 0, most), near = one_number(near, "near"),
               folds = whole(folds, "folds", 0, most), nested = if (is.null(nested)) -1L else whole(nested, "nested", 0, most),
-              seed = seed_text(seed), time = one_number(time, "time"), threads = whole(threads, "threads", 0, 1024),
+              seed = seed_text(seed), time = one_number(if (is.null(time)) Inf else time, "time"), threads = whole(threads, "threads", 0, 1024),
               report = one_truth(report, "report"))
   if (is_path(data)) {
     source <- path_of(data)

@@ -109,7 +109,10 @@ def _values(column, where):
 
         column = pandas.Series(column)
     if hasattr(column, "cat") and hasattr(dtype, "categories"):  # pandas' categories
-        column = column.astype(object if dtype.categories.dtype == object else dtype.categories.dtype)
+        of = dtype.categories.dtype
+        if getattr(of, "kind", "O") in "iub" and column.isna().any():  # these types hold no missing value
+            of = float if of.kind == "b" or abs(dtype.categories.to_numpy()).max() <= 2**53 else object
+        column = column.astype(of)
         dtype = column.dtype
     if dtype is not None and not isinstance(dtype, np.dtype) and hasattr(column, "to_numpy"):  # pandas' own types
         kind = getattr(dtype, "kind", "O")

@@ -9,6 +9,7 @@ from .proposed import Priors, factor_27, half_normal, lognormal, normal, quantit
 from .study import Study
 
 _processes = ("wiener-process", "gamma-process", "inverse-gaussian-process")
+_families = ("normal", "lognormal", *_processes)
 
 
 def _limit(limit, y, unit):
@@ -35,8 +36,8 @@ def _require_one_path(columns, x, y):
 
 @fits
 def degradation(data, y, x, *, unit=None, limit=None, path="line", family="normal", starts_at_zero=None, units=None, priors=None,
-                b=(1, 10), confidence=0.9, predict=None, title=None, seed=None, method=None, chains=None, warmup=None, draws=None,
-                threads=0, report=True, progress=None):
+                b=(1, 10), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None, chains=None, warmup=None,
+                draws=None, threads=0, report=True, progress=None):
     """Fit degradation paths, and the lives to a failure threshold: of a new unit, and what remains to each.
 
     Parameters
@@ -54,8 +55,8 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         Failure threshold of ``y``; a plain number is in its unit. Without it no life is predicted.
     path : {"line", "power"}
         Shape of a path: rate*x, or rate*L*(x/L)^power, where L is the largest x, rounded up: ``rate`` is the mean rate up to L.
-    family : {"normal", "wiener-process", "gamma-process", "inverse-gaussian-process"}
-        Readings that scatter about the path (default), or a process of random increments, whose variance over the mean of a
+    family : {"normal", "lognormal", "wiener-process", "gamma-process", "inverse-gaussian-process"}
+        Readings that scatter about the path (default), by a share of it (lognormal: paths begin at 0 and rise), or a process of random increments, whose variance over the mean of a
         step is ``step_ratio``. Gamma and inverse Gaussian processes only rise.
     starts_at_zero : bool, optional
         Whether paths begin at 0. By default the data decide by a straight line through each unit: not where the line begins
@@ -66,7 +67,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         Priors that replace defaults, by parameter. With "flat" nothing is known of any parameter, and the mode of the
         posterior, ``fit.results["mode"]``, is the maximum likelihood estimate. Defaults are weak, sizes rounded up to 1, 2 or 5 times a power of ten.
         ``rate``: lognormal, log_sd 2, median the rate of straight lines through the data. ``power``: lognormal, median 1, log_sd 0.5. ``start``: normal, mean half of the
-        largest reading, sd all of it. ``sigma``: half-normal, scale the largest reading; ``step_ratio``: the same.
+        largest reading, sd all of it. ``sigma``: half-normal, scale the largest reading, 1 of "lognormal"; ``step_ratio``: the largest reading.
         ``rate_scatter`` of ln rate between units: half-normal, scale 1.
     b : float or sequence of float
         Percentages of B-lives.
@@ -74,6 +75,8 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         Probability with which their lower bounds are exceeded.
     predict : dict, optional
         Further keys of ``[predict]`` of a formula study. By default ``at`` is twice the largest x.
+    unused : str or sequence of str, optional
+        Columns that look like labels of units or like events and are none.
     <what all fits share>
 
     Examples
@@ -90,29 +93,31 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     """
     if path not in ("line", "power"):
         raise InputError(f"path is {path!r}; it is 'line' or 'power'")
-    if family not in ("normal", *_processes):
-        raise InputError(f"family is {family!r}; it is {', '.join(('normal', *_processes))}")
+    if family not in _families:
+        raise InputError(f"family is {family!r}; it is {', '.join(_families)}")
     columns = Columns(data, units, {"rate", "power", "start", "sigma", "step_ratio", "rate_scatter", "path"})
     y, x = columns.take(y, "y"), columns.take(x, "x")
+    unused = [columns.heading(each, "unused") for each in ([unused] if isinstance(unused, str) else unused or ())]
     rows = {columns.name(y): columns.entry(y), columns.name(x): columns.entry(x)}
     if unit not in (None, False):
         unit = columns.take(unit, "unit")
         rows[columns.name(unit)] = unit
     elif unit is None:
         _require_one_path(columns, x, y)
-        columns.warn_of_idle((), units=True, otherwise="unit=False")
+        columns.warn_of_idle(unused, units=True, otherwise="unit=False")
     of, along = columns.unit(y), columns.unit(x)
     values, places = columns.numbers(y), columns.numbers(x)
     if not len(values) or not len(places):
         raise InputError(f"data has no readings in column '{y if not len(values) else x}'")
     at_zero, falls, rate = columns.line(x, y, unit or None)
-    if starts_at_zero is not None:
-        at_zero = bool(starts_at_zero)
+    if starts_at_zero is False and family != "normal":
+        raise InputError(f"starts_at_zero=False needs family='normal': paths of the family {family} begin at 0")
+    at_zero = bool(starts_at_zero) if starts_at_zero is not None else at_zero or family == "lognormal"
     process = family in _processes
     if process and not at_zero and starts_at_zero is None:
         raise InputError(f"family '{family}': the path of a process begins at 0, and a line through the readings of {y} does not: give "
                          "the growth since the first reading, or starts_at_zero=True")
-    if falls and family in ("gamma-process", "inverse-gaussian-process"):
+    if falls and family in ("lognormal", "gamma-process", "inverse-gaussian-process"):
         raise InputError(f"family '{family}': its paths only rise, and {y} falls; give the loss since the first reading")
     size = rounded_up(max(abs(values)) or 1)
     last = max(abs(places)) or 1
@@ -135,8 +140,11 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         known.add("step_ratio", half_normal(size, of), "up to the size of the readings")
         slots = {"family": family, "mean": formula, "scale": "step_ratio"}
     else:
-        known.add("sigma", half_normal(size, of), "scatter of a reading, up to the size of the readings")
-        slots = {"family": "normal", "mean": "path", "sd": "sigma"}
+        lognormal_readings = family == "lognormal"
+        known.add("sigma", half_normal(1.0) if lognormal_readings else half_normal(size, of),
+                  "scatter of the log of a reading" if lognormal_readings else "scatter of a reading, up to the size of the readings")
+        slots = ({"family": family, "median": "path", "log_sd": "sigma"} if lognormal_readings
+                 else {"family": "normal", "mean": "path", "sd": "sigma"})
     effects = ""
     if unit:
         known.add("rate_scatter", half_normal(1.0), "most units are within a factor of ten")
@@ -146,11 +154,11 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     if limit is not None:
         asked.update({"limit": {columns.name(y) if process else "path": _limit(limit, y, of)}, "b_lives": list(b) if hasattr(b, "__iter__") else [b],
                       **level_of_bounds(confidence, predict)})
-    parts = [toml.table("", {"title": title or f"Degradation: {y} along {x}", "model": "formula"}), toml.table("data", {"file": "data"}),
+    parts = [toml.table("", {"title": title or f"Degradation: {y} along {x}", "model": "formula"}), toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}),
              toml.table("data.columns", rows), *([] if process else [toml.table("formula", {"path": formula})]),
              toml.table(f"likelihood.{columns.name(y)}", slots), toml.table("prior", known.laws, known.comments), effects,
              toml.table("predict", {**asked, **(predict or {})})]
-    table, only = columns.table()
+    table, only = columns.table(unused)
     study = Study._made("\n".join(parts), {"data": (table, data, only)}, {
         f"data.columns.{columns.name(y)}": "y", f"data.columns.{name}": "x", "predict.limit": "limit", "predict.b_lives": "b",
         "predict.credible_level": "confidence"}, {"limit": limit, "confidence": confidence})

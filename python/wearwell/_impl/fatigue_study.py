@@ -1,19 +1,40 @@
 """Fatigue in one line: S-N curves, and fatigue limits of up-and-down tests."""
 
+from collections.abc import Mapping
+
+from . import toml
 from .columns import status_of
 from .errors import InputError
 from .fit_options import fits
 from .preset_study import Preset, level_of_bounds, percentages, quantities
+from .proposed import quantity_text
 
 _corrections = ("none", "goodman", "gerber", "soderberg", "morrow", "swt", "walker")
 _curves = ("basquin", "knee", "stromeyer", "bastenaire")
 
 
+def _stresses(at, conditions, unit):
+    """[predict.stress] of the stresses asked for, by name. A plain number is in the unit of the tests."""
+    if at is None:
+        return None
+    if not isinstance(at, Mapping):
+        at = {str(each): each for each in quantities(at, "at")}
+    same = {key: conditions[key] for key in ("stress_ratio", "mean_stress") if key in conditions}
+
+    def of_tests(value, argument):
+        value = toml.quantity(value, argument)
+        return value if isinstance(value, str) else quantity_text(value, unit)
+
+    return {name: {key: of_tests(value, f"at: '{name}': {key}") if key == "alternating_stress" else toml.quantity(value, f"at: '{name}': {key}")
+                   for key, value in each.items()} if isinstance(each, Mapping)
+            else {"alternating_stress": of_tests(each, f"at: '{name}'"), **same} for name, each in at.items()}
+
+
 @fits
 def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, correction=None, curve="basquin", fatigue_limit="none",
-       family="log10-normal", count=None, label=None, units=None, priors=None, b=(1, 10), confidence=0.9, survival_to=None,
-       required_life=None, reliability=None, predict=None, unused=None, title=None, seed=None, method=None, chains=None, warmup=None,
-       draws=None, threads=0, report=True, progress=None):
+       family="log10-normal", scatter="constant", count=None, label=None, units=None, priors=None, b=(1, 10), confidence=0.9,
+       at=None, survival_to=None, required_life=None, reliability=None, predict=None, unused=None, title=None, seed=None, method=None,
+       chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit an S-N curve to a table of fatigue tests, run-outs included.
 
     Parameters
@@ -37,6 +58,8 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
         Whether specimens have a limit that scatters.
     family : {"log10-normal", "weibull", "normal"}
         Distribution of lives under one stress.
+    scatter : {"constant", "grows"}
+        Whether lives scatter alike under every stress, or more under lower ones.
     count : str, optional
         Column of the number of equal tests in a row.
     label : str, optional
@@ -50,6 +73,9 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
         Percentages of B-lives.
     confidence : float
         Probability with which their lower bounds are exceeded.
+    at : str, float, sequence or dict, optional
+        Stress amplitudes whose lives are predicted: "400 MPa", or a plain number in the unit of the tests; or these by name, each with its own ratio or mean stress if need
+        be: ``{"shaft": {"alternating_stress": "400 MPa", "stress_ratio": -1}}``.
     survival_to : str or list of str, optional
         Lives to which the share of survivors is asked, such as "1e6 cycles".
     required_life : str or list of str, optional
@@ -80,7 +106,8 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
     if correction is None:
         correction = "goodman" if {"stress_ratio", "mean_stress"} & set(study.rows) else "none"
     for name, value, allowed in (("correction", correction, _corrections), ("curve", curve, _curves),
-                                 ("fatigue_limit", fatigue_limit, ("none", "random")), ("family", family, ("log10-normal", "weibull", "normal"))):
+                                 ("fatigue_limit", fatigue_limit, ("none", "random")), ("scatter", scatter, ("constant", "grows")),
+                                 ("family", family, ("log10-normal", "weibull", "normal"))):
         if value not in allowed:
             raise InputError(f"{name} is {value!r}; it is {', '.join(allowed)}")
     if correction != "none" and stress_ratio is None and mean_stress is None:
@@ -91,10 +118,13 @@ def sn(data, stress, life, *, event=None, stress_ratio=None, mean_stress=None, c
     study.column("count", "count", count)
     study.column("label", "label", label)
     law = {"mean_stress": correction, **({"curve": curve} if curve != "basquin" else {}),
-           **({"fatigue_limit": fatigue_limit} if fatigue_limit != "none" else {})}
+           **({"fatigue_limit": fatigue_limit} if fatigue_limit != "none" else {}), **({"scatter": scatter} if scatter != "constant" else {})}
     asked = {"types": "all", "b_lives": percentages(b), **level_of_bounds(confidence, predict), "survival_to": quantities(survival_to, "survival_to"),
-             "required_life": quantities(required_life, "required_life"), "reliability": quantities(reliability, "reliability"), **(predict or {})}
-    study.arguments.update({"law.mean_stress": "correction", "law.curve": "curve", "likelihood.family": "family"})
+             "required_life": quantities(required_life, "required_life"), "reliability": quantities(reliability, "reliability"),
+             "stress": _stresses(at, study.conditions, study.columns.unit(study.columns.heading(stress, "stress"))), **(predict or {})}
+    for name, each in (asked["stress"] if at is not None else {}).items():
+        study.arguments.update({f"{table}.{name}.{key}": f"at: '{name}': {key}" for key in each for table in ("stress", "predict.stress")})
+    study.arguments.update({"law.mean_stress": "correction", "law.curve": "curve", "law.scatter": "scatter", "predict.stress": "at", "likelihood.family": "family"})
     made = study.study(title or f"S-N curve: {stress} and {life}", {"law": law, "likelihood": {"family": family}}, priors, asked, unused, may_have_counts=True)
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)
 

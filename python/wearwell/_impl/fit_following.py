@@ -72,7 +72,7 @@ class FitFollowing:
 
     @like_function(_damage)
     def damage(self, loads, *, column=None, units=None, method="four-point", residual="half", time=None, scale=None, rule=None, knee=None,
-               damage_sum="1 x/ 1.34", block=None, b_lives=(1, 10, 50), confidence=0.9, progress=None):
+               damage_sum="1 x/ 1.34", block=None, b=(1, 10, 50), confidence=0.9, progress=None):
         """Sum the damage of a load history along this S-N curve, and find the life under it, as ``wearwell fatigue life``.
 
         <as the function>
@@ -86,7 +86,7 @@ class FitFollowing:
         1.74e+07 km
         """
         return _damage(self, loads, column=column, units=units, method=method, residual=residual, time=time, scale=scale, rule=rule,
-                       knee=knee, damage_sum=damage_sum, block=block, b_lives=b_lives, confidence=confidence, progress=progress)
+                       knee=knee, damage_sum=damage_sum, block=block, b=b, confidence=confidence, progress=progress)
 
     def design(self, *others, names=None, stress=None, mean_stress=None, stress_ratio=None, reliability=None, confidence=None,
                progress=None):

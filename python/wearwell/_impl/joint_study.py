@@ -8,8 +8,8 @@ from .preset_study import Preset, level_of_bounds, percentages, quantities
 
 @fits
 def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, slip=None, limit=None, risk=None, at=None,
-          family="normal", count=None, units=None, priors=None, b=(1, 10), confidence=0.9, predict=None, unused=None, title=None, seed=None,
-          method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
+          family="normal", count=None, units=None, priors=None, b=(1, 10), confidence=0.9, predict=None, unused=None, title=None,
+          stages=False, seed=None, method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
     """Fit the wear coefficient of a joint to inspections of its worn volume, and the cycles to a failure threshold.
 
     Parameters
@@ -49,6 +49,8 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
         Further keys of ``[predict]`` of a joint.
     unused : str or sequence of str, optional
         Columns that look like a number of equal rows or like labels of several joints and are none.
+    stages : bool
+        Whether the posterior after 1, 2, ... rows is computed too: ``fit.results["stages"]``.
     <what all fits share>
 
     Examples
@@ -72,7 +74,9 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
         raise InputError("work_per_cycle is missing: the friction work of one cycle, such as '6 N m'; or work, a column of the work until "
                          "each inspection; or force and slip, columns of both")
     if work_per_cycle is not None and (work is not None or force is not None):
-        raise InputError(f"work_per_cycle and {'work' if work is not None else 'force'} say the same in two ways; give one of them")
+        other = "work" if work is not None else "force"
+        raise InputError(f"work_per_cycle and {other} say the same of the rows in two ways; give one of them, and the work of one cycle "
+                         "for which lives are predicted by predict={'work_per_cycle': '6 N m'}")
     asked = {"limit": None if limit is None else toml.quantity(limit, "limit"), "risk": None if risk is None else toml.quantity(risk, "risk")}
     if work_per_cycle is not None:
         study.conditions["work_per_cycle"] = toml.quantity(work_per_cycle, "work_per_cycle")
@@ -83,6 +87,9 @@ def joint(data, volume, cycles, *, work_per_cycle=None, work=None, force=None, s
     study.column("count", "count", count)
     if limit is not None:
         asked.update({"b_lives": percentages(b), **level_of_bounds(confidence, predict)})
-    made = study.study(title or f"Joint wear: {volume} against {cycles}", {"likelihood": {"family": family}}, priors,
+    if not isinstance(stages, bool):
+        raise InputError(f"stages is {stages!r}; it is True or False")
+    made = study.study(title or f"Joint wear: {volume} against {cycles}",
+                       {"likelihood": {"family": family}, "update": {"stages": "row"} if stages else {}}, priors,
                        {**asked, **(predict or {})}, unused, may_have_counts=True, units=True, noun="joint", count_as="those of one joint")
     return made.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

@@ -20,6 +20,7 @@ def in_python(message, arguments=None, values=None):
     message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d|"[^"]*") \}', rf'{status}={{"column": \1, "failure": \2}}', message)
     message = re.sub(r'status = ("[^"]*")', rf"{status}=\1", message)
     message = re.sub(r'mode = ("[^"]*") and \[failure_modes\] column = "mode" in a formula study', r"mode=\1 in wearwell.life", message)
+    message = re.sub(r"\bneeds predict\.(\w+)", r"needs predict={'\1': ...}", message)
     message = re.sub(r"unused = (\[[^\]]*\]) under \[data\]", r"unused=\1", message)
     message = re.sub(r'unused = (\[[^\]]*\])', r"unused=\1", message)
     message = re.sub(r'give the study a status column(, or write \[failure_modes\] runout = ("[^"]*"))?',

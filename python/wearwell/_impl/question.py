@@ -45,6 +45,8 @@ def _subject(about, name):
         return about._live(), None, "", []
     if isinstance(about, Study):
         return None, about._read, "", []
+    if about is None:
+        raise InputError(f"{name} is None; it is a fit, the folder of a result, or a table")
     if isinstance(about, (str, os.PathLike)):
         return None, None, os.fspath(about), []
     return None, None, "", _tables(about, name)

@@ -19,9 +19,14 @@ def _is_date(value):
     return hasattr(value, "isoformat") or type(value).__name__ in ("Period", "datetime64")
 
 
+def _is_there(value):
+    """Whether a cell has a value; lists and arrays have one, which the library refuses by name."""
+    return value is not None and (hasattr(value, "__len__") or bool(value == value))
+
+
 def _text_of_date(value):
     """A day or a month as the library reads it; None where there is none."""
-    if value is None or value != value or str(value) == "NaT":
+    if not _is_there(value) or str(value) == "NaT":
         return None
     return str(value)[:10] if _is_date(value) else value  # without a time of day
 
@@ -35,7 +40,7 @@ def _with_texts(data):
         column = data[heading]
         if getattr(column, "ndim", 1) != 1:
             continue  # two columns of one name, which the library refuses
-        first = next((each for each in column if each is not None and each == each), None)
+        first = next((each for each in column if _is_there(each)), None)
         if getattr(column.dtype, "kind", "O") == "M" or (column.dtype == object or type(column.dtype).__name__ == "PeriodDtype") and _is_date(first):
             data = data.assign(**{heading: [_text_of_date(each) for each in column]})
     return data
@@ -173,7 +178,8 @@ def returns(data, *, sold=None, quantity=None, returned=None, until=None, period
              toml.table("data.returns", columns),
              toml.table("likelihood.life", {"family": family, **{slot: text.replace("{}", scale) for slot, text in slots.items()}}),
              toml.table("prior", known.laws, known.comments), toml.table("predict", {key: each for key, each in asked.items() if each is not None})]
-    arguments = {f"data.returns.{key}": key for key in columns}
+    arguments = {f"data.returns.{key}": key for key in (*columns, "sold", "quantity", "returned", "until", "period", "warranty", "hold_out")}
+    arguments["add them up, or name the column of failure modes: [data.returns] mode"] = "add them up"  # which this function does not take
     arguments.update({f"predict.{key}": {"b_lives": "b", "next": "ahead"}.get(key, key) for key in asked})
     study = Study._made("\n".join(parts), {"data": (table, data, None), **tables}, arguments)
     return study.fit(seed, method=method, chains=chains, warmup=warmup, draws=draws, threads=threads, report=report, progress=progress)

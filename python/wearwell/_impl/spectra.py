@@ -299,7 +299,7 @@ def _with_history(function):
 
 @_with_history
 def damage(fit, loads, *, column=None, units=None, method="four-point", residual="half", time=None, scale=None, rule=None, knee=None,
-           damage_sum="1 x/ 1.34", block=None, b_lives=(1, 10, 50), confidence=0.9, progress=None):
+           damage_sum="1 x/ 1.34", block=None, b=(1, 10, 50), confidence=0.9, progress=None):
     """Sum the damage of a load history along a fitted S-N curve, and find the life under it.
 
     Does what ``wearwell fatigue life`` does, with the same numbers to the bit: with the uncertainty of the curve, the scatter of items
@@ -322,7 +322,7 @@ def damage(fit, loads, *, column=None, units=None, method="four-point", residual
         Damage sum at failure: a number, or a median and the factor that covers two thirds.
     block : str or pint quantity, optional
         Use of one block, "350 km": lives are in its unit.
-    b_lives : float or sequence of float
+    b : float or sequence of float
         Percentages failed.
     confidence : float
         Confidence of the lower bounds, a share.
@@ -358,10 +358,10 @@ def damage(fit, loads, *, column=None, units=None, method="four-point", residual
     wearwell.InputError: loads, column 'load' has no unit: ...
     """
     given, tables = _loads(loads, units)
-    percents = [b_lives] if np.ndim(b_lives) == 0 else b_lives
+    percents = [b] if np.ndim(b) == 0 else b
     return Damage(*found("damage", {
         **given, "column": column, "method": method, "residual": residual, "time": time, "scale": scale, "rule": rule, "knee": knee,
-        "damage_sum": damage_sum, "block": block, "b_lives": percents, "confidence": confidence,
+        "damage_sum": damage_sum, "block": block, "b": percents, "confidence": confidence,
     }, fit, "fit", tables, 0, progress))
 
 

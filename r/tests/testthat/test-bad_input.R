@@ -104,10 +104,10 @@ presets <- list(
     study = function(frame) ww_staircase(frame, "S", "end", count = "tests", units = c(S = "MPa"), fit = FALSE),
     frame = list(S = c(300, 310, 320, 310, 300, 310, 320, 310), end = rep(0:1, 4), tests = rep(1, 8))),
   ww_joint = list(
-    study = function(frame) ww_joint(frame, "V", "n", work = "w", work_per_cycle = "6.2 N m", limit = "200 mm^3", units = c(V = "mm^3", n = "cycles", w = "N m"), fit = FALSE),
+    study = function(frame) ww_joint(frame, "V", "n", work = "w", predict = list(work_per_cycle = "6.2 N m"), limit = "200 mm^3", units = c(V = "mm^3", n = "cycles", w = "N m"), fit = FALSE),
     frame = list(V = c(20, 35, 60, 80, 95, 120, 140, 155), n = 1:8 * 1000, w = rep(6.2, 8))),
   ww_bearing = list(
-    study = function(frame) ww_bearing(frame, "d", "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
+    study = function(frame) ww_bearing(frame, "d", revolutions = "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
                                        units = c(d = "um", p = "MPa"), fit = FALSE),
     frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)))
 

@@ -26,6 +26,8 @@ test_that("degradation is a formula study with a rate of each unit", {
   refused(text(depth ~ km | machine, start = TRUE, starts_at_zero = TRUE), "each unit begins at a value of its own")
   refused(text(depth ~ km | machine, family = "gamma-process", start = TRUE), "start = TRUE needs family = \"normal\"")
   refused(text(depth ~ km | machine, limt = "100 um"), "did you mean 'limit'?")
+  refused(suppressWarnings(text(depth ~ km)), "unit is missing: km falls at row 4 from 30 to 10")
+  expect_no_match(suppressWarnings(text(depth ~ km, unit = FALSE)), "random_effects")
 })
 
 test_that("an S-N study of arguments is that of the file", {
@@ -45,7 +47,11 @@ test_that("an S-N study of arguments is that of the file", {
                     at = "400 MPa", seed = 1, method = "exact", draws = 100, report = FALSE))
   expect_identical(coded$parameters, fit$parameters)
   expect_output(print(fit), "Default priors.*log10_a +normal")
-  refused(sn(event = "status"), "stress_ratio or mean_stress is missing")
+  refused(sn(event = "status", correction = "gerber"), "correction = \"gerber\" needs stress_ratio or mean_stress")
+  asked <- function(at, ...) wearwell:::core(wearwell:::C_keys, sn(event = "status", stress_ratio = -1, data = reversed, at = at, fit = FALSE, ...)$text)
+  expect_identical(asked(320)$predict$stress$`320`, list(alternating_stress = "320 MPa", stress_ratio = -1))
+  expect_identical(asked(c("320 MPa", "0.33 GPa"), scatter = "grows")$predict$stress$`0.33 GPa`$alternating_stress, "0.33 GPa")
+  refused(asked("soon"), "at: 'soon': alternating_stress: 'soon' is not a number with a unit")
   refused(sn(stress_ratio = -1), "looks like how each life ended")
   refused(sn(event = "status", stress_ratio = "ratio"), "stress_ratio: data has no column 'ratio'")
   expect_error(sn(event = "status", stress_ratio = -1, curve = "knees", fit = FALSE), "curve", class = "wearwell_input_error")
@@ -61,21 +67,28 @@ test_that("staircase, joint and bearing are the studies of their files", {
   one <- ww_joint(joint, "volume", "cycles", work_per_cycle = "5.966 N m", limit = "100 mm^3", units = c(volume = "mm^3"), fit = FALSE)
   expect_output(print(one), "V = k W, W = cycles x 5.966 N m")
   refused(ww_joint(joint, "volume", "cycles"), "work_per_cycle is missing")
+  expect_identical(wearwell:::core(wearwell:::C_keys, one$text)$predict$cycles, 20000)
+  refused(ww_joint(transform(joint, w = cycles * 6), "volume", "cycles", work = "w", work_per_cycle = "6 N m", units = c(volume = "mm^3", w = "N m")),
+          "predict = list(work_per_cycle = \"6 N m\")")
   refused(ww_joint(joint, "volum", "cycles", work_per_cycle = "1 N m"), "volume: data has no column 'volum'")
   worn <- read.csv(example("bearing", "inspections.csv"))
-  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", unit = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
+  bearing <- function(...) ww_bearing(worn, "depth_um", revolutions = "revolutions", unit = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
                                       depth_error = "2 um", units = c(depth_um = "um", clearance_um = "um", force_N = "N"), ..., fit = FALSE)
-  two <- bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um", given = list(clearance = "30 um", pressure = "1.5 MPa"))
+  two <- bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um", predict = list(clearance = "30 um", pressure = "1.5 MPa"))
   expect_match(two$text, "[conditions]\ncontact = \"stationary\"\nradius = \"10 mm\"\nlength = \"20 mm\"", fixed = TRUE)
   expect_match(two$notes, "differs from bearing to bearing")
-  refused(bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um"), "needs given = list(clearance = ...)")
+  refused(bearing(radius = "10 mm", clearance = "clearance_um", limit = "80 um"), "needs predict = list(clearance = ...)")
+  timed <- ww_bearing(data.frame(hours = c(10, 20), depth = c(16.7, 31.9)), "depth", contact = "journal", radius = "10 mm", clearance = "25 um", time = "hours",
+                      speed = "60 rpm", pressure = "1.5 MPa", units = c(depth = "um", hours = "h"), fit = FALSE)
+  expect_match(timed$text, "speed = \"60 rpm\"\npressure = \"1.5 MPa\"", fixed = TRUE)
+  expect_match(timed$text, "time = { column = \"time\", unit = \"h\" }", fixed = TRUE)
   refused(bearing(radius = "radius", clearance = "clearance_um"), "radius: data has no column 'radius'")
 })
 
 test_that("a clutch takes three tables", {
-  refused(ww_clutch(design = data.frame(point = 1), cycles = 3, weighings = 4, density = "1 g/cm^3", depth = "1 mm", area = "1 cm^2"), "cycles is double")
+  refused(ww_clutch(design = data.frame(point = 1), cycles = 3, weighings = 4, density = "1 g/cm^3", depth = "1 mm", area = "1 cm^2", balance_sd = "1 mg"), "cycles is double")
   expect_error(ww_clutch(design = data.frame(point = 1), cycles = data.frame(plate = 1), weighings = data.frame(plate = 1), density = "2.2 g/cm^3",
-                         depth = "1 mm", area = "100 cm^2", fit = FALSE), "design", class = "wearwell_input_error")
+                         depth = "1 mm", area = "100 cm^2", balance_sd = "1 mg", fit = FALSE), "design", class = "wearwell_input_error")
 })
 
 test_that("level takes the place of the default confidence", {
@@ -106,7 +119,7 @@ test_that("presets name columns that they do not use", {
     "ww_degradation(..., unit = \"joint\"), whose rate differs from unit to unit, or unused = \"joint\" if that is so"))
   expect_length(said(joint(unused = "joint")), 0)
   worn <- read.csv(example("bearing", "inspections.csv"))
-  bearing <- function(...) ww_bearing(worn, "depth_um", "revolutions", contact = "stationary", radius = "10 mm", clearance = "25 um",
+  bearing <- function(...) ww_bearing(worn, "depth_um", revolutions = "revolutions", contact = "stationary", radius = "10 mm", clearance = "25 um",
                                       pressure = "1 MPa", units = c(depth_um = "um"), fit = FALSE, ...)
   expect_match(said(bearing()), "column 'bearing' looks like a label of units .* write unit = \"bearing\", or unused = \"bearing\" if that is so")
   expect_length(said(bearing(unit = "bearing")), 0)
@@ -116,22 +129,68 @@ test_that("a preset without its columns says which are missing", {
   tests <- data.frame(stress = c(400, 350, 300), cycles = c(1e5, 3e5, 1e6))
   expect_error(ww_sn(cycles ~ stress, data = tests),
                "ww_sn(): life is missing; it takes a data frame and names of its columns: ww_sn(data, stress = , life = , ...)", fixed = TRUE)
-  expect_error(ww_bearing(tests, "cycles", "stress"), "ww_bearing(): contact, radius, clearance are missing", fixed = TRUE)
+  expect_error(ww_bearing(tests, "cycles"), "ww_bearing(): contact, radius, clearance are missing", fixed = TRUE)
+  refused(ww_bearing(tests, "cycles", "journal", "10 mm", "25 um", speed = "60 rpm"), "revolutions is missing")
   expect_error(ww_staircase(), "ww_staircase(): data, stress, event are missing", fixed = TRUE)
 })
 
-test_that("arguments are those of Python", {
-  stub <- paste(readLines(file.path(source_of_project(), "python", "wearwell", "__init__.pyi")), collapse = "\n")
-  of_python <- function(name) {
-    found <- regmatches(stub, regexpr(paste0("(?s)\ndef ", name, "\\(.*?\\) ->"), stub, perl = TRUE))
-    gsub("[ :]", "", regmatches(found, gregexpr("(?m)^    [a-z_0-9]+:", found, perl = TRUE))[[1]])
-  }
-  of_r <- list(sn = ww_sn, staircase = ww_staircase, joint = ww_joint, repairable = ww_repairable, returns = ww_returns,
-               life = getS3method("ww_life", "formula"), degradation = getS3method("ww_degradation", "formula"))
-  # What the left side of a formula says, and what ww_fit() takes of all.
-  elsewhere <- c("life", "event", "entry", "y", "seed", "method", "chains", "warmup", "draws", "threads", "report", "progress")
+# The arguments of Python's functions of one name, "data", "b=(1, 10)": one list for each definition.
+of_python <- function(name) {
+  folder <- file.path(source_of_project(), "python", "wearwell")
+  files <- c(file.path(folder, c("plan.py", "bearing.py")), list.files(file.path(folder, "_impl"), "[.]py$", full.names = TRUE))
+  found <- unlist(lapply(files, function(file) {
+    text <- paste(readLines(file, warn = FALSE, encoding = "UTF-8"), collapse = "\n")
+    regmatches(text, gregexpr(paste0("(?m)^ *def ", name, "(\\((?:[^()]|(?1))*\\)):"), text, perl = TRUE))[[1]]
+  }))
+  lapply(found, function(definition) {
+    inside <- gsub("\\s+", " ", sub("^[^(]*\\((.*)\\):$", "\\1", gsub("\n", " ", definition)))
+    parts <- trimws(strsplit(inside, ",(?![^(]*\\))", perl = TRUE)[[1]])
+    parts <- parts[!parts %in% c("self", "*", "/")]
+    stats::setNames(sub("^[^=]*=?", "", parts), sub("=.*", "", parts))
+  })
+}
+
+# A default of R as Python writes it. Of the choices that match.arg() takes, the first is the default.
+in_python_words <- function(default, choices) {
+  if (is.name(default)) return("")
+  value <- eval(default)
+  if (is.null(value)) return("None")
+  if (is.character(value) && length(value) > 1 && choices) value <- value[1]
+  each <- if (is.character(value)) encodeString(value, quote = "\"") else if (is.logical(value)) ifelse(value, "True", "False") else
+    sub("[.]0$", "", format(value, scientific = FALSE, trim = TRUE))
+  if (length(value) == 1) each else paste0("(", paste(each, collapse = ", "), ")")
+}
+
+test_that("arguments and defaults are those of Python", {
+  formula <- function(name) getS3method(name, "formula")
+  of_r <- list(sn = ww_sn, staircase = ww_staircase, joint = ww_joint, bearing = ww_bearing, clutch = ww_clutch, repairable = ww_repairable,
+               returns = ww_returns, life = formula("ww_life"), degradation = formula("ww_degradation"), fit = ww_fit, update = ww_update,
+               decide = ww_decide, damage = ww_damage, spectrum = ww_spectrum, rainflow = ww_rainflow, backtest = ww_backtest, design = ww_design,
+               export_c = ww_export_c, export_sql = ww_export_sql, compare = ww_compare, percentile = ww_percentile, conditional = ww_conditional,
+               against = ww_against, ask = ww_ask, survival_function = ww_survival_function, hazard = ww_hazard, select = ww_select,
+               accelerate = ww_plan_accelerate, demonstrate = ww_plan_demonstrate, inspect = ww_plan_inspect, `next` = ww_plan_next, size = ww_plan_size,
+               lognormal = ww_lognormal, gamma = ww_gamma, beta = ww_beta, student_t = ww_student_t, uniform = ww_uniform)
+  # What ww_fit() takes of all; the left side of a formula and its data; `fit` of methods; several fits.
+  of_fits <- c("seed", "method", "chains", "warmup", "draws", "threads", "report", "progress")
+  of_formulas <- list(life = c("data", "life", "event", "entry"), degradation = c("data", "y", "x"))
+  # `along` and its like stand in a formula; `fit` asks for a study alone; a frame of ww_fit() is that of a path.
+  only_r <- list(life = c("x", "data", "weights", "fit"), degradation = c("x", "data", "start", "given", "fit"), fit = c("data", "units"))
+  choices <- c("repairable", "rainflow")
   for (name in names(of_r)) {
-    expect_gt(length(of_python(name)), 10)
-    expect_identical(setdiff(of_python(name), c(names(formals(of_r[[name]])), elsewhere)), character(), info = name)
+    formals <- formals(of_r[[name]])
+    ours <- stats::setNames(vapply(formals, in_python_words, "", name %in% choices), names(formals))
+    ours <- ours[setdiff(names(ours), c("...", if ("..." %in% names(ours)) of_fits, "progress", c(only_r[[name]], if (is.null(only_r[[name]])) "fit")))]
+    theirs <- lapply(of_python(name), function(each) {
+      each[setdiff(names(each), c("progress", "fit", of_formulas[[name]], if ("..." %in% names(formals)) of_fits, grep("^[*]", names(each), value = TRUE)))]
+    })
+    theirs <- lapply(theirs, function(each) stats::setNames(gsub("_(?=[0-9])", "", sub("[.]0$", "", gsub("[(][)]", "()", gsub("'", "\"", each))), perl = TRUE), names(each)))
+    # Of a method and a function, the one that has the defaults.
+    theirs <- theirs[order(-vapply(theirs, function(each) sum(nzchar(each)), 0))]
+    same <- vapply(theirs, function(each) setequal(names(each), names(ours)), NA)
+    expect(any(same), paste0(name, ": R has ", paste(names(ours), collapse = ", "), "\nPython: ", paste(vapply(theirs, function(each) paste(names(each), collapse = ", "), ""), collapse = "\n")))
+    if (!any(same)) next
+    each <- theirs[[which(same)[1]]]
+    if (is.null(of_formulas[[name]])) expect_identical(names(ours), names(each), info = name)
+    expect_identical(ours, each[names(ours)], info = name)
   }
 })

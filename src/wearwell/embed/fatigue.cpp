@@ -46,7 +46,7 @@ Work damage(PlanArguments& arguments, const Subject& subject, const Monitor& mon
   arguments.text("knee", request.knee);
   arguments.text("block", request.block);
   arguments.text("damage_sum", request.damage_sum);
-  arguments.numbers("b_lives", request.b_lives);
+  arguments.numbers("b", request.b_lives);
   arguments.number("confidence", request.confidence);
   return [request, &subject] {
     const fatigue::LoadLifeReport report = fatigue::load_life_of(request, sn_result(subject));

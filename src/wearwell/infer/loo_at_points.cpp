@@ -97,6 +97,7 @@ double largest_share(const Rule& rule, const std::vector<double>& log_p) {
 
 void add_tails(const std::vector<NormalScore>& scores, std::vector<LooTerm>& terms) {
   for (std::size_t i = 0; i < terms.size(); ++i) {
+    check_stop();
     const double below = normal_cdf(scores[i].high), above = normal_cdf(-scores[i].low);
     terms[i].tail = std::min(1.0, 2 * std::min(below, above));
   }
@@ -133,7 +134,12 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
   Loo loo;
   loo.by_quadrature = true;
   loo.threshold = khat_threshold(static_cast<double>(fit.pooled.values.rows()));
-  loo.terms.resize(terms);
+  // The first writing of large memory takes long: term by term a request to stop ends it.
+  loo.terms.reserve(terms);
+  for (std::size_t i = 0; i < terms; ++i) {
+    check_stop();
+    loo.terms.emplace_back();
+  }
   std::vector<double> third(terms);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, terms, 4096), [&](const auto& part) {
     for (std::size_t i = part.begin(); i != part.end(); ++i) {
@@ -164,6 +170,7 @@ std::optional<Loo> loo_at_points(const Posterior& posterior, const Fit& fit, con
   });
   if (!(moved(order.front()) <= most_moved)) return {};
   for (auto i = order.begin(); i != uneven; ++i) {
+    check_stop();
     std::vector<double> own;
     for (const auto& each : log_p) own.push_back(each[*i]);
     loo.terms[*i].khat = largest_share(rule, own);

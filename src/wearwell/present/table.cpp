@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/present/number.h"
 #include "wearwell/present/text_table.h"
 
@@ -130,6 +131,7 @@ std::string csv(const Table& table) {
   }
   out += "\r\n";
   for (const auto& row : table.rows) {
+    check_stop();
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (c > 0) out += ',';
       out += file_cell(row[c], table.columns[c].is_range);

@@ -1,5 +1,6 @@
 #include "wearwell/prob/plotting_positions.h"
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/prob/survival_estimate.h"
 
 namespace wearwell {
@@ -11,6 +12,7 @@ std::vector<PlottingPosition> plotting_positions(std::span<const Response> respo
   std::vector<PlottingPosition> all;
   double before = 1;
   for (const SurvivalStep& step : estimate.steps) {
+    check_stop();
     if (!intervals) {
       all.push_back({step.at, 1 - 0.5 * (before + step.survival)});
     } else if (step.survival > 0) {

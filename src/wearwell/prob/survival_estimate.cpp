@@ -20,6 +20,7 @@ std::vector<SurvivalStep> by_kaplan_meier(std::span<const Response> responses,
   const auto later_first = [&](auto time, auto wanted) {
     std::vector<std::pair<double, double>> order;  // time and count
     for (std::size_t i = 0; i < responses.size(); ++i) {
+      check_stop();
       if (wanted(responses[i])) order.emplace_back(time(responses[i]), counts[i]);
     }
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
@@ -43,6 +44,7 @@ std::vector<SurvivalStep> by_kaplan_meier(std::span<const Response> responses,
   double lasting = 0, unwatched = 0;
   std::size_t ended = 0, entered = 0;
   for (const auto& [at, count] : failures) {
+    check_stop();
     if (!steps.empty() && steps.back().at == at) {
       steps.back().failed += count;
       continue;
@@ -55,6 +57,7 @@ std::vector<SurvivalStep> by_kaplan_meier(std::span<const Response> responses,
   std::vector<SurvivalStep> all;
   double survival = 1, sum = 0;
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    check_stop();
     survival *= 1 - step->failed / step->at_risk;
     sum += step->failed / (step->at_risk * (step->at_risk - step->failed));
     all.push_back({step->at, step->at, step->failed, step->at_risk, survival,
@@ -76,10 +79,12 @@ std::vector<Known> innermost(const std::vector<Known>& all) {
   };
   std::vector<End> ends;
   for (const Known& each : all) {
+    check_stop();
     ends.push_back({each.from, each.from == each.to ? 0 : 2});
     ends.push_back({each.to, 1});
   }
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+    check_stop();
     return a.at < b.at || (a.at == b.at && a.order < b.order);
   });
   std::vector<Known> result;
@@ -128,6 +133,7 @@ std::vector<double> errors_of_sums(const std::vector<Known>& all, const std::vec
   const auto n = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < all.size(); ++i) {
+    check_stop();
     const std::size_t begin = place[held[i].begin], end = place[held[i].end];
     double sum = 0;
     for (std::size_t c = held[i].begin; c < held[i].end; ++c) sum += share[c];

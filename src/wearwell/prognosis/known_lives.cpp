@@ -158,6 +158,9 @@ KnownLives lives_of_table(const Table& table) {
     TabledPoints& points = rows[cell_text(population, row)];
     points.life.push_back(known.unit.scale * number_at(table, life, row, 0));
     points.weight.push_back(weight ? number_at(table, *weight, row, 0) : 1);
+    if (!std::isfinite(points.weight.back()))
+      throw InputError(fmt::format("{}: {} must be finite", place(table, weight->name, row),
+                                   points.weight.back()));
   }
   for (const auto& [_, points] : fresh) {
     if (sum(points.weight) <= 0) continue;

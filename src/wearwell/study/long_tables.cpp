@@ -17,6 +17,7 @@ std::string loo_csv(const Loo& loo) {
   std::string out = "observation,elpd,lpd,khat,count,refitted,tail\n";
   auto end = std::back_inserter(out);
   for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+    check_stop();
     const LooTerm& term = loo.terms[i];
     fmt::format_to(end, "{},{},{},{},{},{},{}\n", i + 1, term.elpd, term.lpd, term.khat, term.count,
                    term.refitted ? 1 : 0, term.tail);
@@ -28,6 +29,7 @@ std::string coverage_csv(const CoverageTable& table) {
   std::string out = "row,label,outcome,life,until,probability,q05,q95,b10\n";
   auto end = std::back_inserter(out);
   for (const CoverageRow& row : table.rows) {
+    check_stop();
     fmt::format_to(end, "{},{},{},{},{},{},{},{},{}\n", row.row, printable_csv_cell(row.label),
                    row.outcome, row.life, row.until ? fmt::format("{}", *row.until) : "",
                    row.probability, row.q05, row.q95, row.b10);
@@ -39,6 +41,7 @@ std::string pointwise_csv(const PointwiseTable& table) {
   std::string out = "cycles,force,slip,volume,k\n";
   auto end = std::back_inserter(out);
   for (const PointwiseRow& row : table.rows) {
+    check_stop();
     fmt::format_to(end, "{},{},{},{},{}\n", row.cycles, row.force, row.slip, row.volume, row.k);
   }
   return out;

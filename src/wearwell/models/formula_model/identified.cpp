@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/stop_scope.h"
+
 namespace wearwell::formula_model {
 namespace {
 
 // Every distribution parameter of every observation, with units at three quantiles of their
 // population.
 std::vector<double> all_family_parameters(const FormulaRows& rows, const std::vector<double>& x) {
+  check_stop();
   UnitRows& units = rows.mine().rows;
   units.move_to(x.data());
   const std::size_t d = rows.model().effects.size();
@@ -48,6 +51,7 @@ Eigen::MatrixXd derivatives(const FormulaRows& rows, const std::vector<Parameter
     const std::vector<double> below = all_family_parameters(rows, x);
     x[p] = at;
     for (std::size_t i = 0; i < here.size(); ++i) {
+      check_stop();
       const double scale = std::max({std::abs(here[i]), std::abs(above[i]), std::abs(below[i])});
       const double slope = scale > 0 ? (above[i] - below[i]) / (2 * step * scale) : 0;
       result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p)) =
