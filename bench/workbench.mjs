@@ -75,7 +75,7 @@ await plots('colours by a column of few words', () => page.selectOption('#plot-b
 await plots('colours by a column of as many as rows', () => page.selectOption('#plot-by', {label: 'unit'}));
 const box = await page.locator('#panel-data svg.plot').boundingBox();
 await measure('pointing at the plot', async () => { await page.mouse.move(box.x + 200, box.y + 100); await page.mouse.down(); await page.mouse.up(); await page.mouse.move(box.x + 260, box.y + 120, {steps: 10}); }, () => document.querySelector('#panel-data .readout').textContent.startsWith('Row'));
-await measure('the step Model', () => page.click('#step-model'), () => document.querySelector('#panel-model').checkVisibility());
+await measure('the step Model', () => page.click('#step-model'), () => !document.querySelector('#panel-model').hidden);
 const typed = (await page.inputValue('#study')).indexOf('\n');
 await page.focus('#study');
 await page.evaluate((at) => document.getElementById('study').setSelectionRange(at - 1, at - 1), typed);
@@ -101,7 +101,7 @@ await page.mouse.up();
 await page.waitForSelector('.check[data-state="good"]', {timeout: 600000});
 await measure('families on probability paper', () => page.click('#families summary'), () => document.querySelector('.family .fitted') || document.querySelector('#families pre'));
 await measure('undo', () => page.click('button:has-text("Undo")'), (now) => document.getElementById('study').value === now, study);
-await measure('the step Data', () => page.click('#step-data'), () => document.querySelector('#panel-data').checkVisibility());
+await measure('the step Data', () => page.click('#step-data'), () => !document.querySelector('#panel-data').hidden);
 await browser.close();
 child.kill('SIGINT');
 await new Promise((done) => { child.once('exit', done); });

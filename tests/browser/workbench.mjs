@@ -160,6 +160,9 @@ async function errors(browser) {
   const complaints = [];
   const inside = fresh('errors');
   writeFileSync(join(inside, 'hostile.csv'), 'hours [h],status,"<img src=x onerror=alert(1)>"\n' + hours.map((each, i) => `${each},${i < 11 ? 'failure' : 'running'},=cmd|'/c calc'!A1\n`).join(''));
+  const wide = (cell) => Array.from({length: 2000}, (_, i) => cell(i)).join();
+  writeFileSync(join(inside, 'wide.csv'), [wide((i) => (i % 2 ? `<img src=x onerror=alert(${i})>` : `=cmd|'/c calc'!A${i}`)),
+    ...[1, 2, 3, 4].map((row) => wide((i) => (i % 10 === 5 ? `2024-0${row}-1${i % 7}` : i % 10 === 7 ? `</li><script>alert(${row % 3})</script>` : `${row}.${i}`))), ''].join('\n'));
   const {address, stop} = await serve(join(inside, 'hostile.csv'));
   const context = await browser.newContext({viewport: {width: 1280, height: 900}});
   const page = await open(context, address, complaints);
@@ -168,7 +171,7 @@ async function errors(browser) {
   check(!(await page.$('main img')), 'a name became markup');
   await page.focus('#step-data');
   await page.keyboard.press('ArrowRight');
-  check(await page.isVisible('#panel-model'), 'the arrow keys do not change the step');
+  check(await page.isVisible('#study') && !(await page.isVisible('#in-folder')), 'the arrow keys do not change the step');
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
   const good = await page.inputValue('#study');
   await page.fill('#study', good.replace('family = "weibull"', 'family = "weibul"'));
@@ -178,9 +181,25 @@ async function errors(browser) {
   check(await page.textContent('.gutter .bad') === String(line), 'the line of the error is not marked');
   await page.fill('#study', good);
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+
+  // Many columns, all of whose names are markup or formulas: roles, dates, colours and the next columns.
+  await page.click('#step-data');
+  await page.selectOption('#in-folder', 'wide.csv');
+  await page.click('#panel-data .doors button');
+  await page.waitForSelector('#type-5', {timeout: 60000});
+  await page.selectOption('#type-5', 'dates');
+  check((await page.textContent('#dates legend')).includes('<img src=x onerror=alert(5)>'), `errors: the dates are of ${await page.textContent('#dates legend')}`);
+  check(await page.locator('#date-since option').count() < 1300, 'errors: the choice of a beginning has all columns');
+  await page.selectOption('#plot-by', {index: 8});
+  await page.waitForSelector('#panel-data .legend', {timeout: 60000});
+  check((await page.textContent('#panel-data .legend')).includes('</li><script>alert(2)</script>'), `errors: the legend is ${await page.textContent('#panel-data .legend')}`);
+  await looks(page, 'errors wide', complaints);
+  await page.click('button:has-text("Later columns")');
+  await page.waitForSelector('#role-25', {timeout: 60000});
+  check(await page.locator('main :is(img, script, b)').count() === 0, 'errors: a name or cell of the wide table became markup');
   await context.close();
   await stop();
-  faults.push(...complaints.map((each) => `errors: ${each}`));
+  faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `errors: ${each}`));
 }
 
 // Two tabs on one session, a file that another program changes, and a study that stays when another table is opened.
@@ -328,6 +347,11 @@ async function large(browser) {
   await page.click('#panel-data .doors button');
   await page.waitForFunction(() => document.querySelector('#panel-data caption').textContent.startsWith('lives.csv'), null, {timeout: 60000});
   check(!(await page.textContent('#panel-data')).includes('Another page'), 'large: the page takes its own table for that of another');
+  // Of many points in one place one is drawn, and the number is stated.
+  await page.waitForFunction(() => document.querySelectorAll('#panel-data .plot path.many').length > 1, null, {timeout: 60000});
+  const drawn = (await page.textContent('#panel-data .picture .note')).replace(/(\d)\D(?=\d)/g, '$1').match(/^(\d+) of (\d+) points/);
+  const squares = await page.$$eval('#panel-data .plot path.many', (all) => all.reduce((sum, each) => sum + each.getAttribute('d').split('M').length - 1, 0));
+  check(drawn && Number(drawn[1]) === squares && Number(drawn[2]) === 400000, `large: ${squares} points are drawn, the note says ${await page.textContent('#panel-data .picture .note')}`);
   await page.evaluate(() => { document.getElementById('study').value = ''; });
   await context.close();
   await stop();
@@ -628,6 +652,7 @@ async function corrections(browser, {name, ...options}) {
   const inside = fresh(name);
   writeFileSync(join(inside, 'wear.csv'), `part,hours,wear\n${['A', 'B', 'C', 'D'].flatMap((each, i) => [100, 200, 400, 700].map((at) => `${each},${at},${(0.05 + 0.01 * i) * at + (at % 3) / 10}\n`)).join('')}`);
   writeFileSync(join(inside, 'rig.csv'), `Rig 4\nrun by Smith\n\nspecimen,hours,status\n,h,\n${hours.map((each, i) => `S${i},${each},${i < 11 ? 'failure' : 'running'}\n`).join('')}`);
+  writeFileSync(join(inside, 'words.csv'), `hours [h],state\n${hours.map((each, i) => `${each},${i < 11 ? 'failure' : i < 13 ? 'on the rig' : '<b>back</b>'}\n`).join('')}`);
   writeFileSync(join(inside, 'controllers.csv'), readFileSync(new URL('../../examples/life/controllers.csv', import.meta.url)));
   const {address, stop} = await serve(join(inside, 'wear.csv'));
   const context = await browser.newContext(options);
@@ -681,6 +706,20 @@ async function corrections(browser, {name, ...options}) {
   await page.click('#heading-lines li:nth-child(4) button');
   await page.click('#heading-lines button:has-text("These are the headings")');
   await heads('specimen,hours,status');
+
+  // A word that is no status is given its meaning by a click; what stands in the line stays.
+  await openTable('words.csv');
+  await page.click('#notice button:has-text("Guess")', {timeout: 5000}).catch(() => {});
+  await page.waitForFunction(() => document.getElementById('study').value.includes('words.csv'), null, {timeout: 60000});
+  await page.click('#step-model');
+  await page.waitForSelector('.check .choices:has-text("on the rig") button', {timeout: 60000});
+  await looks(page, `${name} status`, complaints);
+  await page.click('.check .choices button >> nth=1');
+  await page.waitForSelector('.check .choices:has-text("<b>back</b>") button', {timeout: 60000});
+  await page.click('.check .choices button >> nth=1');
+  await good();
+  check((await study()).includes('status = { column = "state", runout = ["on the rig", "<b>back</b>"] }'), `${name}: the words of the status are ${await study()}`);
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
 
   // The advice of a check is followed by a click: a mixture, under a name of its own.
   await openTable('controllers.csv');

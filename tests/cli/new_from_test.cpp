@@ -136,6 +136,19 @@ TEST_F(NewFrom, RefusesWhatSaysNothing) {
   EXPECT_THAT(here("new jiont d").err, HasSubstr("'jiont' is not allowed; use one of joint"));
 }
 
+// Dates are no numbers: first what makes a time of them.
+TEST_F(NewFrom, TableOfNothingButDates) {
+  write(
+      "doors.csv",
+      "door,fitted,removed\nD1,2022-03-01,2023-01-17\nD2,2022-03-09,\nD3,2022-04-02,2022-11-30\n");
+  const CommandResult run = here("new --from doors.csv");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err,
+              HasSubstr("doors.csv: columns 'fitted', 'removed' are dates, not numbers: run "
+                        "wearwell open doors.csv and choose dates in a heading"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "doors-study"));
+}
+
 TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {
   write("lives.csv", "stress [MPa],cycles,status\n400,41000,broke\n300,2000000,went on\n");
   const CommandResult run = here("new --from lives.csv");

@@ -39,6 +39,16 @@ TEST_F(DateQuery, LivesBetweenTwoDatesWithSuspensions) {
   EXPECT_THAT(table.column("pump").text, ElementsAre("P1", "P2", "P3"));
 }
 
+// Blanks and tabs around a date and around the mark of a missing one are no part of them.
+TEST_F(DateQuery, BlanksAndTabsAroundCells) {
+  const Table table = queried(
+      "pump,built,failed\nP1,\"\t2024-02-28 \",\" 2024-03-01\t\"\nP2,2024-03-01,\"\t\"\n"
+      "P3,2024-01-01,\"NA\t\"\n",
+      {"failed", "%Y-%m-%d", "built", "", "2024-12-31"});
+  EXPECT_THAT(table.column("life").numbers, ElementsAre(2, 305, 365));
+  EXPECT_THAT(table.column("status").text, ElementsAre("failure", "runout", "runout"));
+}
+
 TEST_F(DateQuery, TimesOfTheDayGiveHours) {
   const Table table = queried("a,b,life\n2024-01-01 10:30:00,2024-01-02 09:00:00,7\n",
                               {"b", "%Y-%m-%d %H:%M:%S", "a", "", ""});

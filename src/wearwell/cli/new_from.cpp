@@ -12,6 +12,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/first_selection.h"
 #include "wearwell/cli/table_question.h"
+#include "wearwell/input/date_text.h"
 #include "wearwell/input/workbook.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/example.h"
@@ -132,13 +133,20 @@ std::vector<GuessedStudy> candidates(const NewOptions& options, Models models, c
   std::vector<std::string> headings;
   for (const Column& column : table.columns) headings.push_back(column.name);
   const std::string file = options.from.filename().string();
+  std::string dates = columns_of_dates(table);
+  if (!dates.empty())
+    dates += fmt::format(
+        ", not numbers: run wearwell open {} and choose dates in a heading, which makes a time of "
+        "them, or add a column such as 'life [d]'; without a time ",
+        shell_word(options.from.string()));
   throw InputError(fmt::format(
-      "{}: no study{} follows from its headings ({}){}. A study needs lives (life, cycles to "
+      "{}: {}no study{} follows from its headings ({}){}. A study needs lives (life, cycles to "
       "failure, or hours with a status), a measurement (wear, volume, mass, crack) against cycles, "
       "time or distance, stresses and lives, or a response with inputs. Name the columns, for "
       "example wearwell new --from {} --column life={}, or start from an example: wearwell new "
       "PRESET DIR",
-      file, options.preset.empty() ? "" : " of a " + options.preset, fmt::join(headings, ", "),
+      file, dates, options.preset.empty() ? "" : " of a " + options.preset,
+      fmt::join(headings, ", "),
       options.columns.empty() ? ""
                               : fmt::format(" with --column {}", fmt::join(options.columns, ", ")),
       shell_word(file), shell_word(headings.front())));

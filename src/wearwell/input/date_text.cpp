@@ -1,19 +1,22 @@
 #include "wearwell/input/date_text.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/input/cell_text.h"
 
 namespace wearwell {
 namespace {
 
-constexpr std::string_view blanks_of_date = " \t";
-
 std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks_of_date);
+  const std::size_t begin = text.find_first_not_of(date_blanks);
   if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks_of_date) + 1 - begin);
+  return text.substr(begin, text.find_last_not_of(date_blanks) + 1 - begin);
 }
 
 // Takes a number of `least` to `most` digits from the front; -1 if there is none.
@@ -136,6 +139,31 @@ std::vector<std::string> date_layouts(const Column& column) {
   const auto absent = static_cast<std::size_t>(
       found.empty() ? 0 : std::count_if(column.text.begin(), column.text.end(), is_absent));
   return 2 * most >= column.text.size() - absent ? found : std::vector<std::string>();
+}
+
+std::string columns_of_dates(const Table& table) {
+  std::vector<std::string> names;
+  for (const Column& each : table.columns) {
+    if (!date_layouts(each).empty())
+      names.push_back(fmt::format("'{}'", printable(shortened(each.name))));
+  }
+  if (names.empty()) return "";
+  constexpr std::size_t most = 5;
+  const bool several = names.size() > 1, more = names.size() > most;
+  if (more) names.resize(most);
+  return fmt::format("column{} {}{} {}", several ? "s" : "", fmt::join(names, ", "),
+                     more ? ", …" : "", several ? "are dates" : "holds dates");
+}
+
+std::string layout_words(std::string layout) {
+  for (const auto& [field, word] :
+       {std::pair("%d", "day"), std::pair("%m", "month"), std::pair("%Y", "year"),
+        std::pair("%y", "year"), std::pair("%H", "hour"), std::pair("%M", "minute"),
+        std::pair("%S", "second")}) {
+    const std::size_t at = layout.find(field);
+    if (at != layout.npos) layout.replace(at, 2, word);
+  }
+  return layout;
 }
 
 bool has_time_of_day(std::string_view layout) {

@@ -62,6 +62,33 @@
     wearwell.model.becomes(`${stem}-${suffix}.toml`, next);
   }
 
+  // `line`: that of the status in [data.columns]; its comment stays. Null in another form.
+  function withStatusWord(line, key, column, word) {
+    const found = /^(\s*status\s*=\s*)("(?:[^"\\]|\\.)*"|'[^']*'|\{.*\})(.*)$/.exec(line);
+    if (!found) return null;
+    const [, head, value, rest] = found;
+    if (!value.startsWith('{')) return `${head}{ column = ${column}, ${key} = ${word} }${rest}`;
+    const known = new RegExp(`\\b${key}\\s*=\\s*(?:\\[(.*?)\\]|("(?:[^"\\\\]|\\\\.)*"|'[^']*'))`).exec(value);
+    const next = known ? value.replace(known[0], () => `${key} = [${known[1] ?? known[2]}, ${word}]`) : value.replace(/\s*\}$/, () => `, ${key} = ${word} }`);
+    return `${head}${next}${rest}`;
+  }
+
+  // What a word of the data means that is no status: null if the problem of a check is another one.
+  wearwell.statusChoice = (problem) => {
+    const named = /is not a status;[^]*status = \{ column = "([^"\\\n]*)", failure = "([^"\\\n]*)" \}/.exec(problem);
+    if (!named) return null;
+    const [column, word] = named.slice(1).map((each) => JSON.stringify(each)), {study} = wearwell.model;
+    const write = (key) => wearwell.attempt(() => {
+      const lines = study.text().split('\n'), at = study.keys().find(({path}) => /^data\.columns\.status(\.column)?$/.test(path))?.line;
+      const next = at ? withStatusWord(lines[at - 1], key, column, word) : null;
+      if (next === null) throw new Error(strings.adviceByHand);
+      lines[at - 1] = next;
+      study.replace(lines.join('\n'));
+    });
+    return element('fieldset', {class: 'choices'}, element('legend', {}, strings.statusWord(named[2])),
+        ...Object.entries(strings.statusMeanings).map(([key, label]) => wearwell.button(label, () => write(key), 'plain')));
+  };
+
   // The cell of an advice: its text, and a button for each change that the program names. `folder`: of the result.
   wearwell.adviceCell = ({advice, changes: named}, folder) => {
     const offer = (label, change, suffix) => wearwell.button(label, () => wearwell.attempt(() => follow(folder, change, suffix)), 'plain');

@@ -23,12 +23,12 @@
       description: strings.costDescription, hint: '', read: ([a, b]) => `${wearwell.quantity(a, curve.age_unit, 4)}: ${wearwell.given(Number(b.toPrecision(4)))} ${unit}`}, width());
   }
 
-  async function ask({path, picture}, form) {
+  async function ask({path, picture, look = ''}, form) {
     const question = {result: folder};
     for (const each of form.elements) if (each.name && each.value) question[each.name] = each.value;
     if (!question.level) delete question.sides;
     const found = await wearwell.post(path, question);
-    addCard(element('pre', {class: 'answer', tabindex: 0, lang: 'en'}, found.text), picture(found), ...wearwell.sameLines(found));
+    addCard(element('pre', {class: `answer ${look}`, tabindex: 0, lang: 'en'}, found.text), picture(found), ...wearwell.sameLines(found));
   }
 
   function addCard(...parts) {
@@ -42,7 +42,7 @@
   function narrowing({answer}) {
     const points = (answer.candidates ?? []).filter((each) => each.narrowing !== null && each.narrowing !== undefined).map((each, i) => [i + 1, 100 * each.narrowing, i + 1]);
     if (points.length < 3) return null;
-    return wearwell.scatter({points, x: {name: strings.candidateRank}, y: {name: strings.narrowing}, labels: [], description: strings.narrowing, hint: '',
+    return wearwell.scatter({points, x: {name: strings.candidateRank, ticks: points.filter((_, i) => i % Math.ceil(points.length / 10) === 0).map(([rank]) => ({at: rank, text: String(rank)}))}, y: {name: strings.narrowing}, labels: [], description: strings.narrowing, hint: '',
       read: ([rank, share]) => `${rank}: ${Number(share.toPrecision(3))} %`}, width());
   }
 
@@ -91,8 +91,8 @@
   function build(panel) {
     const sides = element('select', {id: 'ask-sides', name: 'sides'}, ...Object.entries(strings.sideNames).map(([value, text]) => element('option', {value}, text)));
     const life = form('ask', {path: '/api/life', picture: survival}, ...inputs('ask', strings.fields), element('div', {class: 'field'}, element('label', {for: 'ask-sides'}, strings.sides), sides));
-    const decide = form('decide', {path: '/api/decide', picture: cost}, ...inputs('decide', strings.costs));
-    const next = form('next', {path: '/api/next', picture: narrowing}, ...inputs('next', strings.nextFields));
+    const decide = form('decide', {path: '/api/decide', picture: cost, look: 'lines'}, ...inputs('decide', strings.costs));
+    const next = form('next', {path: '/api/next', picture: narrowing, look: 'lines'}, ...inputs('next', strings.nextFields));
     place.units = element('div', {id: 'ask-units'}, element('h3', {}, strings.unitsTitle), element('p', {class: 'note'}, strings.unitsLead), wearwell.button(strings.unitsAsk, () => wearwell.attempt(askUnits)));
     place.questions = element('div', {hidden: true}, element('h3', {}, strings.lifeTitle), life, place.units, element('h3', {}, strings.decideTitle), element('p', {class: 'note'}, strings.decideLead), decide,
         element('h3', {}, strings.nextTitle), element('p', {class: 'note'}, strings.nextLead), next);

@@ -139,7 +139,7 @@
     if (asked !== table) return;
     drawnIn = place.plot.clientWidth;
     const names = [x === '' ? strings.rowNumber : table.columns[x].name, table.columns[y].name];
-    const notes = [strings.plotNote(wearwell.count(found.rows), wearwell.count(found.kept), wearwell.count(found.shown))];
+    const kept = wearwell.count(found.kept), notes = [found.shown < found.kept ? strings.pointsDrawn(kept, wearwell.count(found.shown)) : strings.rowsDrawn(wearwell.count(found.rows), kept)];
     if (found.left_out.empty) notes.push(strings.leftEmpty(wearwell.count(found.left_out.empty)));
     if (found.left_out.not_positive) notes.push(strings.leftNegative(wearwell.count(found.left_out.not_positive)));
     place.plot.replaceChildren(wearwell.scatter({

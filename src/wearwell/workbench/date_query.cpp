@@ -25,22 +25,11 @@ struct DateColumn {
   std::vector<std::optional<long long>> seconds;  // of each row; empty where the cell is
 };
 
-// As `trim` of SQL.
+// As the SQL below trims.
 std::string without_blanks(const std::string& cell) {
-  const std::size_t begin = cell.find_first_not_of(' ');
-  return begin == cell.npos ? "" : cell.substr(begin, cell.find_last_not_of(' ') + 1 - begin);
-}
-
-// "%d.%m.%Y" -> "day.month.year".
-std::string layout_words(std::string layout) {
-  for (const auto& [field, word] :
-       {std::pair("%d", "day"), std::pair("%m", "month"), std::pair("%Y", "year"),
-        std::pair("%y", "year"), std::pair("%H", "hour"), std::pair("%M", "minute"),
-        std::pair("%S", "second")}) {
-    const std::size_t at = layout.find(field);
-    if (at != layout.npos) layout.replace(at, 2, word);
-  }
-  return layout;
+  const std::size_t begin = cell.find_first_not_of(date_blanks);
+  return begin == cell.npos ? ""
+                            : cell.substr(begin, cell.find_last_not_of(date_blanks) + 1 - begin);
 }
 
 InputError refused_cell(const Table& table, const Column& column, std::size_t row,
@@ -113,7 +102,8 @@ std::string cell_sql(const Column& column) {
   for (const std::string& cell : column.text) {
     if (is_missing_mark(cell)) marks.insert(without_blanks(cell));
   }
-  std::string sql = fmt::format("trim(cast({} as varchar))", quoted(column.name, '"'));
+  std::string sql =
+      fmt::format("trim(cast({} as varchar), ' ' || chr(9))", quoted(column.name, '"'));
   for (const std::string& mark : marks)
     sql = fmt::format("nullif({}, {})", sql, quoted(mark, '\''));
   return sql;

@@ -5,6 +5,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/date_text.h"
 #include "wearwell/study/guessed_studies.h"
 #include "wearwell/study/role_words.h"
 
@@ -56,11 +57,15 @@ ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::
     std::vector<std::string> headings;
     for (const Column& each : table.columns) headings.push_back(printable(each.name));
     if (headings.size() > 40) headings.resize(40);
+    std::string dates = columns_of_dates(table);
+    if (!dates.empty())
+      dates +=
+          ", not numbers: choose dates in a heading, which makes a time of them; without a time ";
     throw InputError(fmt::format(
-        "{}: no study follows from its headings ({}). A study needs lives (life, cycles to "
+        "{}: {}no study follows from its headings ({}). A study needs lives (life, cycles to "
         "failure, or hours with a status), a measurement (wear, volume, mass, crack) against "
         "cycles, time or distance, or stresses and lives. Name a column's role below",
-        printable(open.file), fmt::join(headings, ", ")));
+        printable(open.file), dates, fmt::join(headings, ", ")));
   }
   ordered_json json = {{"readings", ordered_json::array()}};
   const std::size_t equal = equally_good(found);

@@ -173,6 +173,8 @@
 
   function problem(found) {
     const parts = [element('p', {class: 'wrong'}, strings.checkBad), element('pre', {tabindex: 0, lang: 'en'}, found.problem)];
+    const status = wearwell.statusChoice(found.problem);
+    if (status) parts.push(status);
     if (found.line) parts.push(wearwell.button(strings.goTo(found.line), () => goTo(found.line, found.column), 'plain'));
     return parts;
   }

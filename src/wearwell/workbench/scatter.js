@@ -45,20 +45,30 @@
 
   // Dots are lines without length, with round ends; a run-out is an arrow: its life would have been longer.
   const dots = (places) => places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
-  // Many of them are squares, which are painted in a tenth of the time.
-  const squares = (places) => places.map(([a, b]) => `M${(a - 1.5).toFixed(1)} ${(b - 1.5).toFixed(1)}h3v3h-3z`).join('');
+  // Many of them are squares, which are painted in a tenth of the time; one path for each part of the picture, so that a tile of the screen paints its own.
+  const partSize = 80;
+  function squares(places) {
+    const parts = new Map();
+    for (const [a, b] of places) {
+      const key = 1000 * Math.floor(a / partSize) + Math.floor(b / partSize);
+      parts.set(key, `${parts.get(key) ?? ''}M${(a - 1.5).toFixed(1)} ${(b - 1.5).toFixed(1)}h3v3h-3z`);
+    }
+    return [...parts.values()];
+  }
   const arrows = (places, up) => places.map(([a, b]) => (up ? `M${a.toFixed(1)} ${(b + 4).toFixed(1)}v-12m-4 5l4 -5l4 5` : `M${(a - 4).toFixed(1)} ${b.toFixed(1)}h12m-5 -4l5 4l-5 4`)).join('');
 
   const curve = (places) => `M${places.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`;
 
-  // One path for each label, and a legend of them.
+  // The points of each label, and a legend of the labels.
   function marks(plot, places) {
     const labels = plot.labels?.length ? [...plot.labels, {text: plot.others}] : [{text: ''}];
     const parts = labels.map(() => []);
     places.forEach((each, i) => parts[plot.labels?.length ? plot.points[i][3] : 0].push(each));
     const many = places.length > 1000;
     const look = (i) => (plot.labels?.length ? ` label label-${i}` : '');
-    const paths = parts.map((each, i) => (each.length ? element('path', labels[i].runout ? {class: `runouts${look(i)}`, d: arrows(each, plot.lifeUp)} : {class: `dots${many ? ' many' : ''}${look(i)}`, d: many ? squares(each) : dots(each)}) : null)).filter(Boolean);
+    const drawn = (each, i) => (labels[i].runout ? [element('path', {class: `runouts${look(i)}`, d: arrows(each, plot.lifeUp)})]
+      : (many ? squares(each) : [dots(each)]).map((d) => element('path', {class: `dots${many ? ' many' : ''}${look(i)}`, d})));
+    const paths = parts.flatMap((each, i) => (each.length ? drawn(each, i) : []));
     const legend = plot.labels?.length ? element('ul', {class: 'legend'}, ...labels.flatMap(({text, runout}, i) => (parts[i].length ? [element('li', {},
         element('svg', {width: 18, height: 14, 'aria-hidden': 'true'}, element('path', runout ? {class: `runouts${look(i)}`, d: arrows([[8, 7]], false)} : {class: `dots${look(i)}`, d: dots([[8, 7]])})), text)] : []))) : null;
     return {paths, legend};
