@@ -346,7 +346,6 @@ def test_readings_that_scatter_by_a_share_of_the_path():
     assert toml["prior"]["sigma"] == {"distribution": "half-normal", "scale": 1}
     assert "need" in refusal(ww.degradation, wear, "wear", "km", unit="machine", family="lognormal", starts_at_zero=False)
     ended = wear.assign(failed=[0, 1] * (len(wear) // 2))
-    assert "unused=" in refusal(ww.degradation, ended, "wear", "km", unit="machine")
     assert tomllib.loads(made(ww.degradation, ended, "wear", "km", unit="machine", unused="failed").toml)["data"]["unused"] == ["failed"]
 
 

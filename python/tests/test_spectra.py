@@ -148,8 +148,8 @@ def test_spectra_are_the_programs(same, loads):
     ({"knee": 150}, "knee: '150' may be a life or a stress"),
     ({"method": "two-point"}, "method: 'two-point' is not one of four-point, three-point"),
     ({"confidence": 90}, "confidence: 90 is not a share from 0.01 to 0.9999"),
-    ({"b_lives": [0]}, "b_lives: 0 is not a percentage"),
-    ({"b_lives": []}, "b_lives: no percentage is given"),
+    ({"b": [0]}, "b: 0 is not a percentage"),
+    ({"b": []}, "b: no percentage is given"),
     ({"block": "350"}, "block: '350' must be a number with a unit"),
     ({"damage_sum": "1 x/ 0.5"}, "damage_sum: the factor 0.5 must be at least 1"),
 ])

@@ -20,6 +20,7 @@ in_arguments <- function(text) {
   few <- "(?<![\\w-])--(method|repeated)%s(exact|nuts|metropolis|once|another)(?![\\w-])"
   text <- gsub(sprintf(few, " "), "\\1 = \"\\2\"", text, perl = TRUE)
   text <- gsub(paste0(" ?", sprintf(few, "(\\s+)")), "\\2\\1 = \"\\3\"", text, perl = TRUE)
+  text <- gsub("(?:^|(?<=[\\s(]))--b-lives(?![\\w=-])", "b", text, perl = TRUE)
   option <- "(?:^|(?<=[\\s(]))--([a-z][a-z-]*[a-z])(?![\\w=-])"
   found <- gregexpr(option, text, perl = TRUE)
   regmatches(text, found) <- lapply(regmatches(text, found), function(each) gsub("-", "_", substring(each, 3), fixed = TRUE))

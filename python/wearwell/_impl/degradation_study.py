@@ -76,7 +76,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     predict : dict, optional
         Further keys of ``[predict]`` of a formula study. By default ``at`` is twice the largest x.
     unused : str or sequence of str, optional
-        Columns that look like labels of units or like events and are none.
+        Columns that look like labels of units and are none.
     <what all fits share>
 
     Examples

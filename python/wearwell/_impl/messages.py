@@ -62,4 +62,5 @@ def in_arguments(message):
         message = _functions.sub(lambda m: "wearwell." + m[1].replace(" ", "."), message)
     # The blank of a wrapped line is kept: the line breaks there.
     message = _words.sub(lambda m: (m[1] if m[3] == " " else m[3]) + f'{m[2]}="{m[4]}"', message)
+    message = re.sub(r"(?:(?<=[\s(])|\A)--b-lives(?![\w=-])", "b", message)  # whose argument is shorter
     return _option.sub(lambda m: m[1].replace("-", "_"), message)

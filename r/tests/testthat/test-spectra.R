@@ -77,7 +77,7 @@ test_that("errors name argument or cell", {
   refused(ww_damage(fit, signal, rule = "haibch"), "did you mean 'haibach'?")
   refused(ww_damage(fit, signal, knee = 150), "knee: '150' may be a life or a stress")
   refused(ww_damage(fit, signal, confidence = 90), "confidence: 90 is not a share")
-  refused(ww_damage(fit, signal, b = 0), "b_lives: 0 is not a percentage")
+  refused(ww_damage(fit, signal, b = 0), "b: 0 is not a percentage")
   refused(ww_damage(fit, Sys.Date()), "loads")
   refused(ww_design(fit, stress = "400 MPa", stress_ratio = -1, mean_stress = "0 MPa"), "say the same in two ways")
   refused(ww_design(fit, fit, names = c("x", "x")), "names: 'x' is given twice")
