@@ -64,6 +64,33 @@ await page.waitForFunction(() => /after|from/.test(document.querySelector('#live
 await answered();
 await page.evaluate(() => document.querySelectorAll('#live pre.command, #live pre.python').forEach((each) => { each.textContent = each.textContent.replaceAll(/\/[^ "]*\/(pumps-results)/g, '$1'); }));
 await page.locator('#live').screenshot({path: join(images, 'workbench-live.png')});
+
+// Wear paths, whose next test is asked for.
+await page.evaluate(() => { document.getElementById('study').value = ''; });
+writeFileSync(join(folder, 'liners.csv'), `liner,hours [h],wear [um]\n${['A', 'B', 'C', 'D', 'E'].flatMap((each, i) => [150, 300, 500, 800, 1000].map((at, j) => `${each},${at},${((0.05 + 0.008 * i) * at + [0.8, -1.1, 0.3, 1.2, -0.7][(i + j) % 5]).toFixed(1)}\n`)).join('')}`);
+await page.reload();
+await page.click('#step-data');
+await page.selectOption('#in-folder', 'liners.csv');
+await page.click('#panel-data .doors button');
+await page.waitForFunction(() => document.querySelector('#panel-data caption')?.textContent.startsWith('liners.csv'), null, {timeout: 60000});
+await page.click('#step-model');
+await page.click('#notice button:has-text("Guess")', {timeout: 10000}).catch(() => {});
+await page.waitForFunction(() => document.getElementById('study').value.includes('liners.csv'), null, {timeout: 60000});
+await page.fill('#limit', '95 um');
+await page.press('#limit', 'Enter');
+await page.waitForFunction(() => document.getElementById('study').value.includes('95 um'), null, {timeout: 60000});
+await good();
+await page.click('#step-fit');
+await page.click('#panel-fit button');
+await page.waitForFunction(() => document.querySelector('#result .command')?.textContent.includes('liners'), null, {timeout: 240000});
+await page.click('#step-ask');
+await page.fill('#next-goal', 'B10');
+await page.fill('#next-grid', 'hours [h] = 500 to 2000 by 500');
+await page.click('#next-form button');
+await page.waitForSelector('.card .command', {timeout: 240000});
+await page.evaluate(() => document.querySelectorAll('.card pre').forEach((each) => { each.textContent = each.textContent.replaceAll(/\/[^ "]*\/(liners-results)/g, '$1'); }));
+await page.setViewportSize({width: 1000, height: 1400});
+await page.locator('.card').screenshot({path: join(images, 'workbench-next.png')});
 await browser.close();
 child.kill('SIGINT');
 await new Promise((done) => { child.once('exit', done); });
