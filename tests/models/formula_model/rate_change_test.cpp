@@ -144,6 +144,20 @@ TEST(RateChange, AgreesWithGrids) {
   EXPECT_GT(unit.unit->forecast().rate_change->probability, 0.8);
 }
 
+// No rate changes between readings at the same use, but each says more on the earlier changes.
+TEST(RateChange, TakesReadingsAtTheSameUse) {
+  const Watched watched(with_change(straight), some_rows(), known_population(known));
+  FollowedUnit unit(*watched.tracker, "new");
+  std::vector<std::pair<double, double>> shown = of_a_change;
+  for (const double y : {8.1, 8.3, 7.9, 8.2, 8.0}) shown.emplace_back(y, shown.back().second);
+  for (const auto& [y, t] : shown) ASSERT_TRUE(unit.update({y * um, t * h}).counted);
+  const ByGrids grids(shown);
+  const Forecast forecast = unit.unit->forecast();
+  EXPECT_NEAR(forecast.rate_change->probability, grids.changed, 0.04);
+  for (const double p : {0.05, 0.25, 0.5, 0.75, 0.95})
+    EXPECT_NEAR(forecast.remaining.cdf(ByGrids::quantile(grids.lives, p) * h), p, 0.05) << p;
+}
+
 // A population that five machines leave uncertain: the rate, its scatter, the noise of readings.
 std::vector<std::vector<double>> uncertain_population() {
   Rng rng(7, 0);

@@ -149,6 +149,7 @@ void visit_columns(ChangedUnits& to, const ChangedUnits& from, const Visit& visi
 }  // namespace
 
 void ChangedUnits::append(const ChangedUnits& other) {
+  if (other.count() == 0) return;
   if (count() == 0) {
     *this = other;
     return;
