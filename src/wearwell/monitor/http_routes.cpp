@@ -12,7 +12,7 @@
 #include "wearwell/monitor/message.h"
 #include "wearwell/monitor/page_resources.h"
 
-// Longer than others: each path has its answer here.
+// Longer than others: the answers of all paths, and why a request is refused.
 namespace wearwell::monitor {
 namespace {
 
@@ -68,13 +68,6 @@ HttpResponse answer_of(Delivery delivery) {
   }
   answer.body = text_of(json_of(delivery));
   return answer;
-}
-
-/// Whether an answer comes from the states of the units.
-bool is_of_states(std::string_view path) {
-  return path == "/metrics" || path == "/api/v1/events" || path == "/api/v1/fleet" ||
-         path == "/api/v1/fits" || path == "/api/v1/units" ||
-         (path.starts_with("/api/v1/units/") && !is_events_of_unit(path));
 }
 
 HttpResponse not_yet(const std::string& why) {
@@ -185,7 +178,7 @@ std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) cons
                                     role_names(roles)));
   }
   if (question.method == "POST") return refuse_kind(question);
-  if (is_of_states(path)) {
+  if (route->from_states) {
     if (const std::string why = reader_.starting(); !why.empty()) return not_yet(why);
   }
   return {};
@@ -317,10 +310,11 @@ HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::st
   const std::string name = percent_decoded(encoded);
   // A unit whose first readings are still to be processed has no alarm; whether there is such a unit
   // at all, the inbox knows.
-  if (const std::optional<UnitView> unit = reader_.view(name)) {
+  const std::shared_ptr<const FleetReader> reader = reader_.present();
+  if (const std::optional<UnitView> unit = reader->view(name)) {
     if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
   } else if (event_in(body) == monitor::name(EventKind::acknowledged)) {
-    if (const std::string why = reader_.starting(); !why.empty())
+    if (const std::string why = reader->starting(); !why.empty())
       return answer_of({false, 0, 0, 0, why});
     return refusal(404, fmt::format("\"{}\" is not a unit with an alarm", shortened(name)));
   }

@@ -113,6 +113,17 @@ void Sources::stop() {
   threads_.clear();
 }
 
+/// Whether the store did the work; if not, why is reported.
+bool guarded(Notices& notices, const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const StoreError& error) {
+    notices.tell("store", error.what());
+    return false;
+  }
+}
+
 /// The fleet, and what makes another one of it.
 class RunningFleet {
  public:
@@ -127,7 +138,8 @@ class RunningFleet {
   WebhookCounts& webhook() { return webhook_; }
   /// Processes what the store had when the monitor began; false if it is to end before. States are
   /// saved on the way, and at the end: a monitor that is killed again and again, each time before
-  /// its regular save, would otherwise start from ever older states.
+  /// its regular save, would otherwise start from ever older states. Should the store not respond,
+  /// it tries again, for readings are accepted already; with --once it throws StoreError.
   bool start(MonitorSignals& signals);
   std::shared_ptr<Fleet> make_beside(const Population& population);
   /// Another fleet takes the place of the running one. Throws StoreError; it may be called again.
@@ -137,6 +149,7 @@ class RunningFleet {
   FleetSettings settings_of(const Population& population) const;
   std::shared_ptr<Fleet> make(const Population& population, FleetSettings settings);
   void note_fit();
+  bool done(MonitorSignals& signals, const std::function<void()>& work);
 
   const MonitorConfig& config_;
   const MonitorOptions& options_;
@@ -146,7 +159,8 @@ class RunningFleet {
   Population population_;
   WebhookCounts webhook_;
   PopulationChecks checks_;
-  FleetSettings::Start start_;  ///< of the monitor
+  FleetSettings::Start start_;     ///< of the monitor
+  const std::int64_t last_place_;  ///< in the store at the start
   std::shared_ptr<Fleet> fleet_;
   std::unique_ptr<CurrentFleet> readers_;
   std::int64_t fit_since_ms_ = 0;
@@ -164,8 +178,11 @@ RunningFleet::RunningFleet(const MonitorConfig& config, const Population& popula
       population_(population),
       checks_(population.tracker),
       start_{unix_ms_now(), store.count()},
+      last_place_(store.last_place()),
       readers_(
           std::make_unique<CurrentFleet>(std::make_shared<const StartingFleet>(start_.time_ms))) {
+  // Sources begin before there is a fleet: what the store has is known to them.
+  for (const std::string& each : store.units()) static_cast<void>(tally.admit(each));
   note_fit();
 }
 
@@ -223,24 +240,43 @@ void RunningFleet::note_fit() {
   }
 }
 
+/// Repeats the work until the store has done it; false if the monitor is to end before.
+bool RunningFleet::done(MonitorSignals& signals, const std::function<void()>& work) {
+  constexpr auto patience = std::chrono::milliseconds(200);
+  while (!signals.ends()) {
+    if (options_.once) {
+      work();
+      return true;
+    }
+    if (guarded(notices_, work)) return true;
+    std::this_thread::sleep_for(patience);
+  }
+  return false;
+}
+
 bool RunningFleet::start(MonitorSignals& signals) {
   constexpr auto between_saves = std::chrono::seconds(5);
-  fleet_ = make(population_, settings_of(population_));
+  if (!done(signals, [&] { fleet_ = make(population_, settings_of(population_)); })) return false;
   fleet_->set_moved(fit_since_ms_, std::move(moved_));
   Clock::time_point saved = Clock::now();
-  while (fleet_->apply() > 0 && !signals.ends()) {
+  bool all = false;
+  const auto piece = [&] {
     // Sources may deliver faster than states follow: what has come since is for later.
-    const std::int64_t reached_ms = unix_ms_now() - fleet_->fleet().lag_ms;
-    if (reached_ms >= start_.time_ms) break;
-    if (Clock::now() - saved < between_saves) continue;
+    all = fleet_->apply(last_place_) == 0;
+    if (!all && Clock::now() - saved < between_saves) return;
     fleet_->save();
     saved = Clock::now();
-    notices_.tell("start", fmt::format("the states have taken in the readings stored until {}",
+    if (all) return;
+    const std::int64_t reached_ms = unix_ms_now() - fleet_->fleet().lag_ms;
+    notices_.tell("start", fmt::format("states include the readings stored until {}",
                                        iso_of_unix_ms(reached_ms)));
+  };
+  while (!all && done(signals, piece)) {
   }
-  fleet_->save();
-  if (signals.ends()) return false;
-  fleet_->refresh(true);
+  if (!done(signals, [&] { fleet_->refresh(true); })) {
+    static_cast<void>(guarded(notices_, [&] { fleet_->save(); }));
+    return false;
+  }
   readers_->exchange(fleet_);
   return true;
 }
@@ -328,15 +364,7 @@ class Follower {
   }
 
  private:
-  bool guarded(const std::function<void()>& work) {
-    try {
-      work();
-      return true;
-    } catch (const StoreError& error) {
-      notices_.tell("store", error.what());
-      return false;
-    }
-  }
+  bool guarded(const std::function<void()>& work) { return monitor::guarded(notices_, work); }
 
   RunningFleet& running_;
   Retention& retention_;
@@ -427,7 +455,7 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   Outlets outlets(config, options, running, intake, *population.tracker);
   Sources sources(config, options.once, intake, *store, notices, wake);
   if (!running.start(signals)) {
-    notices.tell("start", "ended before the states had all stored readings; the next one goes on");
+    notices.tell("start", "ended during the start; the next start continues from the saved states");
     return;
   }
   outlets.open(*store, notices);

@@ -6,7 +6,7 @@
 
 namespace wearwell::monitor {
 
-/// What readers see until the states have taken in the stored readings: no units, and the reason.
+/// What readers see until the states include the stored readings: no units, and the reason.
 class StartingFleet : public FleetReader {
  public:
   explicit StartingFleet(std::int64_t started_ms) : started_ms_(started_ms) {}
