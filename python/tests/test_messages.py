@@ -7,7 +7,7 @@ import pytest
 
 import wearwell as ww
 from conftest import source
-from wearwell._impl.messages import in_arguments
+from wearwell._impl.messages import in_arguments, in_python
 
 
 @pytest.mark.parametrize("text, python", [
@@ -26,6 +26,16 @@ from wearwell._impl.messages import in_arguments
 def test_options_become_arguments(text, python):
     assert in_arguments(text) == python
     assert in_arguments(python) == python
+
+
+@pytest.mark.parametrize("said, arguments, python", [
+    ("predict.risk: needs predict.limit and predict.pressure: why", {"predict.limit": "limit", "predict.risk": "risk"},
+     "risk: needs limit and predict={'pressure': ...}: why"),
+    ("predict.at: needs predict.given.force: it varies", {}, "predict.at: needs predict={'given': {'force': ...}}: it varies"),
+    ("predict.at: needs predict.given.force: it varies", {"predict.given": "given"}, "predict.at: needs given={'force': ...}: it varies"),
+    ("life.points.launch.torque: unit", {"life.points": "points"}, "points.launch.torque: unit")])
+def test_keys_become_arguments(said, arguments, python):
+    assert in_python(said, arguments) == python
 
 
 @pytest.mark.parametrize("call, begins", [

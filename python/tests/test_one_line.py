@@ -345,6 +345,7 @@ def test_readings_that_scatter_by_a_share_of_the_path():
     assert toml["likelihood"]["wear"] == {"family": "lognormal", "median": "path", "log_sd": "sigma"} and toml["formula"]["path"] == "rate * km"
     assert toml["prior"]["sigma"] == {"distribution": "half-normal", "scale": 1}
     assert "need" in refusal(ww.degradation, wear, "wear", "km", unit="machine", family="lognormal", starts_at_zero=False)
+    assert "need" in refusal(ww.degradation, wear, "wear", "km", unit="machine", family="lognormal", starts_at_zero=0)
     ended = wear.assign(failed=[0, 1] * (len(wear) // 2))
     assert tomllib.loads(made(ww.degradation, ended, "wear", "km", unit="machine", unused="failed").toml)["data"]["unused"] == ["failed"]
 

@@ -313,7 +313,7 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
   }
   refused <- function(error) {
     message <- in_words_of_caller(conditionMessage(error), values)
-    for (key in names(arguments)) message <- sub(paste0("^", key, ":"), paste0(arguments[[key]], ":"), message)
+    for (key in names(arguments)) message <- sub(paste0("^", key, "(?=[.:])"), arguments[[key]], message, perl = TRUE)
     stop_input(with_headings(message, columns))
   }
   study <- tryCatch(new_study(text, "study", tables), wearwell_input_error = refused)
@@ -378,9 +378,11 @@ words_of_caller <- function(message) {
   message <- sub(", or name the column of failure modes: [data.returns] mode", "", message, fixed = TRUE)
   message <- gsub("data.returns.", "", message, fixed = TRUE)
   message <- sub("^subpopulations[.]names:", "subpopulations:", message)
+  message <- gsub("needs predict\\.given\\.([A-Za-z0-9_]+)", "needs given = list(\\1 = ...)", message, perl = TRUE)
   message <- gsub("\\bpredict\\.given\\.", "given: ", message, perl = TRUE)
-  message <- gsub("needs predict\\.([a-z_]+)", "needs predict = list(\\1 = ...)", message, perl = TRUE)
   message <- gsub("\\bpredict\\.next\\b", "ahead", message, perl = TRUE)
+  message <- gsub("\\b(needs|and) predict\\.limit\\b", "\\1 limit", message, perl = TRUE)
+  message <- gsub("\\b(needs|and) predict\\.([a-z_]+)", "\\1 predict = list(\\2 = ...)", message, perl = TRUE)
   message <- gsub("\\bpredict\\.([a-z_]+)", "\\1", message, perl = TRUE)
   gsub("\\bconditions\\.([a-z_]+)", "\\1", message, perl = TRUE)
 }

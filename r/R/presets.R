@@ -92,7 +92,7 @@ ww_sn <- function(data, stress, life, event = NULL, stress_ratio = NULL, mean_st
   text <- preset_text("sn", one_text(title, "title"), study,
                       list(conditions = constants, law = law, likelihood = list(family = one_text(family, "family")), predict = asked), priors)
   if (length(at)) {
-    if (is.null(names(at))) names(at) <- vapply(at, function(each) as.character(quantity(each, "at")), "")
+    if (is.null(names(at))) names(at) <- vapply(at, function(each) name_of_stress(quantity(each, "at")), "")
     of_tests <- function(each) {
       value <- quantity(each, "at")
       if (is.character(value)) value else quantity_text(value, study$alternating_stress$unit)
@@ -106,6 +106,9 @@ ww_sn <- function(data, stress, life, event = NULL, stress_ratio = NULL, mean_st
   }
   one_line(text, study, NULL, NULL, fit, call, ..., arguments = c(credible_level = "confidence", b_lives = "b"))
 }
+
+# 100000, not 1e+05.
+name_of_stress <- function(value) if (is.character(value)) value else number_text(value)
 
 # A list of one or several.
 quantities <- function(values, what) if (!is.null(values)) lapply(unname(as.list(values)), quantity, what)
@@ -222,5 +225,6 @@ ww_clutch <- function(design, cycles, weighings, density, depth, area, balance_s
   }
   one_line(paste(parts, collapse = "\n"), NULL, NULL, NULL, fit, call, ..., tables = given,
            arguments = c(`lining.density` = "density", `lining.depth` = "depth", `lining.area` = "area", `balance.sd` = "balance_sd",
-                         `data.missing_cycles` = "missing_cycles"))
+                         `data.missing_cycles` = "missing_cycles", `life.levels` = "levels", `life.points` = "points",
+                         `uncertainty.replicates` = "replicates"))
 }

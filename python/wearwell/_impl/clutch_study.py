@@ -91,6 +91,7 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
         parts.append(toml.table(f"life.points.{quoted}", {key: toml.quantity(each, f"points.{name}.{key}") for key, each in duty.items()}))
     given = {name: (table_of(each, name, (units or {}).get(name)), each, None) for name, each in tables.items()}
     made = Study._made("\n".join(parts), given, {"lining.density": "density", "lining.depth": "depth", "lining.area": "area",
-                                                 "balance.sd": "balance_sd", "data.missing_cycles": "missing_cycles"})
+                                                 "balance.sd": "balance_sd", "data.missing_cycles": "missing_cycles", "life.levels": "levels", "life.points": "points",
+                                                 "uncertainty.replicates": "replicates"})
     made._given = {name: (each, (units or {}).get(name) or {}, None) for name, each in tables.items()}
     return made.fit(threads=threads, report=report, progress=progress)

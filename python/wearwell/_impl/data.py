@@ -109,10 +109,11 @@ def _values(column, where):
 
         column = pandas.Series(column)
     if hasattr(column, "cat") and hasattr(dtype, "categories"):  # pandas' categories
-        of = dtype.categories.dtype
-        if getattr(of, "kind", "O") in "iub" and column.isna().any():  # these types hold no missing value
-            of = float if of.kind == "b" or abs(dtype.categories.to_numpy()).max() <= 2**53 else object
-        column = column.astype(of)
+        type_of_values = dtype.categories.dtype
+        if getattr(type_of_values, "kind", "O") in "iub" and column.isna().any():  # these types hold no missing value
+            exact = type_of_values.kind == "b" or abs(dtype.categories.to_numpy()).max(initial=0) <= _exact
+            type_of_values = float if exact else object
+        column = column.astype(type_of_values)
         dtype = column.dtype
     if dtype is not None and not isinstance(dtype, np.dtype) and hasattr(column, "to_numpy"):  # pandas' own types
         kind = getattr(dtype, "kind", "O")

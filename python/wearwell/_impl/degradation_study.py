@@ -110,7 +110,7 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
     if not len(values) or not len(places):
         raise InputError(f"data has no readings in column '{y if not len(values) else x}'")
     at_zero, falls, rate = columns.line(x, y, unit or None)
-    if starts_at_zero is False and family != "normal":
+    if starts_at_zero is not None and not starts_at_zero and family != "normal":
         raise InputError(f"starts_at_zero=False needs family='normal': paths of the family {family} begin at 0")
     at_zero = bool(starts_at_zero) if starts_at_zero is not None else at_zero or family == "lognormal"
     process = family in _processes

@@ -20,13 +20,15 @@ def in_python(message, arguments=None, values=None):
     message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d|"[^"]*") \}', rf'{status}={{"column": \1, "failure": \2}}', message)
     message = re.sub(r'status = ("[^"]*")', rf"{status}=\1", message)
     message = re.sub(r'mode = ("[^"]*") and \[failure_modes\] column = "mode" in a formula study', r"mode=\1 in wearwell.life", message)
-    message = re.sub(r"\bneeds predict\.(\w+)", r"needs predict={'\1': ...}", message)
     message = re.sub(r"unused = (\[[^\]]*\]) under \[data\]", r"unused=\1", message)
     message = re.sub(r'unused = (\[[^\]]*\])', r"unused=\1", message)
     message = re.sub(r'give the study a status column(, or write \[failure_modes\] runout = ("[^"]*"))?',
                      lambda m: f"name a column as {status}" + (f", or write mode={{'column': ..., 'runout': {m[2]}}}" if m[1] else ""), message)
     for key, argument in sorted(arguments.items(), key=lambda each: -len(each[0])):
         message = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w])", argument, message)
+    message = re.sub(r"\bneeds (predict\.)?given\.(\w+)",
+                     lambda m: f"needs predict={{'given': {{'{m[2]}': ...}}}}" if m[1] else f"needs given={{'{m[2]}': ...}}", message)
+    message = re.sub(r"\b(needs|and) predict\.(?!given\b)(\w+)", r"\1 predict={'\2': ...}", message)
     return _with_value(re.sub(r"(?<![\w.])prior\.(?=[A-Za-z])", "priors: ", message), values or {}, line[1] if line else "")
 
 

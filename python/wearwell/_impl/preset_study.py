@@ -65,7 +65,7 @@ class Preset:
             parts.append(toml.table("predict", predict))
         table, only = self.columns.table(unused)
         return Study._made("\n".join(parts), {"data": (table, self.data, only)}, {
-            **self.arguments, **{f"predict.{key}": {"b_lives": "b", "credible_level": "confidence", "age": "at", "next": "ahead"}.get(key, key) for key in predict}})
+            "predict.limit": "limit", **self.arguments, **{f"predict.{key}": {"b_lives": "b", "credible_level": "confidence", "age": "at", "next": "ahead"}.get(key, key) for key in predict}})
 
 
 def quantities(values, name):

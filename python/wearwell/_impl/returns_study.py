@@ -1,7 +1,7 @@
 """Warranty returns in one line: a returns triangle, or units with their dates of sale and return."""
 
 from . import toml
-from .data import headings_of, no_column, table_of
+from .data import _pandas_na, headings_of, no_column, table_of
 from .errors import InputError
 from .fit_options import fits
 from .life_families import families
@@ -21,7 +21,7 @@ def _is_date(value):
 
 def _is_there(value):
     """Whether a cell has a value; lists and arrays have one, which the library refuses by name."""
-    return value is not None and (hasattr(value, "__len__") or bool(value == value))
+    return value is not None and (hasattr(value, "__len__") or value is not _pandas_na() and bool(value == value))
 
 
 def _text_of_date(value):

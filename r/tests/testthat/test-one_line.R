@@ -49,6 +49,7 @@ test_that("an S-N study of arguments is that of the file", {
   expect_output(print(fit), "Default priors.*log10_a +normal")
   refused(sn(event = "status", correction = "gerber"), "correction = \"gerber\" needs stress_ratio or mean_stress")
   asked <- function(at, ...) wearwell:::core(wearwell:::C_keys, sn(event = "status", stress_ratio = -1, data = reversed, at = at, fit = FALSE, ...)$text)
+  expect_identical(wearwell:::name_of_stress(100000), "100000")
   expect_identical(asked(320)$predict$stress$`320`, list(alternating_stress = "320 MPa", stress_ratio = -1))
   expect_identical(asked(c("320 MPa", "0.33 GPa"), scatter = "grows")$predict$stress$`0.33 GPa`$alternating_stress, "0.33 GPa")
   refused(asked("soon"), "at: 'soon': alternating_stress: 'soon' is not a number with a unit")

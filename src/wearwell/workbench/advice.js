@@ -64,11 +64,12 @@
 
   // `line`: that of the status in [data.columns]; its comment stays. Null in another form.
   function withStatusWord(line, key, column, word) {
-    const found = /^(\s*status\s*=\s*)("(?:[^"\\]|\\.)*"|'[^']*'|\{.*\})(.*)$/.exec(line);
+    const found = /^(\s*status\s*=\s*)("(?:[^"\\]|\\.)*"|'[^']*'|\{[^}#]*\})(\s*(?:#.*)?)$/.exec(line);
     if (!found) return null;
     const [, head, value, rest] = found;
     if (!value.startsWith('{')) return `${head}{ column = ${column}, ${key} = ${word} }${rest}`;
-    const known = new RegExp(`\\b${key}\\s*=\\s*(?:\\[(.*?)\\]|("(?:[^"\\\\]|\\\\.)*"|'[^']*'))`).exec(value);
+    const known = new RegExp(`\\b${key}\\s*=\\s*(?:\\[(.*?)\\]|("(?:[^"\\\\]|\\\\.)*"|'[^']*'|[^\\s,}"'\\[]+))`).exec(value);
+    if (known ? /^\d/.test(known[2] ?? '') : new RegExp(`\\b${key}\\s*=`).test(value)) return null;  // a code 0 or 1 has no further words
     const next = known ? value.replace(known[0], () => `${key} = [${known[1] ?? known[2]}, ${word}]`) : value.replace(/\s*\}$/, () => `, ${key} = ${word} }`);
     return `${head}${next}${rest}`;
   }

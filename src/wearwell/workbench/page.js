@@ -50,7 +50,7 @@
     for (const each of steps) {
       const chosen = each === name, tab = part(`step-${each}`);
       part(`panel-${each}`).hidden = !chosen;
-      part(`panel-${each}`).ariaHidden = chosen ? null : 'true';
+      if (chosen) part(`panel-${each}`).removeAttribute('aria-hidden'); else part(`panel-${each}`).setAttribute('aria-hidden', 'true');
       tab.setAttribute('aria-selected', chosen);
       tab.tabIndex = chosen ? 0 : -1;
       if (chosen && focus) tab.focus();

@@ -133,7 +133,7 @@ void refuse_two_readings(const Table& table, const Column& column) {
   for (std::size_t row = 0; row < table.rows; ++row) {
     if (!date_in(cell_word(column, row), layouts.front())) continue;
     throw InputError(fmt::format(
-        "{} has two readings, {} and {}, and no cell of the column tells which: write "
+        "{} can be read as {} or {}, and no cell of the column tells which: write "
         "2024-01-31, or state the layout with a query (data.sql, strptime)",
         quoted_place(table, column.name, row), layout_words(layouts[0]), layout_words(layouts[1])));
   }
