@@ -33,6 +33,12 @@ double node_mass(const Line& line, int t) {
   return std::exp(line.values[static_cast<std::size_t>(j)]) * line.width;
 }
 
+double mass_of(const Line& line) {
+  double mass = 0;
+  for (const double v : line.values) mass += std::exp(v) * line.width;
+  return mass;
+}
+
 Lines::Lines(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
              const Steps& steps)
     : posterior_(posterior), chart_(chart), axes_(axes), steps_(steps) {
@@ -78,8 +84,7 @@ Axes Lines::stretched_axes() const {
     std::map<int, double> marginal;
     double all = 0;
     for (const Line& line : lines_) {
-      double mass = 0;
-      for (const double v : line.values) mass += std::exp(v) * line.width;
+      const double mass = mass_of(line);
       marginal[line.index[a]] += mass;
       all += mass;
     }

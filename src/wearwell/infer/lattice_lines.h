@@ -52,6 +52,8 @@ struct Line {
 
 /// The mass of a node relative to that of the reference; t is in steps.
 double node_mass(const Line& line, int t);
+/// The sum over its nodes.
+double mass_of(const Line& line);
 
 /// A point of a line, or near it.
 struct Place {

@@ -75,14 +75,10 @@ class CellShape {
 
 // Sums over all nodes, in the order of lines for any number of threads.
 double total(const Lines& lines) {
-  std::vector<double> masses(lines.all().size(), 0.0);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines.all().size(), 256),
-                    [&](const auto& part) {
-                      for (std::size_t l = part.begin(); l != part.end(); ++l) {
-                        for (const double v : lines.all()[l].values)
-                          masses[l] += std::exp(v) * lines.all()[l].width;
-                      }
-                    });
+  std::vector<double> masses(lines.all().size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, masses.size(), 256), [&](const auto& part) {
+    for (std::size_t l = part.begin(); l != part.end(); ++l) masses[l] = mass_of(lines.all()[l]);
+  });
   return std::accumulate(masses.begin(), masses.end(), 0.0);
 }
 
