@@ -478,6 +478,8 @@ class FailingStore : public Store {
     look();
     return store_->has_unit(unit);
   }
+  std::vector<std::string> units() override { return store_->units(); }
+  std::int64_t last_place() override { return store_->last_place(); }
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override {
     if (adds == Fails::before || fails_events) throw StoreError("the disk is full");
     auto kept = store_->add_events(events);

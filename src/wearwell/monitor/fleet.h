@@ -29,8 +29,8 @@ struct FleetSettings {
   FitView fit = {};             ///< the same population, for readers
   AlarmSettings alarm;
   int threads = 1;
-  /// Of a fleet that takes the place of another one: when the monitor was started, and with how
-  /// many readings. Without it: now, with those in the store.
+  /// When the monitor was started, and with how many readings. Without it: now, with those in the
+  /// store.
   struct Start {
     std::int64_t time_ms = 0;
     std::uint64_t readings = 0;
@@ -71,7 +71,6 @@ class Fleet : public FleetReader {
   const EventsOfUnits& events() const { return events_; }
   /// Readings of this unit are removed: its state follows from those that are left.
   void rebuild(const std::string& unit);
-  FleetSettings::Start start() const { return {started_ms_, stored_before_}; }
   /// The present alarms of the units follow those of `before`, the fleet that readers see now, as if
   /// it had gone on; what that has not stored yet is stored by this one. To be called before readers see this one.
   void take_over(Fleet& before);
