@@ -365,8 +365,8 @@ TEST_F(Programs, KnowTheirUnitsFromTheFirstReading) {
   monitor.end(SIGKILL);
   monitor = start(config);
   ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
-  const auto refused =
-      post(port, "/api/v1/readings", R"({"machine": "new", "n": 1, "km": 1, "h": 0.5})");
+  const auto refused = post(port, "/api/v1/readings",
+                            R"({"machine": "new", "n": 1, "t": 1700000060, "km": 1, "h": 0.5})");
   EXPECT_EQ(refused.status, 400);
   EXPECT_THAT(refused.body, HasSubstr("limits.units"));
   for (const std::string& each : late)
