@@ -62,6 +62,14 @@
     wearwell.askPanel.result(found);
   }
 
+  // What became of a run is seen by the files alone.
+  function lost() {
+    if (place.stop.hidden) return;
+    place.stop.hidden = true;
+    place.bar.hidden = true;
+    place.progress.textContent = strings.fitLost;
+  }
+
   function session(now) {
     report = now.report ?? report;
     progress(now.fit);
@@ -86,5 +94,5 @@
     panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
   }
 
-  wearwell.fit = {build, session, result: () => wearwell.quietly(result)};
+  wearwell.fit = {build, session, lost, result: () => wearwell.quietly(result)};
 })();

@@ -77,6 +77,7 @@
 
   function connection(state) {
     part('connection').dataset.state = state;
+    if (state === 'lost') wearwell.fit.lost();
     part('connection').textContent = {live: strings.connected, lost: strings.lost, wait: strings.connecting}[state];
   }
 
