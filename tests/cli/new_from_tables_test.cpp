@@ -220,7 +220,7 @@ TEST_F(NewFromTables, AResponseWithInputs) {
 
   // The same table as a formula, in which each condition has its part.
   EXPECT_THAT(run.out,
-              HasSubstr("a formula: wear_rate under load, speed, temp: wearwell new formula"));
+              HasSubstr("a response under its conditions: wear_rate under load, speed, temp:"));
   ASSERT_EQ(here("new formula powers --from tribo.csv").exit_code, 0);
   const std::string study = content("powers/study.toml");
   EXPECT_THAT(study, HasSubstr("(load/load_reference)^load_exponent"));

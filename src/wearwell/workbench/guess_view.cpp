@@ -55,7 +55,9 @@ std::optional<Scaffold> response_question(ColumnRoles& roles) {
     question.readings.push_back({fmt::format("'{}', under the others as conditions", each->name),
                                  {"--column", "response=" + each->name}});
   roles.questions.push_back(std::move(question));
-  return roles.study("a formula: a response under conditions", ReadingFit::possible, "");
+  Scaffold asked = roles.study("a response under its conditions", ReadingFit::possible, "");
+  asked.guesses.clear();  // which column is not used follows from the answer
+  return asked;
 }
 
 }  // namespace

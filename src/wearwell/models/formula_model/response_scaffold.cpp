@@ -220,8 +220,9 @@ std::optional<Scaffold> response_scaffold(ColumnRoles& roles) {
                     "sigma = {{ distribution = \"half-normal\", scale = {} }}\n\n",
                     size, priors, size);
   text += predict_section(terms);
-  return roles.study(fmt::format("a formula: {} under {}", measured, fmt::join(names, ", ")),
-                     ReadingFit::general, std::move(text));
+  return roles.study(
+      fmt::format("a response under its conditions: {} under {}", measured, fmt::join(names, ", ")),
+      ReadingFit::general, std::move(text));
 }
 
 }  // namespace wearwell::formula_model
