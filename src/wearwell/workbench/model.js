@@ -16,7 +16,7 @@
 
   function marks() {
     place.state.textContent = text() && !isSaved() ? strings.unsaved : '';
-    place.undo.disabled = replaced.length === 0;
+    wearwell.disable(place.undo, replaced.length === 0, place.text);
   }
 
   function gutter(bad) {
