@@ -161,22 +161,19 @@ class Part {
     }
   }
 
-  // Lives count from the unit's last row. If conditions change, its path continues from its present
-  // value, at the corresponding position under the new ones.
+  // Lives count from the unit's last row, or from the corresponding position under new conditions.
   void from_place(std::size_t u, const double* x, const EffectLines& lines) {
     const LimitedPath::SeenUnit& seen = path_.seen[u];
-    if (behind_[u]) behind_[u]->move_to(x);
+    if (!behind_[u]) {
+      for (double& each : place_) each -= seen.now;
+      return;
+    }
+    behind_[u]->move_to(x);
+    continued_.find(*behind_[u], ahead_[u], seen.now, lines.z, effects(), lines.count());
     for (std::size_t i = 0; i < lines.count(); ++i) {
-      double now = seen.now;
-      if (behind_[u]) {
-        const double* z = effects() > 0 ? &lines.z[i * effects()] : nullptr;
-        behind_[u]->evaluate(1, z, &seen.now);
-        const double level = behind_[u]->output(0, 0);
-        ahead_[u].solve(1, z, &level, &now);
-        const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
-        if (there && !(now > place_[i])) now = place_[i] = 0;
-      }
-      place_[i] -= now;
+      const double level = continued_.level[i], now = continued_.place[i];
+      const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
+      place_[i] = there && !(now > place_[i]) ? 0 : place_[i] - now;
     }
   }
 
@@ -188,6 +185,7 @@ class Part {
   const EffectLines fresh_;
   NewUnits new_units_;
   EffectLines lines_;
+  Continuation continued_;
   std::vector<double> place_, past_, level_;
 };
 
