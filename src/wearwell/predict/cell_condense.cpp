@@ -120,4 +120,9 @@ void CellMixture::condense(std::size_t most) {
   cells_ = std::move(few);
 }
 
+void CellMixture::limit_size() {
+  constexpr std::size_t most = 8192, few = 512;
+  if (size() > most) condense(few);
+}
+
 }  // namespace wearwell

@@ -71,6 +71,7 @@ class Part {
   void add_curves(const EffectLines& effects, std::size_t i, double weight, CellMixture& to) {
     const std::span<const double> values = std::span(value_).subspan(i * effects.count());
     effects.each(values, [&](auto share, auto value) { to.add_curve(weight, share, value); });
+    to.limit_size();
   }
 
   // The direction of two effects in which the path of a new unit changes, at the farthest position.
@@ -132,7 +133,10 @@ class Part {
 
 void Spreads::add(const Spreads& other) {
   const auto sum = [](std::vector<CellMixture>& to, const std::vector<CellMixture>& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i].add(from[i]);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i].add(from[i]);
+      to[i].limit_size();
+    }
   };
   for (std::size_t i = 0; i < paths.size(); ++i) {
     sum(paths[i].traced, other.paths[i].traced);
