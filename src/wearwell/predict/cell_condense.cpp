@@ -156,8 +156,8 @@ void CellMixture::condense(std::size_t most) {
   cells_ = std::move(few);
 }
 
-void CellMixture::limit_size() {
-  constexpr std::size_t most = 8192, few = 512;
+void CellMixture::limit_size(std::size_t most) {
+  constexpr std::size_t few = 512;
   if (size() > most) condense(few);
 }
 
