@@ -127,6 +127,27 @@ def test_columns_of_each_kind_of_other_functions(monkeypatch, name):
             assert "[data" not in str(error) and "data.returns" not in str(error), (column, kind, error)
 
 
+@pytest.mark.parametrize("truths", [[True] * 8, pd.array([True] * 8, dtype="boolean"), pd.Series([True] * 8, dtype=object), pd.Categorical([True] * 8)])
+def test_truths_are_no_lives(truths):
+    """They would be read as lives of 1."""
+    with pytest.raises(ww.InputError, match="life: column 'h' holds True and False; it is a number in each row"):
+        ww.life(pd.DataFrame({"h": truths}), "h")
+    with pytest.raises(ww.InputError, match="stress: column 'S' holds True and False"):
+        ww.sn(pd.DataFrame({"S": truths, "N": hours}), "S", "N", units={"S": "MPa"})
+
+
+@pytest.mark.parametrize("family", ["lognormal", "wiener-process", "gamma-process", "inverse-gaussian-process"])
+def test_readings_where_paths_of_a_family_begin(family):
+    of = lambda x, y: ww.degradation({"km": x, "wear": y}, "wear", "km", family=family)
+    with pytest.raises(ww.InputError, match="row 1, column 'km': 0; a path of the family '.*' begins at 0, so a reading there says nothing: leave out"):
+        of([0, 1, 2], [0, 1.1, 2])
+    with pytest.raises(ww.InputError, match="row 1, column 'km': -1 must be positive: a path of the family '.*' begins at 0"):
+        of([-1, 1, 2], [0.1, 1.1, 2])
+    if family != "wiener-process":
+        with pytest.raises(ww.InputError, match="row 2, column 'wear': 0 must be positive for the family '.*'; family='normal' takes"):
+            of([1, 2, 3], [1.1, 0, 3.1])
+
+
 def test_numbers_of_categories_with_missing_cells():
     sold = {"shipped": ["Jan 2010", "Feb 2010"], "quantity": [100, 140], "Feb 2010": pd.Categorical([3, None]), "Mar 2010": pd.Categorical([3, 2])}
     as_numbers = {**sold, "Feb 2010": [3, np.nan], "Mar 2010": [3, 2]}

@@ -334,6 +334,8 @@ def test_stresses_asked_of_an_sn_curve():
     several = asked([320, "0.33 GPa"], stress_ratio=-1, scatter="grows")
     assert several["predict"]["stress"]["320"] == {"alternating_stress": "320 MPa", "stress_ratio": -1}
     assert several["predict"]["stress"]["0.33 GPa"]["alternating_stress"] == "0.33 GPa" and several["law"]["scatter"] == "grows"
+    digits = asked([320.0, 1234567.8], units={"N": "cycles"})["predict"]["stress"]
+    assert digits == {"320": {"alternating_stress": "320 MPa"}, "1234567.8": {"alternating_stress": "1234567.8 MPa"}}
     shaft = {"alternating_stress": 320, "stress_ratio": 0}
     assert asked({"shaft": shaft}, stress_ratio=-1)["predict"]["stress"] == {"shaft": {**shaft, "alternating_stress": "320 MPa"}}
     assert refusal(ww.sn, tests, "S", "N", at="soon").startswith("at: 'soon': alternating_stress: 'soon' is not a number with a unit")
@@ -378,6 +380,11 @@ def test_clutch_of_tables_in_memory():
     assert text["data"] == {"design": "design", "cycles": "cycles", "weighings": "weighings"} and text["lining"]["area"] == "100 cm^2"
     assert text["life"]["points"]["steep hill"]["torque"] == "75 N m" and text["uncertainty"] == {"replicates": 0}
     assert kept[0][1]["cycles"][0].unit("energy") == "J"
+    lining = {"density": "2.2 g/cm^3", "depth": "1 mm", "area": "100 cm^2", "balance_sd": "1 mg"}
+    for wrong, message in ({"search": 3}, "search is int; it is a dict"), ({"points": {"hill": 3}}, "points: hill is int"), ({"points": 3}, "points is int"), \
+            ({"units": 3}, "units is int"), ({"units": {"cycles": 3}}, "units: cycles is int"), ({"missing_cycles": None}, "missing_cycles is None; it is 'refuse'"):
+        with pytest.raises(ww.InputError, match=message):
+            ww.clutch(design, cycles, weighings, **lining, **wrong)
     with pytest.raises(ww.InputError, match="'cycle' is no table"):
         ww.clutch(design, cycles, weighings, density=1, depth=1, area=1, balance_sd=1, units={"cycle": {}})
     with pytest.raises(ww.InputError, match="cycles, column 'energy' has no unit"):

@@ -9,12 +9,16 @@ column_or_quantity <- function(value, columns, what) {
   list(constant = quantity(value, what))
 }
 
+preset_labels <- c("label", "unit", "bearing", "mode", "contact")  # columns whose cells a study reads as texts
+argument_of_role <- function(role) if (role == "alternating_stress") "stress" else role
+
 # The frame of a preset, by the names that the model has for its columns.
 preset_study <- function(columns, roles, what) {
   found <- list()
   for (role in names(roles)) {
     if (is.null(roles[[role]])) next
     each <- find_column(columns, one_text(roles[[role]], role), role)
+    if (!role %in% preset_labels) require_no_truths(each, argument_of_role(role))
     found[[role]] <- study_column(plain_values(each), each$unit, each$heading)
   }
   found
@@ -208,7 +212,10 @@ ww_clutch <- function(design, cycles, weighings, density, depth, area, balance_s
   unknown <- setdiff(names(units), names(tables))
   if (length(unknown)) stop_input("units: '", unknown[1], "' is no table; tables are ", words(names(tables)), ", as units = list(cycles = c(torque = \"N m\"))")
   given <- lapply(stats::setNames(names(tables), names(tables)), function(name) {
-    if (!is_path(tables[[name]])) require_columns(tables[[name]], name)
+    if (!is_path(tables[[name]])) {
+      require_columns(tables[[name]], name)
+      for (heading in names(tables[[name]])) require_no_truths(list(values = tables[[name]][[heading]], heading = heading), name)
+    }
     list(data = tables[[name]], units = units[[name]], only = NULL)
   })
   parts <- c(toml_table("", list(title = if (is.null(title)) "Clutch wear" else one_text(title, "title"), model = "clutch-wear")),

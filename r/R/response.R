@@ -83,8 +83,16 @@ evaluated <- function(expression, columns, env, what) {
 
 numbers_for <- function(each, what) {
   values <- column_values(each$values, place_of(each))
+  require_no_truths(each, what)
   if (!is.double(values)) stop_input(what, ": column '", each$heading, "' holds texts; it is a number")
   values
+}
+
+# A column of NA alone is logical in R, and of no truths.
+require_no_truths <- function(each, what) {
+  if (is.logical(each$values) && !all(is.na(each$values))) {
+    stop_input(what, ": column '", each$heading, "' holds TRUE and FALSE; it is a number in each row (as.double() makes 1 and 0)")
+  }
 }
 
 # TRUE: failure. `codes`: the column's own.

@@ -7,7 +7,13 @@ rounded_up <- function(x) {
   power * c(1, 2, 5, 10)[which(c(1, 2, 5, 10) * power >= x * (1 - 1e-9))[1]]
 }
 
-quantity_text <- function(x, unit) if (unit %in% c("", "1")) as.double(x) else paste(number_text(x), unit)
+# "20 km"; a plain number without a unit, and "20000000 cycles" of 20 "1e6 cycles".
+quantity_text <- function(x, unit) {
+  if (unit %in% c("", "1")) return(as.double(x))
+  size <- sub("^([0-9.]+([eE][+-]?[0-9]+)?) .*$", "\\1", unit)
+  if (size == unit) return(paste(number_text(x), unit))
+  quantity_text(as.double(sprintf("%.15g", x * as.double(size))), substring(unit, nchar(size) + 2))
+}
 
 inverse_unit <- function(unit) if (unit == "") "" else if (unit %in% c("degC", "degF")) "1/K" else paste0("1/(", unit, ")")
 

@@ -30,7 +30,8 @@ async function serve(inside) {
     createInterface(child.stdout).once('line', done);
     child.once('exit', () => failed(new Error('the program ended')));
   });
-  return {address: line.slice(line.indexOf('http')), stop: () => new Promise((done) => { child.once('exit', done); child.kill('SIGINT'); })};
+  const end = (signal) => () => new Promise((done) => { child.once('exit', done); child.kill(signal); });
+  return {address: line.slice(line.indexOf('http')), stop: end('SIGINT'), kill: end('SIGKILL')};
 }
 
 function fresh(name) {
@@ -500,6 +501,65 @@ async function readings(browser) {
   faults.push(...complaints.map((each) => `readings: ${each}`));
 }
 
+// A plain table of numbers becomes a formula study by clicks, in at most ten actions, and `wearwell fit` of it gives the same. The program is then
+// killed while it fits: the page says so and keeps what was typed, the folder what was saved.
+async function responses(browser, {name, ...options}) {
+  const complaints = [];
+  const inside = fresh(name);
+  writeFileSync(join(inside, 'rates.csv'), `specimen,load,"<b>film</b>",loss\n${[10, 20, 40].flatMap((load, i) => [1, 2, 4, 8].map((film, j) => `${'abc'[i]}${j},${load},${film},${(0.3 * load ** 1.1 / film ** 0.5 * (1 + 0.05 * ((i + 2 * j) % 3))).toFixed(3)}\n`)).join('')}`);
+  const {address, kill} = await serve(inside);
+  const context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  const study = () => page.inputValue('#study');
+  let actions = 0;
+  const act = async (does) => { actions += 1; await does(); };
+  await act(() => page.selectOption('#in-folder', 'rates.csv'));
+  await act(() => page.click('#panel-data .doors button'));
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  await act(() => page.click('#step-model'));
+  await page.waitForSelector('.question button', {timeout: 60000});
+  await looks(page, `${name} question`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-question.png`), fullPage: true});
+  await act(() => page.click('.question button:has-text("loss")'));
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await looks(page, `${name} model`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-model.png`), fullPage: true});
+  check(/^response = "level \* \(load\/load_reference\)\^load_exponent \* \(/m.test(await study()), `${name}: the formula is ${await study()}`);
+  await act(() => page.click('#step-fit'));
+  await act(() => page.click('#panel-fit button'));
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  check(actions <= 10, `${name}: ${actions} actions`);
+  await looks(page, `${name} fit`, complaints);
+  spawnSync(wearwell, ['fit', 'rates.toml', '-o', 'by-program', '--quiet'], {cwd: inside});
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  const first = summary('rates-results');
+  check(first === summary('by-program'), `${name}: the program gives other digits`);
+
+  await page.click('#step-model');
+  await page.fill('#study', (await study()).replace('scale = 1 }', 'scale = 2 }'));
+  const saved = await study();
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await page.click('#step-fit');
+  const before = complaints.length;
+  await page.click('#panel-fit button');
+  await page.waitForSelector('#panel-fit button:has-text("Stop")', {timeout: 60000});
+  await kill();
+  await page.waitForSelector('#connection[data-state="lost"]', {timeout: 60000});
+  check((await page.textContent('#progress')).includes('has written nothing'), `${name}: of a lost fit the page says ${await page.textContent('#progress')}`);
+  await page.click('#step-model');
+  await page.fill('#study', `${saved}# mine\n`);
+  await page.click('.editing button:has-text("Save")');
+  await page.waitForSelector('#banners .callout:has-text("Start wearwell open again")', {timeout: 60000});
+  check((await study()).endsWith('# mine\n') && !(await page.textContent('.editing')).includes('Saved as'), `${name}: a text that cannot be saved is lost, or said to be saved`);
+  await looks(page, `${name} lost`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-lost.png`), fullPage: true});
+  check(readFileSync(join(inside, 'rates.toml'), 'utf8') === saved && summary('rates-results') === first, `${name}: the kill changed what was saved`);
+  complaints.splice(before, complaints.length, ...complaints.slice(before).filter((each) => !/ERR_CONNECTION_REFUSED|ERR_INCOMPLETE_CHUNKED|ERR_EMPTY_RESPONSE|ERR_CONNECTION_RESET/.test(each)));
+  await page.evaluate(() => { document.getElementById('study').value = ''; });
+  await context.close();
+  faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `${name}: ${each}`));
+}
+
 // In German: by the browser's language and by choice; what was typed into the study stays, and no English sentence of the page is seen.
 async function inGerman(browser, {name, ...options}) {
   const complaints = [];
@@ -829,6 +889,7 @@ const walks = {
   tabs: () => tabs(browser),
   readings: () => readings(browser),
   large: () => large(browser),
+  responses: () => responses(browser, {name: 'responses-narrow-light', ...narrowLight}),
   wear: () => wearPaths(browser, {name: 'wear-paths-tablet', viewport: {width: 820, height: 1180}, colorScheme: 'light'}),
 };
 for (const each of wanted.length ? wanted : Object.keys(walks)) await walks[each]();

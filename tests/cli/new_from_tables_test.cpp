@@ -217,6 +217,33 @@ TEST_F(NewFromTables, AResponseWithInputs) {
   const CommandResult selected = here(command);
   EXPECT_EQ(selected.exit_code, 0) << selected.err;
   EXPECT_THAT(selected.out, HasSubstr("Speed (rpm)"));
+
+  // The same table as a formula, in which each condition has its part.
+  EXPECT_THAT(run.out,
+              HasSubstr("a response under its conditions: wear_rate under load, speed, temp:"));
+  ASSERT_EQ(here("new formula powers --from tribo.csv").exit_code, 0);
+  const std::string study = content("powers/study.toml");
+  EXPECT_THAT(study, HasSubstr("(load/load_reference)^load_exponent"));
+  EXPECT_THAT(study, HasSubstr("arrhenius(temp, temp_reference, temp_energy)"));
+  const CommandResult fit =
+      here("fit powers/study.toml --method exact --draws 100 --json --no-report -o powers-results");
+  ASSERT_LE(fit.exit_code, 1) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("load_exponent"));
+}
+
+// A response that can be negative is a sum; names of the study do not clash with headings.
+TEST_F(NewFromTables, ResponseThatCanBeNegative) {
+  write("drift.csv",
+        "material,level,sigma,response\nsteel,1,-2,-0.4\nbronze,2,4,0.5\nsteel,3,1,0.1\n"
+        "bronze,1,3,0.2\nsteel,2,-1,0\n");
+  const CommandResult run = here("new formula sum --from drift.csv");
+  ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
+  EXPECT_THAT(
+      content("sum/study.toml"),
+      AllOf(HasSubstr("family = \"normal\""), HasSubstr("# material = \"material\"    # a label")));
+  const CommandResult none = here("new formula none --from drift.csv --column response=");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
 }
 
 // What is open.

@@ -91,6 +91,18 @@ TEST(FamilyPapers, ManyLivesAreFittedAsFewAre) {
   }
 }
 
+// A slope in proportion to the number of lives once ended each search at its first step.
+TEST(FamilyPapers, MillionsOfLivesHaveTheMaximumOfTheirShares) {
+  const auto lives = pumps();
+  for (const char* name : {"weibull", "lognormal", "gamma", "generalized-gamma"}) {
+    const auto one = fitted_family(form_named(name), lives, ones(lives));
+    const auto many =
+        fitted_family(form_named(name), lives, std::vector<int>(lives.size(), 1000000));
+    ASSERT_TRUE(one && many) << name;
+    EXPECT_NEAR(many->log_likelihood / one->log_likelihood / 1e6, 1, 1e-9) << name;
+  }
+}
+
 TEST(FamilyPapers, EqualLivesHaveNoMaximum) {
   const auto equal = exact(Numbers(5, 100.0));
   EXPECT_FALSE(fitted_family(form_named("weibull"), equal, ones(equal)));

@@ -1,7 +1,7 @@
 """Wear of clutch linings in one line: what calling ``wearwell.clutch`` does."""
 
 from . import toml
-from .data import table_of
+from .data import require_no_truths, table_of
 from .errors import InputError
 from .fit_options import fits
 from .preset_study import percentages
@@ -72,10 +72,15 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
     'clutch-wear'
     """
     tables = {"design": design, "cycles": cycles, "weighings": weighings, **({} if traces is None else {"traces": traces})}
-    unknown = next((key for key in units or {} if key not in tables), None)
+    units = {name: toml.mapping(each, f"units: {name}", "{'torque': 'N m'}")
+             for name, each in toml.mapping(units, "units", "{'cycles': {'torque': 'N m'}}").items()}
+    unknown = next((key for key in units if key not in tables), None)
     if unknown:
         raise InputError(f"units: '{unknown}' is no table; tables are {', '.join(tables)}, as units={{'cycles': {{'torque': 'N m'}}}}")
+    if not isinstance(missing_cycles, str):
+        raise InputError(f"missing_cycles is {missing_cycles!r}; it is 'refuse' or 'fill'")
     data = {**{name: name for name in tables}, **({} if missing_cycles == "refuse" else {"missing_cycles": missing_cycles})}
+    search = toml.mapping(search, "search", "{'lowest': 0.1, 'highest': 3, 'step': 0.1}")
     parts = [toml.table("", {"title": title or "Clutch wear", "model": "clutch-wear"}), toml.table("data", data),
              toml.table("lining", {"density": toml.quantity(density, "density"), "depth": toml.quantity(depth, "depth"),
                                     "area": toml.quantity(area, "area")}),
@@ -86,12 +91,15 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
         parts.append(toml.table("uncertainty", {"replicates": replicates}))
     if levels is not None:
         parts.append(toml.table("life", {"levels": percentages(levels)}))
-    for name, duty in (points or {}).items():
-        quoted = name if name.isidentifier() and name.isascii() else toml.value(str(name), "points")
+    for name, duty in toml.mapping(points, "points", "{'hill': {'slip_speed': '2800 rpm', ...}}").items():
+        quoted = toml.value(str(name), "points")
+        duty = toml.mapping(duty, f"points: {name}", "{'slip_speed': '2800 rpm', ...}")
         parts.append(toml.table(f"life.points.{quoted}", {key: toml.quantity(each, f"points.{name}.{key}") for key, each in duty.items()}))
-    given = {name: (table_of(each, name, (units or {}).get(name)), each, None) for name, each in tables.items()}
+    for name, each in tables.items():
+        require_no_truths(each, name)
+    given = {name: (table_of(each, name, units.get(name)), each, None) for name, each in tables.items()}
     made = Study._made("\n".join(parts), given, {"lining.density": "density", "lining.depth": "depth", "lining.area": "area",
                                                  "balance.sd": "balance_sd", "data.missing_cycles": "missing_cycles", "life.levels": "levels", "life.points": "points",
                                                  "uncertainty.replicates": "replicates"})
-    made._given = {name: (each, (units or {}).get(name) or {}, None) for name, each in tables.items()}
+    made._given = {name: (each, units.get(name) or {}, None) for name, each in tables.items()}
     return made.fit(threads=threads, report=report, progress=progress)

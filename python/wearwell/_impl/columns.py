@@ -3,10 +3,10 @@
 import re
 
 from . import _core
-from .data import columns_of_few_kinds, headings_of, no_column, table_of, values_of
+from .data import columns_of_few_kinds, headings_of, holds_truths, no_column, table_of, values_of
 from .errors import InputError
 from .idle_columns import are_counts, are_units, may_be_counts, may_be_units, warn_of_counts, warn_of_units
-from .toml import table, unit_text
+from .toml import mapping, table, unit_text
 
 _bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
 # Words of the formula language and of a study's [data.columns], which no column can be called.
@@ -30,7 +30,7 @@ class Columns:
         self._bare = {}
         for heading in self.headings:
             self._bare.setdefault(_bracket.sub("", heading).strip(), []).append(heading)
-        self._units = {self.heading(key, "units"): unit_text(unit) for key, unit in (units or {}).items()}
+        self._units = {self.heading(key, "units"): unit_text(unit) for key, unit in mapping(units, "units", "{'s': 'km'}").items()}
         self._names, self._arguments = {}, {}
         self._used_names = set(taken) | _taken
 
@@ -74,8 +74,10 @@ class Columns:
             return match[1].strip()
         return self._read().unit(heading)
 
-    def entry(self, heading):
-        """What [data.columns] says of a column of numbers."""
+    def entry(self, heading, labels=False):
+        """What [data.columns] says of a column of numbers, or of labels."""
+        if not labels and self._whole is None and holds_truths(self.data, heading):
+            raise InputError(f"{self._arguments[heading]}: column '{heading}' holds True and False; it is a number in each row (astype(float) makes 1 and 0)")
         return {"column": heading, "unit": self._units[heading]} if heading in self._units else heading
 
     def _read(self):
@@ -91,8 +93,14 @@ class Columns:
         """The numbers of a column without those that are missing; InputError names a text."""
         import numpy
 
-        values = numpy.asarray(self._read().numbers(heading))
+        values = self.cells(heading)
         return values[numpy.isfinite(values)]
+
+    def cells(self, heading):
+        """The numbers of a column by row, NaN of those that are missing."""
+        import numpy
+
+        return numpy.asarray(self._read().numbers(heading))
 
     def open_ends(self, lower, upper):
         """Infinite ends of intervals in memory are missing ones from now on: both are open."""

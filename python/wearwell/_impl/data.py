@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _core
 from .errors import InputError, missing_files
-from .toml import unit_text
+from .toml import mapping, unit_text
 
 _exact = 2**53  # whole numbers beyond have no double of their own
 
@@ -206,7 +206,7 @@ def table_of(data, name="data", units=None, only=None):
 
     ``units``: of columns, by heading. ``only``: columns of a memory table that are taken, by heading.
     """
-    units = {k: unit_text(v) for k, v in (units or {}).items()}
+    units = {k: unit_text(v) for k, v in mapping(units, "units", "{'s': 'km'}").items()}
     if isinstance(data, _core.Table):
         return data
     if _is_series(data):
@@ -284,6 +284,28 @@ def values_of(data, headings):
         except InputError:
             continue
     return found
+
+
+def holds_truths(data, heading):
+    """Whether a column in memory is of booleans, which would be read as the numbers 1 and 0."""
+    if hasattr(data, "fetchnumpy") and hasattr(data, "types"):  # a DuckDB relation, which is not run for this
+        return str(data.types[data.columns.index(heading)]) == "BOOLEAN"
+    column = _held(data, [heading])[heading]
+    dtype = getattr(column, "dtype", None)
+    kind = getattr(getattr(getattr(dtype, "categories", None), "dtype", dtype), "kind", "O")
+    if kind != "O":
+        return kind == "b"
+    first = next((each for each in column if each is not None and each is not _pandas_na()), None)
+    return isinstance(first, (bool, np.bool_))
+
+
+def require_no_truths(data, name):
+    """That no column of a table of measurements in memory is of booleans."""
+    if data is None or isinstance(data, _core.Table):
+        return
+    heading = next((h for h in _found_headings(data) or () if holds_truths(data, h)), None)
+    if heading:
+        raise InputError(f"{name}, column '{heading}' holds True and False; it is a number or a text in each row (astype(float) makes 1 and 0)")
 
 
 def columns_of_few_kinds(data, headings):

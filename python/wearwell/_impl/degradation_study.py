@@ -26,12 +26,28 @@ def _limit(limit, y, unit):
 
 def _require_one_path(columns, x, y):
     """Without a column of units all rows are of one."""
-    values = columns.numbers(x)
+    values = columns.cells(x)
     falls = (values[1:] < values[:-1]).nonzero()[0]
     if len(falls):
         row = int(falls[0]) + 2
         raise InputError(f"unit is missing: {x} falls at row {row} from {values[row - 2]:g} to {values[row - 1]:g}, so the rows are of "
                          f"several units; unit='...' names the column that tells them apart, or unit=False says that all rows of {y} are of one")
+
+
+def _require_above_zero(columns, x, y, family):
+    """Paths of all families but the normal are 0 at 0, and certain there; only those of a Wiener process fall below."""
+    axis, readings = columns.cells(x), columns.cells(y)
+    early, low = axis <= 0, (readings <= 0) & (family != "wiener-process" and readings.max() > 0)  # where all are below 0 the path falls
+    if not (early | low).any():
+        return
+    row = int((early | low).argmax())
+    where = f"data, row {row + 1}, column "
+    if axis[row] == 0 and readings[row] == 0:
+        raise InputError(f"{where}'{x}': 0; a path of the family '{family}' begins at 0, so a reading there says nothing: leave out the row")
+    if early[row]:
+        raise InputError(f"{where}'{x}': {axis[row]:g} must be positive: a path of the family '{family}' begins at 0, where {x} is 0; family='normal' "
+                         "takes such a row")
+    raise InputError(f"{where}'{y}': {readings[row]:g} must be positive for the family '{family}'; family='normal' takes readings of 0 and less")
 
 
 @fits
@@ -106,6 +122,8 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         _require_one_path(columns, x, y)
         columns.warn_of_idle(unused, units=True, otherwise="unit=False")
     of, along = columns.unit(y), columns.unit(x)
+    if family != "normal":
+        _require_above_zero(columns, x, y, family)
     values, places = columns.numbers(y), columns.numbers(x)
     if not len(values) or not len(places):
         raise InputError(f"data has no readings in column '{y if not len(values) else x}'")

@@ -18,7 +18,7 @@ def _stresses(at, conditions, unit):
     if at is None:
         return None
     if not isinstance(at, Mapping):
-        at = {str(each): each for each in quantities(at, "at")}
+        at = {each if isinstance(each, str) else toml.number_text(each): each for each in quantities(at, "at")}
     same = {key: conditions[key] for key in ("stress_ratio", "mean_stress") if key in conditions}
 
     def of_tests(value, argument):

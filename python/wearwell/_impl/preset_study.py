@@ -6,6 +6,9 @@ from .errors import InputError
 from .study import Study
 
 
+_labels = ("label", "unit", "bearing", "mode", "contact")  # columns whose cells a study reads as texts
+
+
 class Preset:
     """A study of a preset, put together of arguments.
 
@@ -23,7 +26,7 @@ class Preset:
         if value is None:
             return
         heading = self.columns.take(value, argument)
-        self.rows[key] = self.columns.entry(heading)
+        self.rows[key] = self.columns.entry(heading, labels=key in _labels)
         self.arguments[f"data.columns.{key}"] = argument
 
     def either(self, key, argument, value):

@@ -3,7 +3,7 @@
 import math
 import re
 
-from . import _core
+from . import _core, toml
 from .errors import InputError
 
 factor_27 = "a factor of 27 to either side"
@@ -18,9 +18,8 @@ def quantity_text(value, unit):
     """"20 km"; a plain number without a unit, and "2e+07 cycles" for 20 "1e6 cycles"."""
     match = re.match(r"([0-9.]+(?:[eE][+-]?\d+)?) (.+)\Z", unit)
     if match:
-        return quantity_text(value * float(match[1]), match[2])
-    number = float(f"{value:.6g}")
-    return number if unit in ("", "1") else f"{value:.6g} {unit}"
+        return quantity_text(float(f"{value * float(match[1]):.15g}"), match[2])
+    return float(value) if unit in ("", "1") else f"{toml.number_text(value)} {unit}"
 
 
 def unit_of_ratio(over, under):

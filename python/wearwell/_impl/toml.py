@@ -3,6 +3,7 @@
 import json
 import numbers
 import re
+from collections.abc import Mapping
 
 from .errors import InputError
 
@@ -18,6 +19,19 @@ def quantity(value, what):
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return value
     raise InputError(f"{what} is {type(value).__name__}; it is a number or a text with a unit, like '5 mm^3'")
+
+
+def mapping(value, what, like):
+    """A dict that may be missing, as one."""
+    if value is None or isinstance(value, Mapping):
+        return value or {}
+    raise InputError(f"{what} is {type(value).__name__}; it is a dict like {like}")
+
+
+def number_text(value):
+    """All digits of a number, as R writes it: 320, not 320.0."""
+    value = float(value)
+    return f"{value:.0f}" if value == round(value, 0) and abs(value) < 2**53 else repr(value)
 
 
 def of_numpy(value, what):

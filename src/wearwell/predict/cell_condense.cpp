@@ -55,6 +55,33 @@ void add_cubic(const Cubic& cell, double low, double length, std::span<const dou
   }
 }
 
+// Takes away the weights of large points, which stay points, and of those at the first end.
+std::vector<double> take_large(std::vector<double>& at, double largest) {
+  std::vector<double> large(at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (k == 0 || at[k] > largest) std::swap(large[k], at[k]);
+  }
+  return large;
+}
+
+// Many small points stand for a density: those at an end count half on either side (at the last end before it), and all give
+// the density at each end by the weight about it.
+void spread(const std::vector<double>& ends, const std::vector<double>& at,
+            std::vector<double>& inside, std::vector<double>& density) {
+  const std::size_t n = ends.size();
+  for (std::size_t k = 1; k < n; ++k) {
+    const double share = k + 1 < n ? 0.5 : 1;
+    inside[k] += share * at[k];
+    if (k + 1 < n) inside[k + 1] += share * at[k];
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t from = k > 0 ? k - 1 : k, to = std::min(k + 1, n - 1);
+    double weight = 0;
+    for (std::size_t i = from + 1; i <= to; ++i) weight += inside[i];
+    if (weight > 0) density[k] += weight / (ends[to] - ends[from]);
+  }
+}
+
 }  // namespace
 
 void CellMixture::condense(std::size_t most) {
@@ -83,41 +110,55 @@ void CellMixture::condense(std::size_t most) {
   points.emplace_back(highest, 0);
   const std::vector<double> ends = ends_at(std::move(points), ended, shares_of_ends(most - 1));
   // Weight up to each end and density there, of cells that reach beyond it; weight of the cells that
-  // end there; densities of cells that only begin (right) or end (left) there.
+  // end there; densities of cells that only begin (right) or end (left) there. Of points: the weight
+  // at each end, and between it and the end before.
   const std::size_t n = ends.size();
-  std::vector<double> up_to(n), density(n), ended_here(n), left(n), right(n);
+  std::vector<double> up_to(n), density(n), ended_here(n), left(n), right(n), at(n), inside(n);
   for (const Cell& cell : cells_) {
     check_stop();
     if (cell.high == infinity) continue;
     auto k = static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), cell.low) -
                                       ends.begin());
     const double length = cell.high - cell.low, a = cell.at_low, b = cell.at_high;
-    if (length > 0 && ends[k] == cell.low) right[k++] += cell.weight * a / length;
+    if (!(length > 0)) {
+      (ends[k] == cell.low ? at : inside)[k] += cell.weight;
+      continue;
+    }
+    if (ends[k] == cell.low) right[k++] += cell.weight * a / length;
     const auto past = static_cast<std::size_t>(
         std::lower_bound(ends.begin() + static_cast<std::ptrdiff_t>(k), ends.end(), cell.high) -
         ends.begin());
     add_cubic({cell.weight, a, b}, cell.low, length, std::span(ends).subspan(k, past - k),
               up_to.data() + k, density.data() + k);
     k = past;
-    if (length > 0 && ends[k] == cell.high) left[k] += cell.weight * b / length;
+    if (ends[k] == cell.high) left[k] += cell.weight * b / length;
     ended_here[k] += cell.weight;
   }
+  const std::vector<double> large = take_large(at, 4 * ended / static_cast<double>(most));
+  for (std::size_t k = 0; k < n; ++k) {
+    if (large[k] > 0) few.push_back({.weight = large[k], .low = ends[k], .high = ends[k]});
+  }
+  spread(ends, at, inside, density);
   double sum = 0;
-  for (std::size_t k = 0; k < n; ++k) up_to[k] += sum += ended_here[k];
-  if (up_to[0] > 0) few.push_back({.weight = up_to[0], .low = ends[0], .high = ends[0]});
+  for (std::size_t k = 0; k < n; ++k) up_to[k] += sum += ended_here[k] + inside[k];
   for (std::size_t k = 0; k + 1 < n; ++k) {
     constexpr double most_relative = 3;  // keeps the cubic monotone
     Cell cell{.weight = up_to[k + 1] - up_to[k], .low = ends[k], .high = ends[k + 1]};
     if (!(cell.weight > 0)) continue;
     const double mean = cell.weight / (cell.high - cell.low);
-    const auto relative = [&](double at) {
-      return static_cast<float>(std::clamp(at / mean, 0.0, most_relative));
+    const auto relative = [&](double slope) {
+      return static_cast<float>(std::clamp(slope / mean, 0.0, most_relative));
     };
     cell.at_low = relative(density[k] + right[k]);
     cell.at_high = relative(density[k + 1] + left[k + 1]);
     few.push_back(cell);
   }
   cells_ = std::move(few);
+}
+
+void CellMixture::limit_size(std::size_t most) {
+  constexpr std::size_t few = 512;
+  if (size() > most) condense(few);
 }
 
 }  // namespace wearwell

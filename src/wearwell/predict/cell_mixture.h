@@ -35,6 +35,8 @@ class CellMixture {
   /// tails (down to a share of 1e-9), and the same density there where it is smooth. Fewer cells
   /// than that, and a mixture with a NaN, stay.
   void condense(std::size_t most);
+  /// Condenses to 512 cells where there are more than `most`, so that a long sum takes little memory.
+  void limit_size(std::size_t most = 8192);
 
   double mass() const;  ///< the sum of the weights
   /// Infinite where mass is never reached; NaN without mass.

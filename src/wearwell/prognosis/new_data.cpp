@@ -10,6 +10,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/prognosis/carry.h"
@@ -62,6 +63,7 @@ std::string cell(const Column& column, std::size_t row) {
 
 // The cells of a row in some columns.
 std::string key(const Table& table, const Places& columns, std::size_t row) {
+  check_stop();
   std::string text;
   for (const std::size_t c : columns) text += cell(table.columns[c], row) + '\x1f';
   return text;
@@ -279,6 +281,7 @@ Table in_order(const Table& table, const DataRoles& roles) {
   Places rows(table.rows);
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    check_stop();
     for (const std::size_t c : columns) {
       if (const int order = compare_cells(table.columns[c], a, b)) return order < 0;
     }

@@ -101,12 +101,14 @@
       headings = {of: asked, from: fromColumn};
     }
     place.rowsShown.textContent = strings.rowsShown(wearwell.count(from + 1), wearwell.count(from + found.length), wearwell.count(table.rows));
-    place.earlier.disabled = from === 0;
-    place.later.disabled = from + atOnce >= table.rows;
+    place.later.disabled = false;
+    wearwell.disable(place.earlier, from === 0, place.later);
+    wearwell.disable(place.later, from + atOnce >= table.rows, place.earlier);
     place.columnPager.hidden = table.columns.length <= columnsAtOnce;
     place.columnsShown.textContent = strings.columnsShown(fromColumn + 1, fromColumn + columns.length, table.columns.length);
-    place.earlierColumns.disabled = fromColumn === 0;
-    place.laterColumns.disabled = fromColumn + columnsAtOnce >= table.columns.length;
+    place.laterColumns.disabled = false;
+    wearwell.disable(place.earlierColumns, fromColumn === 0, place.laterColumns);
+    wearwell.disable(place.laterColumns, fromColumn + columnsAtOnce >= table.columns.length, place.earlierColumns);
   }
 
   const move = (rowsBy, columnsBy) => wearwell.attempt(() => {

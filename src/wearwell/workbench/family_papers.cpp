@@ -118,24 +118,30 @@ std::optional<FittedFamily> fitted_family(const ResponseForm& form,
                                           std::span<const Response> responses,
                                           std::span<const int> counts) {
   const Misfit misfit(form, responses, counts);
+  const double items = misfit.items();
+  // Of one item, whatever their number: the first step of a minimizer is as long as the slope.
+  const auto mean_misfit = [&](std::span<const double> x, std::span<double> slope) {
+    const double sum = misfit(x, slope);
+    for (double& each : slope) each /= items;
+    return sum / items;
+  };
   std::optional<FittedFamily> best;
   for (const Numbers& start : starts_of(form, log_moments(responses, counts))) {
     const Eigen::Map<const Eigen::VectorXd> x0(start.data(),
                                                static_cast<Eigen::Index>(start.size()));
-    const Minimum found =
-        minimize([&](std::span<const double> x, std::span<double> g) { return misfit(x, g); }, x0);
+    const Minimum found = minimize(mean_misfit, x0);
     if (!std::isfinite(found.value) || (found.position - x0).cwiseAbs().maxCoeff() > farthest ||
-        (best && best->log_likelihood >= -found.value))
+        (best && best->log_likelihood >= -items * found.value))
       continue;
     const std::span<const double> position(found.position.data(), start.size());
     Numbers slope(start.size());
-    misfit(position, slope);
+    mean_misfit(position, slope);
     if (std::any_of(slope.begin(), slope.end(),
-                    [&](double each) { return !(std::abs(each) <= flat_slope * misfit.items()); }))
+                    [](double each) { return !(std::abs(each) <= flat_slope); }))
       continue;
     Numbers parameters = misfit.parameters(position);
     parameters.resize(start.size());
-    best = FittedFamily{&form, std::move(parameters), -found.value};
+    best = FittedFamily{&form, std::move(parameters), -items * found.value};
   }
   return best;
 }

@@ -6,10 +6,18 @@
   let live = null;
   let shown = '', report = '';
 
+  // The focus goes from the button that is gone to the one in its place.
+  function show(running) {
+    const held = document.activeElement;
+    if (running) place.stop.hidden = false;
+    wearwell.disable(place.go, running, place.stop);
+    if (!running && held === place.stop) place.go.focus();
+    place.stop.hidden = !running;
+  }
+
   function progress(fit) {
     const running = fit.state === 'running';
-    place.go.disabled = running;
-    place.stop.hidden = !running;
+    show(running);
     place.bar.hidden = !running;
     place.progress.replaceChildren();
     if (running) {
@@ -62,6 +70,14 @@
     wearwell.askPanel.result(found);
   }
 
+  // What became of a run is seen by the files alone.
+  function lost() {
+    if (place.stop.hidden) return;
+    show(false);
+    place.bar.hidden = true;
+    place.progress.textContent = strings.fitLost;
+  }
+
   function session(now) {
     report = now.report ?? report;
     progress(now.fit);
@@ -86,5 +102,5 @@
     panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
   }
 
-  wearwell.fit = {build, session, result: () => wearwell.quietly(result)};
+  wearwell.fit = {build, session, lost, result: () => wearwell.quietly(result)};
 })();

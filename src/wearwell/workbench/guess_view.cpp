@@ -6,6 +6,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/date_text.h"
+#include "wearwell/study/column_roles.h"
 #include "wearwell/study/guessed_studies.h"
 #include "wearwell/study/role_words.h"
 
@@ -40,6 +41,25 @@ bool is_stacked(const OpenTable& open, const std::vector<std::string>& chosen) {
   }
 }
 
+// Numbers side by side without a word that says more: one of them may be a response to the others.
+std::optional<Scaffold> response_question(ColumnRoles& roles) {
+  constexpr std::size_t most = 40;
+  const std::vector<const Column*> numbers = roles.other_numbers();
+  if (numbers.size() < 2 || numbers.size() > most || roles.table().rows <= numbers.size() ||
+      roles.has({"life", "status"}) || !roles.choices().columns.empty() ||
+      !columns_of_dates(roles.table()).empty())
+    return {};
+  TableQuestion question{fmt::format("Which column of {} is the measured response?", roles.file()),
+                         {}};
+  for (const Column* each : numbers)
+    question.readings.push_back({fmt::format("'{}', under the others as conditions", each->name),
+                                 {"--column", "response=" + each->name}});
+  roles.questions.push_back(std::move(question));
+  Scaffold asked = roles.study("a response under its conditions", ReadingFit::possible, "");
+  asked.guesses.clear();  // which column is not used follows from the answer
+  return asked;
+}
+
 }  // namespace
 
 ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::json& wanted) {
@@ -51,8 +71,10 @@ ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::
   choices.limit = wanted.value("limit", "");
   if (wanted.contains("failure")) choices.failure = wanted.at("failure").get<int>();
   for (const std::string& each : chosen) choose_column(table, each, choices);
-  const std::vector<GuessedStudy> found =
+  std::vector<GuessedStudy> found =
       guessed_studies(models, table, open.file, choices, wanted.value("preset", ""));
+  if (found.empty())
+    found = guessed_studies({}, table, open.file, choices, "", {{"formula", response_question}});
   if (found.empty()) {
     std::vector<std::string> headings;
     for (const Column& each : table.columns) headings.push_back(printable(each.name));
@@ -64,7 +86,8 @@ ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::
     throw InputError(fmt::format(
         "{}: {}no study follows from its headings ({}). A study needs lives (life, cycles to "
         "failure, or hours with a status), a measurement (wear, volume, mass, crack) against "
-        "cycles, time or distance, or stresses and lives. Name a column's role below",
+        "cycles, time or distance, stresses and lives, or a response under conditions. Name a "
+        "column's role below",
         printable(open.file), dates, fmt::join(headings, ", ")));
   }
   ordered_json json = {{"readings", ordered_json::array()}};

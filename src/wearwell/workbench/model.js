@@ -16,7 +16,7 @@
 
   function marks() {
     place.state.textContent = text() && !isSaved() ? strings.unsaved : '';
-    place.undo.disabled = replaced.length === 0;
+    wearwell.disable(place.undo, replaced.length === 0, place.text);
   }
 
   function gutter(bad) {
@@ -313,6 +313,7 @@
 
   // Returns {file, text}: the file has this text. Also of a text that is saved: the file may have changed since.
   async function save() {
+    place.note.textContent = '';
     if (unread) throw new Error(strings.chooseReading);
     if (questions.length) throw new Error(strings.openQuestion(questions[0].text));
     const content = text(), name = place.name.value, before = name === savedName ? saved : null;

@@ -10,6 +10,12 @@
     made.addEventListener('click', act);
     return made;
   };
+  // The focus goes from a button that is disabled to another.
+  wearwell.disable = (button, off, next) => {
+    const held = document.activeElement === button;
+    button.disabled = off;
+    if (off && held) next.focus();
+  };
   wearwell.field = (label, id, attributes) => element('div', {class: 'field'}, element('label', {for: id}, label),
       element('input', {id, autocomplete: 'off', spellcheck: 'false', ...attributes}));
   wearwell.area = (label, id, {value, ...attributes}) => {
@@ -77,6 +83,7 @@
 
   function connection(state) {
     part('connection').dataset.state = state;
+    if (state === 'lost') wearwell.fit.lost();
     part('connection').textContent = {live: strings.connected, lost: strings.lost, wait: strings.connecting}[state];
   }
 

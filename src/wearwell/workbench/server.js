@@ -9,7 +9,8 @@
   const token = sessionStorage.getItem(key);
 
   async function answer(path, request = {}) {
-    const response = await fetch(path, {cache: 'no-store', ...request, headers: {Authorization: `Bearer ${token}`, ...request.headers}});
+    const response = await fetch(path, {cache: 'no-store', ...request, headers: {Authorization: `Bearer ${token}`, ...request.headers}})
+        .catch(() => { throw new Error(wearwell.strings.unreachable); });
     const json = await response.json().catch(() => ({}));
     if (!response.ok) throw Object.assign(new Error(json.error || wearwell.strings.status(response.status)), {status: response.status});
     return json;

@@ -4,6 +4,7 @@ wearwell.languages.de = {
   language: 'Deutsch', languages: 'Sprache', skip: 'Zum Schritt springen', stepsLabel: 'Schritte',
   steps: {data: 'Daten', model: 'Modell', fit: 'Anpassung', compare: 'Vergleich', ask: 'Fragen'},
   connected: 'Verbunden', connecting: 'Verbindung wird aufgebaut', lost: 'Das Programm ist beendet oder nicht erreichbar',
+  unreachable: 'Das Programm ist beendet oder nicht erreichbar. Dies ist vielleicht nicht mehr ausgeführt worden. Was Sie eingegeben haben, steht noch hier. Starten Sie wearwell open neu, und kopieren Sie den Text der Studie auf dessen Seite, wenn er nicht gespeichert war.',
   noToken: 'Dieser Adresse fehlt der Schlüssel. Öffnen Sie die Adresse, die wearwell open ausgegeben hat.',
   unsaved: 'nicht gespeichert',
   close: 'Meldung schließen', status: (code) => `Das Programm hat mit dem Status ${code} geantwortet.`,
@@ -70,6 +71,7 @@ wearwell.languages.de = {
   quantity: 'Größe', unit: 'Einheit', never: 'nie', priorRange: (low, high, middle, unit) => `${low} bis ${high} (90 %), Median ${middle} ${unit}`,
 
   fitTitle: 'Anpassung', fit: 'Speichern und anpassen', stop: 'Abbrechen', noStudy: 'Es gibt noch keine Studie: Öffnen Sie eine Tabelle und wählen Sie, wie sie gelesen wird.',
+  fitLost: 'Das Programm ist nicht erreichbar. Wenn es beendet ist, hat eine unfertige Anpassung nichts geschrieben, und frühere Ergebnisse sind unverändert.',
   running: (study) => `${study} wird angepasst`, stopped: 'Abgebrochen. Es wurde nichts geschrieben.', failed: 'Die Anpassung ist gescheitert', steps_of: (done, total, what) => `${done} von ${total} ${what}`,
   steps_: (done, what) => `${done} ${what}`, seconds: (s) => `${s} s`,
   trusted: 'Vertrauenswürdig: alle Prüfungen sind bestanden.', notTrusted: 'Nicht vertrauenswürdig: eine Prüfung ist nicht bestanden. Verwenden Sie diese Zahlen erst, wenn Sie den Grund gelesen haben.',

@@ -5,6 +5,7 @@ wearwell.languages.en = {
   language: 'English', languages: 'Language', skip: 'Skip to the step', stepsLabel: 'Steps',
   steps: {data: 'Data', model: 'Model', fit: 'Fit', compare: 'Compare', ask: 'Ask'},
   connected: 'Connected', connecting: 'Connecting', lost: 'The program has ended or cannot be reached',
+  unreachable: 'The program has ended or cannot be reached. This may not have been done. What you typed stands here. Start wearwell open again, and copy the text of the study into its page if it was not saved.',
   noToken: 'This address lacks its token. Open the address that wearwell open printed.',
   unsaved: 'not saved',
   close: 'Close this message', status: (code) => `The program answered with status ${code}.`,
@@ -70,6 +71,7 @@ wearwell.languages.en = {
   quantity: 'Quantity', unit: 'Unit', never: 'never', priorRange: (low, high, middle, unit) => `${low} to ${high} (90 %), median ${middle} ${unit}`,
 
   fitTitle: 'Fit', fit: 'Save and fit', stop: 'Stop', noStudy: 'There is no study yet: open a table and choose how to read it.',
+  fitLost: 'The program cannot be reached. If it has ended, a fit that was not finished has written nothing, and earlier results are unchanged.',
   running: (study) => `Fitting ${study}`, stopped: 'Stopped. Nothing was written.', failed: 'The fit failed', steps_of: (done, total, what) => `${done} of ${total} ${what}`,
   steps_: (done, what) => `${done} ${what}`, seconds: (s) => `${s} s`,
   trusted: 'Trusted: no check failed.', notTrusted: 'Not trusted: a check failed. Do not use these numbers before you have read why.',

@@ -47,6 +47,20 @@ TEST(WornBlocks, ByHand) {
   EXPECT_NEAR(point.volume / 0.5e-9, 1, 1e-6);
 }
 
+TEST(WornBlocks, CyclesFarFromTheDesignAreNamed) {
+  Campaign campaign = small_campaign();
+  const auto found = [&] { return off_design(campaign, worn_blocks(campaign).blocks); };
+  campaign.design = {{17, Role::model, {200, 52, 160, 2.1}}};
+  EXPECT_THAT(found(), IsEmpty());
+  campaign.design[0].at = {200 / rpm, 50, 443, 2};  // rpm and kelvin read as rad/s and degC
+  EXPECT_THAT(found(), ElementsAre("slip_speed of point 17 is 1910 rad/s in the design, and its "
+                                   "cycles ran at 203.5",
+                                   "temperature of point 17 is 443 degC in the design, and its "
+                                   "cycles ran at 170"));
+  const Campaign& whole = paper_like_campaign().campaign;
+  EXPECT_THAT(off_design(whole, worn_blocks(whole).blocks), IsEmpty());
+}
+
 // All mass that a plate loses is in its blocks, all energy and all cycles too.
 TEST(WornBlocks, NothingIsLost) {
   const Campaign& campaign = paper_like_campaign().campaign;

@@ -75,6 +75,24 @@ TEST(EffectPair, IsWhatBruteForceSays) {
   }
 }
 
+TEST(EffectPair, StaysBelowItsBound) {
+  Rng rng(20261129, 0);
+  EffectPair::Nodes nodes;
+  int below = 0;
+  for (int i = 0; i < 300; ++i) {
+    EffectPair pair = drawn(rng);
+    if (i % 2 == 1) {  // steps that the population hardly reaches
+      pair.best[i % 4 / 2] += 20 * rng.uniform() - 0.9;
+      pair.scatter[i % 4 / 2] *= 0.3;
+    }
+    const auto integral = pair.log_integral(nodes);
+    if (!integral) continue;
+    EXPECT_LE(*integral, pair.log_bound() + 1e-9) << i;
+    below += pair.log_bound() < -3;
+  }
+  EXPECT_GT(below, 30);
+}
+
 // Of normal effects there is a formula; so there is of a unit without rows.
 TEST(EffectPair, IsTheFormulaOfNormalEffects) {
   Rng rng(20261125, 1);

@@ -335,7 +335,8 @@ TEST_F(FormulaProcessStudy, WhatIsNoProcessIsRefused) {
                 .find("proportional to the mean"),
             std::string::npos);
   write("laser.csv", "laser,hours,increase_percent\n1,10,0.5\n1,20,0.4\n2,10,0.1\n2,20,0.3\n");
-  EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\n")).find("0.4 % after 0.5: a gamma"),
+  EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\n"))
+                .find("0.4 % after 0.5: the path of the family gamma"),
             std::string::npos);
   // Readings with an error of their own may fall.
   EXPECT_NO_THROW(wearwell::read_posterior_study(

@@ -219,6 +219,8 @@ Check data_check(const Campaign& campaign, const ClutchResult& r) {
         Verdict::warn,
         fmt::format("points {} of the design have no cycles", fmt::join(missing, ", ")),
         "The map is less certain there; run these points, or remove them from the design.");
+  for (const std::string& each : off_design(campaign, r.blocks.blocks))
+    findings.add(Verdict::warn, each, "Check units and point numbers of the tables.");
   for (const std::string& each : campaign.filled)
     findings.add(Verdict::warn, each,
                  "docs/reference/clutch.md explains the effect on the result.");

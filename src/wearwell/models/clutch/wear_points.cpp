@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -11,7 +13,8 @@
 namespace wearwell::clutch {
 namespace {
 
-constexpr double most_gain = 4;  // standard deviations of the difference of two weighings
+constexpr double most_off_design = 0.25;  // of the designed value; a rig holds a few percent
+constexpr double most_gain = 4;           // standard deviations of the difference of two weighings
 
 /// "cycles.csv, row 12: plate 3"
 std::string place(const Campaign& campaign, const std::string& source, std::size_t index,
@@ -116,6 +119,31 @@ WornBlocks worn_blocks(const Campaign& campaign) {
                                          count));
   }
   return result;
+}
+
+std::vector<std::string> off_design(const Campaign& campaign,
+                                    const std::vector<WornBlock>& blocks) {
+  std::map<int, const DesignPoint*> points;
+  for (const DesignPoint& point : campaign.design) points[point.number] = &point;
+  std::vector<std::string> found;
+  for (const Input& input : inputs) {
+    const bool celsius = input.value == &OperatingPoint::temperature;
+    double worst = most_off_design;
+    std::string sentence;
+    for (const WornBlock& block : blocks) {
+      const auto point = points.find(block.point);
+      if (block.block != Block::point || point == points.end()) continue;
+      const double designed = point->second->at.*input.value, ran = block.mean.*input.value;
+      const double off = std::abs(ran - designed) / std::abs(designed + (celsius ? 273.15 : 0));
+      if (!(off > worst)) continue;
+      worst = off;
+      sentence =
+          fmt::format("{} of point {} is {:.4g} {} in the design, and its cycles ran at {:.4g}",
+                      input.name, block.point, designed, celsius ? "degC" : input.si, ran);
+    }
+    if (!sentence.empty()) found.push_back(sentence);
+  }
+  return found;
 }
 
 }  // namespace wearwell::clutch

@@ -37,6 +37,10 @@ struct WornBlocks {
 /// difference). A smaller gain is flagged and kept; cycles that no weighing follows are flagged.
 WornBlocks worn_blocks(const Campaign& campaign);
 
+/// One sentence for each input whose mean over the block of a point lies farther from the design than
+/// a rig does: a table has another unit, or points have other numbers. The worst point is named.
+std::vector<std::string> off_design(const Campaign& campaign, const std::vector<WornBlock>& blocks);
+
 /// Throws InputError as worn_blocks does for the cycles alone.
 void require_ordered_cycles(const Campaign& campaign);
 

@@ -61,7 +61,7 @@ EffectLines lines_of_new_unit(std::size_t effects, double step, double reach) {
   for (std::size_t j = 0; j < across.size(); ++j) {
     for (std::size_t i = 0; i < along.size(); ++i) {
       const double share = share_along[i] * share_across[j];
-      if (!(share > negligible)) continue;
+      if (!(share > negligible) || std::hypot(along[i], across[j]) > reach) continue;
       lines.z.insert(lines.z.end(), {along[i], across[j]});
       lines.share.push_back(share);
     }

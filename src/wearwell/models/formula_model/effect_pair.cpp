@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/formula_model/lognormal_unit.h"
@@ -358,6 +359,21 @@ std::optional<double> EffectPair::log_integral(Nodes& nodes, double gap, double*
     if (open) *open = left;
   }
   return last;
+}
+
+double EffectPair::log_bound() const {
+  constexpr double most_v = 1e12;
+  double lowest = 0;
+  for (int e = 0; e < 2; ++e) {
+    const double other = H[2 - 2 * e], h = H[2 * e] - (other > 0 ? H[1] * (H[1] / other) : 0);
+    for (double v = 1; v < most_v; v *= 1.25) {
+      const double from = step_of(*this, e, -v).value, to = step_of(*this, e, v).value;
+      const double distance = std::max({0.0, from - best[e], best[e] - to});
+      lowest = std::min(lowest,
+                        std::numbers::ln2 + std::max(-0.5 * h * distance * distance, -0.5 * v * v));
+    }
+  }
+  return lowest;
 }
 
 EffectPair::Moments EffectPair::moments(const Nodes& nodes) const {

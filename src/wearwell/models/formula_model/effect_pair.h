@@ -59,6 +59,9 @@ struct EffectPair {
   std::optional<double> log_integral(Nodes& nodes, double gap = coarse,
                                      double* open = nullptr) const;
   Moments moments(const Nodes& nodes) const;
+
+  /// An upper bound of log_integral, from each effect alone: outside |v| < V by the mass there, inside by the nearest step.
+  double log_bound() const;
 };
 
 }  // namespace wearwell::formula_model

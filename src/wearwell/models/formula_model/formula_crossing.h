@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "wearwell/models/formula_model/formula_path.h"
 
 namespace wearwell::formula_model {
@@ -21,6 +24,15 @@ class Crossing {
   std::size_t effects_;
   bool rising_;
   double begin_, scale_, ahead_[Path::most] = {};
+};
+
+/// If conditions change at position `now`, the path of a unit continues from its value there, at the corresponding position
+/// under the new conditions. For units at `z` (effects of each): their values at `now` under the old conditions (`behind`), and
+/// the positions where paths under the new ones (`ahead`) have these values. Both paths are at their parameters.
+struct Continuation {
+  std::vector<double> level, place;
+  void find(PathAt& behind, Crossing& ahead, double now, std::span<const double> z,
+            std::size_t effects, std::size_t count);
 };
 
 }  // namespace wearwell::formula_model

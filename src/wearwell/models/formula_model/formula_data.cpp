@@ -226,7 +226,7 @@ class ObservedReader {
     if (form_.positive && exact_ && y.seen != Censoring::interval &&
         !(dead_ && y.at == 0 && y.seen != Censoring::left)) {
       const char* zero = y.at == 0 && y.seen == Censoring::none && !form_.counted && !dead_
-                             ? "; a life of 0 is a part dead on arrival, for which the likelihood "
+                             ? "; if 0 is the life of a part dead on arrival, the likelihood "
                                "needs share_dead_on_arrival"
                              : "";
       demand(y.at > 0, *exact_, i,

@@ -224,13 +224,19 @@ std::optional<double> LinearUnits::sum(std::span<double> gradient) {
 }
 
 std::optional<double> LinearUnits::sum_of_pairs(std::span<double> gradient) {
+  // Where no rule holds and the integral is below this share of its integrand's top, its bound stands for it: places on the
+  // way of a search, without any share of a posterior.
+  constexpr double hopeless = -1e4;
   double sum = 0;
   Population by;
   for (std::size_t u = 0; u < parabola_.size(); ++u) {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) return -infinity;
     const EffectPair unit = pair(p);
-    const auto integral = unit.log_integral(pair_nodes_);
+    auto integral = unit.log_integral(pair_nodes_);
+    if (!integral && gradient.empty()) {
+      if (const double bound = unit.log_bound(); bound < hopeless) integral = bound;
+    }
     if (!integral) return {};
     sum += p.top + *integral;
     if (gradient.empty()) continue;

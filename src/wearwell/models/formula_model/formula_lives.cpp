@@ -88,7 +88,7 @@ class Part {
                units, along);
     }
     found.next.add(units);
-    LimitedLives::bound(found.next);
+    found.next.limit_size();
     if (path_.mean) found.add_mean(path_, units);
     if (path_.shares.empty()) return;
     effects() > 0 ? found.add_shares(path_, along, weight) : found.add_shares(path_, units);
@@ -138,7 +138,7 @@ class Part {
       lines.each(place_, [&](auto share, auto place) {
         left += found.remaining[u].add_curve(weight, share, place, 0);
       });
-      LimitedLives::bound(found.remaining[u]);
+      found.remaining[u].limit_size();
       for (const double each : lines.share) all += each;
       found.passed[u] += std::max(weight * all - left, 0.0);
     }
@@ -161,22 +161,19 @@ class Part {
     }
   }
 
-  // Lives count from the unit's last row. If conditions change, its path continues from its present
-  // value, at the corresponding position under the new ones.
+  // Lives count from the unit's last row, or from the corresponding position under new conditions.
   void from_place(std::size_t u, const double* x, const EffectLines& lines) {
     const LimitedPath::SeenUnit& seen = path_.seen[u];
-    if (behind_[u]) behind_[u]->move_to(x);
+    if (!behind_[u]) {
+      for (double& each : place_) each -= seen.now;
+      return;
+    }
+    behind_[u]->move_to(x);
+    continued_.find(*behind_[u], ahead_[u], seen.now, lines.z, effects(), lines.count());
     for (std::size_t i = 0; i < lines.count(); ++i) {
-      double now = seen.now;
-      if (behind_[u]) {
-        const double* z = effects() > 0 ? &lines.z[i * effects()] : nullptr;
-        behind_[u]->evaluate(1, z, &seen.now);
-        const double level = behind_[u]->output(0, 0);
-        ahead_[u].solve(1, z, &level, &now);
-        const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
-        if (there && !(now > place_[i])) now = place_[i] = 0;
-      }
-      place_[i] -= now;
+      const double level = continued_.level[i], now = continued_.place[i];
+      const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
+      place_[i] = there && !(now > place_[i]) ? 0 : place_[i] - now;
     }
   }
 
@@ -188,6 +185,7 @@ class Part {
   const EffectLines fresh_;
   NewUnits new_units_;
   EffectLines lines_;
+  Continuation continued_;
   std::vector<double> place_, past_, level_;
 };
 
@@ -278,11 +276,6 @@ LimitedLives limited_lives(const FormulaRows& rows, const LimitedPath& path,
   return lives;
 }
 
-void LimitedLives::bound(CellMixture& lives) {
-  constexpr std::size_t most = 8192, few = 1024;
-  if (lives.size() > most) lives.condense(few);
-}
-
 void LimitedLives::add_mean(const LimitedPath& path, const CellMixture& units) {
   const bool all = path.survived <= path.begin;
   const CellMixture& left = all ? units : units.beyond(path.survived);
@@ -346,13 +339,13 @@ void LimitedLives::add(const LimitedLives& other) {
   mean_at_points.insert(mean_at_points.end(), other.mean_at_points.begin(),
                         other.mean_at_points.end());
   next.add(other.next);
-  bound(next);
+  next.limit_size();
   mean.add(other.mean);
   by_share.resize(std::max(by_share.size(), other.by_share.size()));
   for (std::size_t i = 0; i < other.by_share.size(); ++i) by_share[i].add(other.by_share[i]);
   for (std::size_t u = 0; u < remaining.size(); ++u) {
     remaining[u].add(other.remaining[u]);
-    bound(remaining[u]);
+    remaining[u].limit_size();
     passed[u] += other.passed[u];
   }
 }

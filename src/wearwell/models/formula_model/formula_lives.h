@@ -64,9 +64,6 @@ struct LimitedLives {
 
   void add_mean(const LimitedPath& path, const CellMixture& units);
 
-  /// Bounds the memory of a sum over many points: from 8192 cells on, 1024 take their place.
-  static void bound(CellMixture& lives);
-
   /// After all of `few` points: if lives count from the beginning, `by_share` and `mean` over the
   /// whole posterior.
   void spread_shares(const LimitedPath& path, const WeightedDraws& draws,

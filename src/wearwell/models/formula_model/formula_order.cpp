@@ -73,11 +73,11 @@ void require_rising(const FormulaModel& model) {
       }
       if (!noisy && each.process->process != Process::wiener &&
           !(y > (first ? 0 : column.values[*before]))) {
-        throw InputError(
-            fmt::format("{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, "
-                        "from 0 on; if readings have errors, add noise",
-                        where, from_si(each.unit, y), each.unit.text,
-                        first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
+        throw InputError(fmt::format(
+            "{}: {:.6g}{} after {:.6g}: the path of the family {} only rises from row to "
+            "row of a unit, from 0 on; if readings have errors, add noise",
+            where, from_si(each.unit, y), each.unit.text == "1" ? "" : " " + each.unit.text,
+            first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
       }
       before = row;
     }

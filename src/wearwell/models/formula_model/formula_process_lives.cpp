@@ -136,7 +136,7 @@ class Part {
       }
     }
     found.next.add(units);
-    LimitedLives::bound(found.next);
+    found.next.limit_size();
     if (limit_.path.mean) found.add_mean(limit_.path, units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
   }
@@ -167,7 +167,7 @@ class Part {
     place_.pop_back();
     for (double& each : place_) each -= start;
     to.add_curve(weight, ScoreTable::shares(), place_);
-    LimitedLives::bound(to);
+    to.limit_size();
   }
 
   void add_seen(const double* x, double weight) {

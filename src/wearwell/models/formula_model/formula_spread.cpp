@@ -14,7 +14,8 @@ class Part {
  public:
   Part(const FormulaRows& rows, const std::vector<SpreadPath>& paths)
       : rows_(rows), effects_(rows.model().effects.size()), paths_(paths) {
-    fresh_ = lines_of_new_unit(effects_);
+    found.most_cells = effects_ > 1 ? 8192 : 1 << 20;  // with two effects a point has hundreds
+    fresh_ = lines_of_new_unit(effects_, 0.25, effects_ > 1 ? 5 : 8.25);
     for (const SpreadPath& each : paths) {
       at_.push_back(
           std::make_unique<Crossing>(*each.path.ahead, each.rising, each.begin, each.scale));
@@ -71,6 +72,7 @@ class Part {
   void add_curves(const EffectLines& effects, std::size_t i, double weight, CellMixture& to) {
     const std::span<const double> values = std::span(value_).subspan(i * effects.count());
     effects.each(values, [&](auto share, auto value) { to.add_curve(weight, share, value); });
+    to.limit_size(found.most_cells);
   }
 
   // The direction of two effects in which the path of a new unit changes, at the farthest position.
@@ -84,20 +86,14 @@ class Part {
     return {at.output(0, 0) - at.output(0, 1), at.output(0, 2) - at.output(0, 3)};
   }
 
-  // If conditions change, the path of a unit continues from its present value, at the corresponding
-  // position under the new ones.
+  // How far the path of each unit moves along the axis where conditions change.
   void find_shifts(std::size_t p, const double* x, const EffectLines& effects) {
     shift_.assign(effects.count(), 0);
     if (!behind_[p]) return;
     behind_[p]->move_to(x);
-    for (std::size_t i = 0; i < effects.count(); ++i) {
-      const double* z = z_of(effects, i);
-      behind_[p]->evaluate(1, z, &paths_[p].path.now);
-      const double level = behind_[p]->output(0, 0);
-      double now = 0;
-      at_[p]->solve(1, z, &level, &now);
-      shift_[i] = now - paths_[p].path.now;
-    }
+    const double now = paths_[p].path.now;
+    continued_.find(*behind_[p], *at_[p], now, effects.z, effects_, effects.count());
+    for (std::size_t i = 0; i < effects.count(); ++i) shift_[i] = continued_.place[i] - now;
   }
 
   void look_ahead(std::size_t p, const double* x, const EffectLines& effects, double weight) {
@@ -130,14 +126,18 @@ class Part {
   EffectLines fresh_, seen_;
   std::vector<std::unique_ptr<Crossing>> at_;
   std::vector<std::unique_ptr<PathAt>> behind_, trace_;
+  Continuation continued_;
   std::vector<double> value_, place_, shift_;
 };
 
 }  // namespace
 
 void Spreads::add(const Spreads& other) {
-  const auto sum = [](std::vector<CellMixture>& to, const std::vector<CellMixture>& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i].add(from[i]);
+  const auto sum = [this](std::vector<CellMixture>& to, const std::vector<CellMixture>& from) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i].add(from[i]);
+      to[i].limit_size(most_cells);
+    }
   };
   for (std::size_t i = 0; i < paths.size(); ++i) {
     sum(paths[i].traced, other.paths[i].traced);

@@ -5,6 +5,7 @@
 #include "wearwell/models/formula_model/formula_tracker.h"
 #include "wearwell/models/formula_model/life_scaffold.h"
 #include "wearwell/models/formula_model/path_scaffold.h"
+#include "wearwell/models/formula_model/response_scaffold.h"
 #include "wearwell/models/formula_model/simulated_fleet.h"
 
 namespace wearwell {
@@ -44,6 +45,11 @@ Model preset_with(std::string_view preset, std::span<const ExampleFile> example,
           .track = track_units};
 }
 
+// A table with a response is one of conditions, whatever else it measures.
+std::optional<Scaffold> first_formula_study(ColumnRoles& roles) {
+  return roles.has({"response"}) ? response_scaffold(roles) : wear_scaffold(roles);
+}
+
 // Computed on demand, with the same result at any time.
 const SimulatedFleet& fleet_of_example() {
   static const SimulatedFleet fleet = simulate_fleet(1, 200);
@@ -63,7 +69,7 @@ std::string_view fleet_truth() {
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::formula_study},
                                             {"wear.csv", resource::formula_data}};
-  return preset_with("formula", example, wear_scaffold);
+  return preset_with("formula", example, first_formula_study);
 }
 
 Model life() {
