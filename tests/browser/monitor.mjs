@@ -19,9 +19,11 @@ const token = 'a token that is long enough'.replaceAll(' ', '-');
 const faults = [];
 const check = (holds, fault) => { if (!holds) faults.push(fault); };
 
-// Its address, and how to let a machine report; it ends with us.
+// Its address, and how to let a machine report; it ends with us, also where a check has thrown.
+const children = [];
 async function serve(units, ...more) {
   const child = spawn(server, [String(units), '0', ...more], {stdio: ['pipe', 'pipe', 'inherit']});
+  children.push(child);
   const address = await new Promise((done, failed) => {
     createInterface(child.stdout).once('line', done);
     child.once('exit', () => failed(new Error('the server ended')));
@@ -251,6 +253,7 @@ try {
   await starting(browser);
   await signed(browser);
 } finally {
+  for (const child of children) child.kill('SIGKILL');
   await browser.close();
 }
 for (const fault of faults) console.log(fault);

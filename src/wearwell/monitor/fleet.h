@@ -55,14 +55,22 @@ class Fleet : public FleetReader {
         FleetSettings settings);
   ~Fleet() override;
 
-  /// Processes the next readings of the store, none after the place `last`, and its events; returns
-  /// the number of readings. Throws StoreError: the next call then continues from there.
-  std::size_t apply(std::int64_t last = std::numeric_limits<std::int64_t>::max());
+  /// Readings at once where a request to end is awaited.
+  static constexpr std::size_t small_piece = 500;
+  /// Processes the next readings of the store, at most so many and none after the place `last`, and
+  /// its events; returns the number of readings. Throws StoreError: the next call then continues from
+  /// there.
+  std::size_t apply(std::int64_t last = std::numeric_limits<std::int64_t>::max(),
+                    std::size_t most = 10'000);
   /// Forecasts changed units, each at most once a second, and together at most in a tenth of the
-  /// threads' time; runs for about a tenth of a second; `all`: every one now. Returns whether none
-  /// is left that is due. Throws StoreError if a change of alarm cannot be stored; it is reported
-  /// again.
-  bool refresh(bool all = false);
+  /// threads' time; runs for about a tenth of a second; `all`: every one now, until `late`. Returns
+  /// whether none is left that is due. Throws StoreError if a change of alarm cannot be stored; it is
+  /// reported again.
+  bool refresh(bool all = false, const std::function<bool()>& late = {});
+  /// Processes all readings of the store, makes all forecasts and saves the states; leaves to the next
+  /// start what is not done when it is `late`. Returns whether all readings are processed. Throws
+  /// StoreError.
+  bool finish(const std::function<bool()>& late);
   /// Saves the states of changed units to the store. Throws StoreError.
   void save();
   std::int64_t place() const { return place_; }

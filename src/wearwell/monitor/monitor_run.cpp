@@ -262,7 +262,7 @@ bool RunningFleet::start(MonitorSignals& signals) {
   bool all = false;
   const auto piece = [&] {
     // Sources may deliver faster than states follow: what has come since is for later.
-    all = fleet_->apply(last_place_) == 0;
+    all = fleet_->apply(last_place_, Fleet::small_piece) == 0;
     if (!all && Clock::now() - saved < between_saves) return;
     fleet_->save();
     saved = Clock::now();
@@ -273,7 +273,8 @@ bool RunningFleet::start(MonitorSignals& signals) {
   };
   while (!all && done(signals, piece)) {
   }
-  if (!done(signals, [&] { fleet_->refresh(true); })) {
+  const auto ends = [&] { return signals.ends(); };
+  if (!done(signals, [&] { fleet_->refresh(true, ends); }) || signals.ends()) {
     static_cast<void>(guarded(notices_, [&] { fleet_->save(); }));
     return false;
   }
@@ -346,18 +347,21 @@ class Follower {
   }
 
   /// Processes all readings and then saves the states: with retries for a while, should the store
-  /// not respond.
-  void finish() {
+  /// not respond. After a signal it is not longer than service managers wait.
+  void finish(MonitorSignals& signals) {
     constexpr int attempts = 20;
+    constexpr auto longest = std::chrono::seconds(10);
+    const Clock::time_point begin = Clock::now();
+    const auto late = [&] { return signals.ends() && Clock::now() - begin > longest; };
     for (int i = 0; i < attempts; ++i) {
-      const bool good = guarded([&] {
-        Fleet& fleet = running_.fleet();
-        while (fleet.apply() > 0) {
-        }
-        fleet.refresh(true);
-        fleet.save();
-      });
-      if (good) return;
+      bool all = false;
+      if (guarded([&] { all = running_.fleet().finish(late); })) {
+        if (!all)
+          notices_.tell("end",
+                        "ended before all stored readings are processed; the next start "
+                        "continues from the saved states");
+        return;
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     notices_.tell("store", "the states could not be saved; they will be rebuilt from the readings");
@@ -483,11 +487,11 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   }
   exchange.reset();
   sources.stop();
-  follower.finish();
+  follower.finish(signals);
   if (options.once && config.keep_s) {
     while (!signals.ends() && follower.remove_old(nullptr)) {
     }
-    follower.finish();
+    follower.finish(signals);
   }
   ended(running.readers());
 }
