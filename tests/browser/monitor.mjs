@@ -19,9 +19,11 @@ const token = 'a token that is long enough'.replaceAll(' ', '-');
 const faults = [];
 const check = (holds, fault) => { if (!holds) faults.push(fault); };
 
-// Its address, and how to let a machine report; it ends with us.
+// Its address, and how to let a machine report; it ends with us, also where a check has thrown.
+const children = [];
 async function serve(units, ...more) {
   const child = spawn(server, [String(units), '0', ...more], {stdio: ['pipe', 'pipe', 'inherit']});
+  children.push(child);
   const address = await new Promise((done, failed) => {
     createInterface(child.stdout).once('line', done);
     child.once('exit', () => failed(new Error('the server ended')));
@@ -194,6 +196,25 @@ async function lively(browser) {
   await context.close();
 }
 
+// A server that is starting is not a lost one; then the page goes on.
+async function starting(browser) {
+  const {address, stop} = await serve(20);
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}});
+  let begun = false;
+  await context.route('**/api/v1/fleet', (route) => (begun ? route.continue() : route.fulfill(
+      {status: 503, contentType: 'application/json', body: '{"error": "the monitor is starting: ask again later"}'})));
+  const page = await open(context, address, []);  // the browser logs each 503
+  await page.waitForFunction(() => document.getElementById('connection').textContent === 'Starting', null, {timeout: 15000})
+      .catch(() => faults.push('a start is not named'));
+  const banners = await page.textContent('#banners');
+  check(/The monitor is starting: ask again later/.test(banners) && !/lost/.test(banners), `while the monitor starts the page says: ${banners}`);
+  begun = true;
+  await live(page);
+  check(!/tarting/.test(await page.textContent('#banners')), 'the page says that the monitor starts when it has');
+  await context.close();
+  await stop();
+}
+
 // With a token a form asks for it, once.
 async function signed(browser) {
   const complaints = [];
@@ -229,8 +250,10 @@ try {
   await looks(browser, {name: 'phone', viewport: {width: 390, height: 844}, colorScheme: 'light'});
   await looks(browser, {name: 'phone-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'});
   await lively(browser);
+  await starting(browser);
   await signed(browser);
 } finally {
+  for (const child of children) child.kill('SIGKILL');
   await browser.close();
 }
 for (const fault of faults) console.log(fault);

@@ -36,7 +36,8 @@ class Exchanges : public FleetRig {
     settings.alarm = alarm_;
     settings.threads = threads_;
     settings.beside = true;
-    settings.start = fleet_->start();
+    settings.start = FleetSettings::Start{fleet_->fleet().started_ms,
+                                          fleet_->fleet().stored - tally_->total().stored};
     settings.on_alarm = [this](const AlarmChange& change, Alarm before, const UnitView&) {
       later_.push_back(fmt::format("{} {} -> {}", change.unit, name(before), name(change.alarm)));
     };

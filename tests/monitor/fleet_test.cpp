@@ -374,6 +374,25 @@ TEST_F(Fleets, GoOnFromAnyMomentToTheSameBits) {
   EXPECT_TRUE(bits() == whole);
 }
 
+// Asked to end, a monitor leaves to the next start what takes too long.
+TEST_F(Fleets, EndBeforeAllReadingsAreProcessed) {
+  open();
+  const auto place = [&] { return static_cast<std::size_t>(fleet_->place()); };
+  for (std::size_t n = 1; n <= Fleet::small_piece + 20; ++n)
+    deliver(message(n % 2 == 1 ? "a" : "b", static_cast<int>(n), 0.1 * static_cast<double>(n)));
+  int asked = 0;
+  EXPECT_FALSE(fleet_->finish([&] { return asked++ > 0; }));
+  EXPECT_EQ(place(), Fleet::small_piece);
+  EXPECT_EQ(store_->all_up_to("population"), fleet_->place());
+  EXPECT_TRUE(fleet_->finish([] { return false; }));
+  EXPECT_EQ(place(), Fleet::small_piece + 20);
+  const std::string in_two = bits();
+  store_->save("population", {{"a", 3, "damaged"}, {"b", 3, "damaged"}}, 3);
+  open();
+  catch_up();
+  EXPECT_TRUE(bits() == in_two);
+}
+
 TEST_F(Fleets, RaiseAlarmsWithHysteresis) {
   EXPECT_EQ(alarm_at(0.051, Alarm::ok, alarm_), Alarm::watch);
   EXPECT_EQ(alarm_at(0.041, Alarm::ok, alarm_), Alarm::ok);
@@ -478,6 +497,8 @@ class FailingStore : public Store {
     look();
     return store_->has_unit(unit);
   }
+  std::vector<std::string> units() override { return store_->units(); }
+  std::int64_t last_place() override { return store_->last_place(); }
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override {
     if (adds == Fails::before || fails_events) throw StoreError("the disk is full");
     auto kept = store_->add_events(events);

@@ -6,8 +6,10 @@
 #include "monitor/generated_fleet.h"
 #include "monitor/http_client.h"
 #include "monitor/json_schema.h"
+#include "wearwell/monitor/current_fleet.h"
 #include "wearwell/monitor/http_route.h"
 #include "wearwell/monitor/http_server.h"
+#include "wearwell/monitor/starting_fleet.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -112,6 +114,44 @@ TEST_F(OpenApi, DescribesTheStream) {
   EXPECT_THAT(
       JsonSchema(description_).problems(description_["components"]["schemas"]["Change"], data),
       IsEmpty());
+}
+
+// Until the states have the stored readings there are no forecasts to read, but readings are accepted.
+TEST_F(OpenApi, DescribesAStart) {
+  CurrentFleet readers(std::make_shared<const StartingFleet>(1'795'360'000'000));
+  const HttpServer server(settings(), readers, &fleet_, &fleet_);
+  HttpReply health = get(server.port(), "/health");
+  EXPECT_EQ(health.status, 200);
+  EXPECT_EQ(health.body, "{\"status\":\"starting\"}\n");
+  expect_described("/health", "get", health);
+  EXPECT_EQ(get(server.port(), "/").status, 200);
+  EXPECT_EQ(get(server.port(), "/api/v1/openapi.json").status, 200);
+  const char* from_states[] = {"/api/v1/fleet", "/api/v1/units",  "/api/v1/units/M1020",
+                               "/api/v1/fits",  "/api/v1/events", "/metrics"};
+  for (const char* path : from_states) {
+    const HttpReply reply = get(server.port(), path);
+    EXPECT_EQ(reply.status, 503) << path;
+    EXPECT_THAT(reply.body, HasSubstr("the monitor is starting"));
+    EXPECT_EQ(reply.field("Retry-After"), "5") << path;
+  }
+  expect_described("/api/v1/fleet", "get", get(server.port(), "/api/v1/fleet"));
+  const std::string reading = R"({"unit": "M1020", "at": 5000, "wear": 31.5})";
+  EXPECT_EQ(post(server.port(), "/api/v1/readings", reading).status, 200);
+  const std::string path = "/api/v1/units/M1020/events";
+  // It comes to the inbox, which takes readings only.
+  EXPECT_THAT(post(server.port(), path, R"({"event": "withdrawn", "by": "A", "key": 1})").body,
+              HasSubstr("is no reading"));
+  const HttpReply reply =
+      post(server.port(), path, R"({"event": "acknowledged", "by": "A", "alarm_ms": 1})");
+  EXPECT_EQ(reply.status, 503);
+  expect_described("/api/v1/units/{name}/events", "post", reply);
+
+  readers.exchange({std::shared_ptr<const FleetReader>(), &fleet_});
+  EXPECT_EQ(get(server.port(), "/health").body, "{\"status\":\"ok\"}\n");
+  for (const char* each : from_states) {
+    if (std::string_view(each) == "/api/v1/events") continue;  // it does not end
+    EXPECT_EQ(get(server.port(), each).status, 200) << each;
+  }
 }
 
 // The check itself finds what is wrong.

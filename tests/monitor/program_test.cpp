@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "monitor/http_client.h"
 #include "monitor/program_rig.h"
 
 namespace wearwell::monitor {
@@ -309,6 +310,87 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   auto all = lines;
   all.insert(all.end(), events.begin(), events.end());
   EXPECT_TRUE(known(config) == undisturbed(all));
+}
+
+// Killed with many readings whose states it has not saved, it answers and accepts readings at once; its states follow.
+TEST_F(Programs, AcceptReadingsWhileStatesFollow) {
+  const auto port = static_cast<unsigned short>(free_port());
+  const auto config = configure(
+      "a",
+      std::string(folder_source) +
+          fmt::format("[source.web]\nkind = \"http\"\n[http]\nlisten = \"127.0.0.1:{}\"\n", port));
+  auto lines = readings(8, 2001);
+  const std::vector<std::string> late(lines.end() - 8, lines.end());
+  lines.resize(lines.size() - 8);
+  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  monitor.end(SIGKILL);
+  const std::size_t reported_before = log(config).size();
+  const auto is_ready = [&] {
+    return log(config).find("monitoring", reported_before) != std::string::npos;
+  };
+  monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
+  EXPECT_EQ(get(port, "/health").body, "{\"status\":\"starting\"}\n");
+  EXPECT_EQ(get(port, "/api/v1/units").status, 503);
+  for (const std::string& each : late)
+    EXPECT_EQ(post(port, "/api/v1/readings", each).status, 200) << log(config);
+  EXPECT_EQ(stored(config), lines.size() + 8);
+  EXPECT_FALSE(is_ready());
+  ASSERT_TRUE(eventually(is_ready)) << log(config);
+  EXPECT_EQ(get(port, "/health").body, "{\"status\":\"ok\"}\n");
+  const auto units = nlohmann::json::parse(get(port, "/api/v1/units").body);
+  EXPECT_EQ(units["matching"], 8);
+  for (const auto& each : units["units"]) EXPECT_GE(each["quality"]["readings"], 2000);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  lines.insert(lines.end(), late.begin(), late.end());
+  EXPECT_TRUE(known(config) == undisturbed(lines));
+}
+
+// New units that come during a start take no place of those in the store, even if these have no state yet.
+TEST_F(Programs, KnowTheirUnitsFromTheFirstReading) {
+  const auto port = static_cast<unsigned short>(free_port());
+  const auto config =
+      configure("a", std::string(folder_source) +
+                         fmt::format("[source.web]\nkind = \"http\"\n[http]\nlisten = "
+                                     "\"127.0.0.1:{}\"\n[limits]\nunits = 8\n",
+                                     port));
+  auto lines = readings(8, 1001);
+  const std::vector<std::string> late(lines.end() - 8, lines.end());
+  lines.resize(lines.size() - 8);
+  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  monitor.end(SIGKILL);
+  monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
+  const auto refused = post(port, "/api/v1/readings",
+                            R"({"machine": "new", "n": 1, "t": 1700000060, "km": 1, "h": 0.5})");
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_THAT(refused.body, HasSubstr("limits.units"));
+  for (const std::string& each : late)
+    EXPECT_EQ(post(port, "/api/v1/readings", each).status, 200) << log(config);
+  EXPECT_EQ(get(port, "/health").body, "{\"status\":\"starting\"}\n");
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+}
+
+// Asked to end before its states have followed, it ends; the next one goes on from there.
+TEST_F(Programs, EndInTheMiddleOfAStart) {
+  const int port = free_port();
+  const auto config = configure(
+      "a", std::string(folder_source) + fmt::format("[http]\nlisten = \"127.0.0.1:{}\"\n", port));
+  const auto lines = readings(8, 1000);
+  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  monitor.end(SIGKILL);
+  monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_THAT(log(config), HasSubstr("ended during the start; the next start continues"));
+  EXPECT_EQ(run_wearwell("monitor '" + config.string() + "' --once --quiet").exit_code, 0);
+  EXPECT_TRUE(known(config) == undisturbed(lines));
 }
 
 class PostgresPrograms : public Programs {

@@ -17,6 +17,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
 
 class Stores : public ScratchTest, public testing::WithParamInterface<const char*> {
  protected:
@@ -46,6 +48,8 @@ class Stores : public ScratchTest, public testing::WithParamInterface<const char
 
 TEST_P(Stores, KeepAReadingOnce) {
   auto store = open();
+  EXPECT_THAT(store->units(), IsEmpty());
+  EXPECT_EQ(store->last_place(), 0);
   const double third = 1.0 / 3;
   EXPECT_THAT(store->add({reading("b", 2, third), reading("a", 1, 1e-300), reading("b", 2, third)}),
               ElementsAre(Kept::stored, Kept::stored, Kept::repeated));
@@ -65,6 +69,8 @@ TEST_P(Stores, KeepAReadingOnce) {
   installed.kind = EventKind::installed;
   store->add_events({installed});
   EXPECT_TRUE(store->has_unit("c"));
+  EXPECT_THAT(store->units(), UnorderedElementsAre("a", "b", "c"));
+  EXPECT_EQ(store->last_place(), store->after(0, 100).back().place);
   const auto first = store->after(0, 1);
   EXPECT_EQ(shown(store->after(first[0].place, 1)), "a 1 1e-300 true a \"b\" ü;");
   std::string of_b;

@@ -80,11 +80,17 @@ class ChildProcess {
     pid_ = -1;
     return false;
   }
-  /// Sends a signal and waits for its end; its exit code, or 128 and the signal that ended it.
+  /// Sends a signal and waits for its end; its exit code, or 128 and the signal that ended it. After two minutes it is
+  /// killed, so that a program that does not end is a failure and not a test without an end.
   int end(int signal) {
+    constexpr auto longest = std::chrono::minutes(2);
     if (pid_ <= 0) return code();
     kill(pid_, signal);
-    waitpid(std::exchange(pid_, -1), &status_, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    while (runs()) {
+      if (std::chrono::steady_clock::now() - begin > longest) kill(pid_, SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
     return code();
   }
   int wait() {

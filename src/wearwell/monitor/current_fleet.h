@@ -23,6 +23,7 @@ class CurrentFleet : public FleetReader {
                                    std::uint64_t* all = nullptr) const override;
   std::uint64_t version() const override;
   std::vector<std::string> changed_since(std::uint64_t version) const override;
+  std::string starting() const override { return state().fleet->starting(); }
   std::shared_ptr<const FleetReader> present() const override { return state().fleet; }
 
  private:

@@ -11,6 +11,8 @@
 #include "wearwell/monitor/fleet_unit.h"
 #include "wearwell/monitor/time_text.h"
 
+// Longer than others: readings, forecasts, alarms and saved states of the units of one fleet.
+
 namespace wearwell::monitor {
 
 Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Notices& notices,
@@ -78,8 +80,7 @@ void Fleet::hear(Unit& unit, std::int64_t received_ms) {
   unit.heard = Clock::now() - std::chrono::milliseconds(age);
 }
 
-std::size_t Fleet::apply(std::int64_t last) {
-  constexpr std::size_t most = 10'000;
+std::size_t Fleet::apply(std::int64_t last, std::size_t most) {
   const Clock::time_point asked = Clock::now();
   std::vector<StoredReading> readings = store_.after(place_, most);
   const bool none_left = readings.empty();
@@ -199,7 +200,7 @@ Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) c
   return alarm;
 }
 
-bool Fleet::refresh(bool all) {
+bool Fleet::refresh(bool all, const std::function<bool()>& late) {
   constexpr auto slice = std::chrono::milliseconds(100);
   // If forecasting all changed units each second takes more than a tenth of the threads' time, they
   // take turns.
@@ -232,7 +233,8 @@ bool Fleet::refresh(bool all) {
     forecast_s_ += 0.1 * (took * static_cast<double>(together) / static_cast<double>(some.size()) -
                           forecast_s_);
     publish(some);
-    if (!all && Clock::now() - begin > slice && from + at_once < due.size()) {
+    const bool ends = all ? late && late() : Clock::now() - begin > slice;
+    if (ends && from + at_once < due.size()) {
       none_left = false;
       break;
     }
@@ -245,6 +247,14 @@ bool Fleet::refresh(bool all) {
     unlogged_.clear();
   }
   return none_left;
+}
+
+bool Fleet::finish(const std::function<bool()>& late) {
+  bool all = false;
+  while (!all && !late()) all = apply(std::numeric_limits<std::int64_t>::max(), small_piece) == 0;
+  if (all) refresh(true, late);
+  save();
+  return all;
 }
 
 void Fleet::publish(std::vector<Unit*>& units) {

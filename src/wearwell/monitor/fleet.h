@@ -29,8 +29,8 @@ struct FleetSettings {
   FitView fit = {};             ///< the same population, for readers
   AlarmSettings alarm;
   int threads = 1;
-  /// Of a fleet that takes the place of another one: when the monitor was started, and with how
-  /// many readings. Without it: now, with those in the store.
+  /// When the monitor was started, and with how many readings. Without it: now, with those in the
+  /// store.
   struct Start {
     std::int64_t time_ms = 0;
     std::uint64_t readings = 0;
@@ -55,14 +55,22 @@ class Fleet : public FleetReader {
         FleetSettings settings);
   ~Fleet() override;
 
-  /// Processes the next readings of the store, none after the place `last`, and its events; returns
-  /// the number of readings. Throws StoreError: the next call then continues from there.
-  std::size_t apply(std::int64_t last = std::numeric_limits<std::int64_t>::max());
+  /// Readings at once where a request to end is awaited.
+  static constexpr std::size_t small_piece = 500;
+  /// Processes the next readings of the store, at most so many and none after the place `last`, and
+  /// its events; returns the number of readings. Throws StoreError: the next call then continues from
+  /// there.
+  std::size_t apply(std::int64_t last = std::numeric_limits<std::int64_t>::max(),
+                    std::size_t most = 10'000);
   /// Forecasts changed units, each at most once a second, and together at most in a tenth of the
-  /// threads' time; runs for about a tenth of a second; `all`: every one now. Returns whether none
-  /// is left that is due. Throws StoreError if a change of alarm cannot be stored; it is reported
-  /// again.
-  bool refresh(bool all = false);
+  /// threads' time; runs for about a tenth of a second; `all`: every one now, until `late`. Returns
+  /// whether none is left that is due. Throws StoreError if a change of alarm cannot be stored; it is
+  /// reported again.
+  bool refresh(bool all = false, const std::function<bool()>& late = {});
+  /// Processes all readings of the store, makes all forecasts and saves the states; leaves to the next
+  /// start what is not done when it is `late`. Returns whether all readings are processed. Throws
+  /// StoreError.
+  bool finish(const std::function<bool()>& late);
   /// Saves the states of changed units to the store. Throws StoreError.
   void save();
   std::int64_t place() const { return place_; }
@@ -71,7 +79,6 @@ class Fleet : public FleetReader {
   const EventsOfUnits& events() const { return events_; }
   /// Readings of this unit are removed: its state follows from those that are left.
   void rebuild(const std::string& unit);
-  FleetSettings::Start start() const { return {started_ms_, stored_before_}; }
   /// The present alarms of the units follow those of `before`, the fleet that readers see now, as if
   /// it had gone on; what that has not stored yet is stored by this one. To be called before readers see this one.
   void take_over(Fleet& before);

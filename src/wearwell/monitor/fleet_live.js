@@ -4,7 +4,7 @@
   const {element} = wearwell;
   const connection = document.getElementById('connection'), banners = document.getElementById('banners');
   const quiet = 25000;  // the server beats every 10 s
-  let fleet = null, source = null, heard = Date.now(), lost = 0, polling = 0;
+  let fleet = null, source = null, heard = Date.now(), lost = 0, polling = 0, starting = '';
 
   const wide = matchMedia('(min-width: 1000px)');
   const chosen = () => (location.hash.startsWith('#unit=') ? decodeURIComponent(location.hash.slice(6)) : '');
@@ -37,7 +37,8 @@
 
   function complaints() {
     const all = [];
-    if (lost) all.push(['fail', 'Connection lost.', `The page shows the state of ${wearwell.clock(lost)} and tries to reconnect.`]);
+    if (starting) all.push(['warn', 'Starting.', `${starting[0].toUpperCase()}${starting.slice(1)}.`]);
+    else if (lost) all.push(['fail', 'Connection lost.', `The page shows the state of ${wearwell.clock(lost)} and tries to reconnect.`]);
     if (fleet && !fleet.trusted) all.push(['warn', 'Not trusted.', 'The result that the population comes from did not pass its checks: the values here may be wrong.']);
     if (fleet && fleet.units.all > 0 && fleet.units.unknown === fleet.units.all) all.push(['warn', 'No news.', `No ${fleet.noun} has reported for a long time.`]);
     if (fleet && fleet.webhook && fleet.webhook.waiting > 0 && fleet.webhook.failed > 0) all.push(['warn', 'Alarms are not sent.', `The webhook has not accepted the alarms of ${wearwell.count(fleet.webhook.waiting)} ${fleet.webhook.waiting === 1 ? fleet.noun : wearwell.plural(fleet.noun)}; the monitor tries again.`]);
@@ -79,13 +80,17 @@
   function alive() {
     heard = Date.now();
     lost = 0;
+    starting = '';
     state(polling ? 'wait' : 'live', polling ? 'Every 10 s' : 'Live');
     complaints();
   }
 
-  function cut() {
+  // Without an answer; 503: the monitor is starting, and says so.
+  function cut(error) {
     if (!lost) lost = heard;
-    state('lost', 'Not connected');
+    starting = error?.status === 503 ? error.message : '';
+    if (starting) heard = Date.now();
+    state(starting ? 'wait' : 'lost', starting ? 'Starting' : 'Not connected');
     complaints();
   }
 
@@ -100,8 +105,8 @@
     try {
       news(await wearwell.ask('/api/v1/fleet'), true, []);
       alive();
-    } catch {
-      cut();
+    } catch (error) {
+      cut(error);
     }
   }
 
@@ -169,8 +174,8 @@
       if (!chosen() && wide.matches && first !== undefined) history.replaceState(null, '', `#unit=${encodeURIComponent(first)}`);
       show();
       listen();
-    } catch {
-      cut();
+    } catch (error) {
+      cut(error);
       setTimeout(begin, 3000);
     }
   }

@@ -171,6 +171,8 @@ class FleetReader {
   /// Increases with every change; `changed_since` names the units that changed after it.
   virtual std::uint64_t version() const = 0;
   virtual std::vector<std::string> changed_since(std::uint64_t version) const = 0;
+  /// Why there is nothing to read yet; empty: there is.
+  virtual std::string starting() const { return {}; }
   /// The reader that answers now: several questions to it are about one fit. It lives as long as
   /// this, or as long as it is held.
   virtual std::shared_ptr<const FleetReader> present() const {

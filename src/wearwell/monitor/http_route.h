@@ -8,9 +8,11 @@ namespace wearwell::monitor {
 
 /// A path of the server, "/api/v1/units/{name}", its methods, "GET, HEAD", and the role that it
 /// needs (HttpRole; role_all: any; 0: none).
+/// `from_states`: its answers come from the states of the units.
 struct HttpRoute {
   std::string_view path, methods;
   unsigned role;
+  bool from_states = false;
 };
 
 /// All paths of the server; openapi.json describes them.

@@ -12,6 +12,7 @@
 #include "wearwell/monitor/message.h"
 #include "wearwell/monitor/page_resources.h"
 
+// Longer than others: the answers of all paths, and why a request is refused.
 namespace wearwell::monitor {
 namespace {
 
@@ -66,6 +67,12 @@ HttpResponse answer_of(Delivery delivery) {
     if (delivery.problem.empty()) delivery.problem = "it contains no reading";
   }
   answer.body = text_of(json_of(delivery));
+  return answer;
+}
+
+HttpResponse not_yet(const std::string& why) {
+  HttpResponse answer = refusal(503, why);
+  answer.fields.emplace_back("Retry-After", "5");
   return answer;
 }
 
@@ -171,6 +178,9 @@ std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) cons
                                     role_names(roles)));
   }
   if (question.method == "POST") return refuse_kind(question);
+  if (route->from_states) {
+    if (const std::string why = reader_.starting(); !why.empty()) return not_yet(why);
+  }
   return {};
 }
 
@@ -185,7 +195,9 @@ HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& h
       answer.fields.emplace_back("Set-Cookie", access_.no_cookie());
       return answer;
     }
-    if (path == "/health") return {200, "application/json", "{\"status\":\"ok\"}\n"};
+    if (path == "/health")
+      return {200, "application/json",
+              reader_.starting().empty() ? "{\"status\":\"ok\"}\n" : "{\"status\":\"starting\"}\n"};
     if (path == "/metrics") return metrics(http);
     if (path == "/api/v1/fleet") {
       nlohmann::ordered_json json = {{"version", reader_.version()}};
@@ -298,9 +310,12 @@ HttpResponse HttpRoutes::event_of_unit(const std::string& encoded, const std::st
   const std::string name = percent_decoded(encoded);
   // A unit whose first readings are still to be processed has no alarm; whether there is such a unit
   // at all, the inbox knows.
-  if (const std::optional<UnitView> unit = reader_.view(name)) {
+  const std::shared_ptr<const FleetReader> reader = reader_.present();
+  if (const std::optional<UnitView> unit = reader->view(name)) {
     if (const std::string why = not_the_alarm(body, *unit); !why.empty()) return refusal(409, why);
   } else if (event_in(body) == monitor::name(EventKind::acknowledged)) {
+    if (const std::string why = reader->starting(); !why.empty())
+      return answer_of({false, 0, 0, 0, why});
     return refusal(404, fmt::format("\"{}\" is not a unit with an alarm", shortened(name)));
   }
   const Delivery delivery = events_->deliver(name, body);

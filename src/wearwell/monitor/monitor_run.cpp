@@ -21,6 +21,7 @@
 #include "wearwell/monitor/publisher.h"
 #include "wearwell/monitor/retention.h"
 #include "wearwell/monitor/source.h"
+#include "wearwell/monitor/starting_fleet.h"
 #include "wearwell/monitor/time_text.h"
 #include "wearwell/monitor/webhook.h"
 
@@ -112,9 +113,22 @@ void Sources::stop() {
   threads_.clear();
 }
 
+/// Whether the store did the work; if not, why is reported.
+bool guarded(Notices& notices, const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const StoreError& error) {
+    notices.tell("store", error.what());
+    return false;
+  }
+}
+
 /// The fleet, and what makes another one of it.
 class RunningFleet {
  public:
+  /// Notes the fit. Readers see that it is starting, until `start`. Throws InputError: the fit has
+  /// learned readings of the store; StoreError.
   RunningFleet(const MonitorConfig& config, const Population& population,
                const MonitorOptions& options, Store& store, Tally& tally, Notices& notices);
 
@@ -122,10 +136,11 @@ class RunningFleet {
   const CurrentFleet& readers() const { return *readers_; }
   PopulationChecks& checks() { return checks_; }
   WebhookCounts& webhook() { return webhook_; }
-  /// Processes what the store has, and notes the fit. States are saved on the way, and at the end:
-  /// a monitor that is killed again and again, each time before its regular save, would otherwise
-  /// start from ever older states.
-  void catch_up(MonitorSignals& signals);
+  /// Processes what the store had when the monitor began; false if it is to end before. States are
+  /// saved on the way, and at the end: a monitor that is killed again and again, each time before
+  /// its regular save, would otherwise start from ever older states. Should the store not respond,
+  /// it tries again, for readings are accepted already; with --once it throws StoreError.
+  bool start(MonitorSignals& signals);
   std::shared_ptr<Fleet> make_beside(const Population& population);
   /// Another fleet takes the place of the running one. Throws StoreError; it may be called again.
   void exchange(const FitExchange::Ready& ready);
@@ -133,6 +148,8 @@ class RunningFleet {
  private:
   FleetSettings settings_of(const Population& population) const;
   std::shared_ptr<Fleet> make(const Population& population, FleetSettings settings);
+  void note_fit();
+  bool done(MonitorSignals& signals, const std::function<void()>& work);
 
   const MonitorConfig& config_;
   const MonitorOptions& options_;
@@ -142,9 +159,12 @@ class RunningFleet {
   Population population_;
   WebhookCounts webhook_;
   PopulationChecks checks_;
+  FleetSettings::Start start_;     ///< of the monitor
+  const std::int64_t last_place_;  ///< in the store at the start
   std::shared_ptr<Fleet> fleet_;
-  FleetSettings::Start start_;  ///< of the monitor
   std::unique_ptr<CurrentFleet> readers_;
+  std::int64_t fit_since_ms_ = 0;
+  std::vector<MovedForecast> moved_;  ///< by the fit of the start
 };
 
 RunningFleet::RunningFleet(const MonitorConfig& config, const Population& population,
@@ -157,9 +177,14 @@ RunningFleet::RunningFleet(const MonitorConfig& config, const Population& popula
       notices_(notices),
       population_(population),
       checks_(population.tracker),
-      fleet_(make(population, settings_of(population))),
-      start_(fleet_->start()),
-      readers_(std::make_unique<CurrentFleet>(fleet_)) {}
+      start_{unix_ms_now(), store.count()},
+      last_place_(store.last_place()),
+      readers_(
+          std::make_unique<CurrentFleet>(std::make_shared<const StartingFleet>(start_.time_ms))) {
+  // Sources begin before there is a fleet: what the store has is known to them.
+  for (const std::string& each : store.units()) static_cast<void>(tally.admit(each));
+  note_fit();
+}
 
 FleetSettings RunningFleet::settings_of(const Population& population) const {
   FleetSettings settings;
@@ -168,6 +193,7 @@ FleetSettings RunningFleet::settings_of(const Population& population) const {
   settings.population = population.fingerprint;
   settings.fit = {population.fingerprint, population.written_ms, 0};
   settings.alarm = config_.alarm;
+  settings.start = start_;
   settings.threads = threads_or_all(options_.threads);
   settings.keys_are_times = !config_.sequence;
   if (config_.webhook) settings.webhook = [this] { return webhook_.view(); };
@@ -195,33 +221,65 @@ std::shared_ptr<Fleet> RunningFleet::make(const Population& population, FleetSet
 
 std::shared_ptr<Fleet> RunningFleet::make_beside(const Population& population) {
   FleetSettings settings = settings_of(population);
-  settings.start = start_;
   settings.beside = true;
   return make(population, std::move(settings));
 }
 
-void RunningFleet::catch_up(MonitorSignals& signals) {
-  constexpr auto between_saves = std::chrono::seconds(5);
+void RunningFleet::note_fit() {
   const std::vector<StoredFit> fits = store_.fits();
-  StoredFit fit{0, population_.fingerprint, unix_ms_now(), population_.written_ms,
-                population_.trusted};
+  const StoredFit fit{0, population_.fingerprint, unix_ms_now(), population_.written_ms,
+                      population_.trusted};
   if (!fits.empty() && fits.back().population == fit.population) {
-    std::vector<MovedForecast> moved = store_.moved(fits.back().number);
-    sort_by_change(moved);
-    fleet_->set_moved(fits.back().since_ms, std::move(moved));
+    fit_since_ms_ = fits.back().since_ms;
+    moved_ = store_.moved(fits.back().number);
+    sort_by_change(moved_);
   } else {
     refuse_learned(store_, population_.fingerprint, *population_.tracker);
     store_.begin_fit(fit, {});
-    fleet_->set_moved(fit.since_ms, {});
+    fit_since_ms_ = fit.since_ms;
   }
+}
+
+/// Repeats the work until the store has done it; false if the monitor is to end before.
+bool RunningFleet::done(MonitorSignals& signals, const std::function<void()>& work) {
+  constexpr auto patience = std::chrono::milliseconds(200);
+  while (!signals.ends()) {
+    if (options_.once) {
+      work();
+      return true;
+    }
+    if (guarded(notices_, work)) return true;
+    std::this_thread::sleep_for(patience);
+  }
+  return false;
+}
+
+bool RunningFleet::start(MonitorSignals& signals) {
+  constexpr auto between_saves = std::chrono::seconds(5);
+  if (!done(signals, [&] { fleet_ = make(population_, settings_of(population_)); })) return false;
+  fleet_->set_moved(fit_since_ms_, std::move(moved_));
   Clock::time_point saved = Clock::now();
-  while (fleet_->apply() > 0 && !signals.ends()) {
-    if (Clock::now() - saved < between_saves) continue;
+  bool all = false;
+  const auto piece = [&] {
+    // Sources may deliver faster than states follow: what has come since is for later.
+    all = fleet_->apply(last_place_, Fleet::small_piece) == 0;
+    if (!all && Clock::now() - saved < between_saves) return;
     fleet_->save();
     saved = Clock::now();
+    if (all) return;
+    const std::int64_t reached_ms = unix_ms_now() - fleet_->fleet().lag_ms;
+    notices_.tell("start", fmt::format("states include the readings stored until {}",
+                                       iso_of_unix_ms(reached_ms)));
+  };
+  while (!all && done(signals, piece)) {
   }
-  fleet_->save();
-  fleet_->refresh(true);
+  const auto ends = [&] { return signals.ends(); };
+  if (!done(signals, [&] { fleet_->refresh(true, ends); }) || signals.ends()) {
+    static_cast<void>(guarded(notices_, [&] { fleet_->save(); }));
+    return false;
+  }
+  readers_->exchange(fleet_);
+  return true;
 }
 
 void RunningFleet::exchange(const FitExchange::Ready& ready) {
@@ -289,33 +347,28 @@ class Follower {
   }
 
   /// Processes all readings and then saves the states: with retries for a while, should the store
-  /// not respond.
-  void finish() {
+  /// not respond. After a signal it is not longer than service managers wait.
+  void finish(MonitorSignals& signals) {
     constexpr int attempts = 20;
+    constexpr auto longest = std::chrono::seconds(10);
+    const Clock::time_point begin = Clock::now();
+    const auto late = [&] { return signals.ends() && Clock::now() - begin > longest; };
     for (int i = 0; i < attempts; ++i) {
-      const bool good = guarded([&] {
-        Fleet& fleet = running_.fleet();
-        while (fleet.apply() > 0) {
-        }
-        fleet.refresh(true);
-        fleet.save();
-      });
-      if (good) return;
+      bool all = false;
+      if (guarded([&] { all = running_.fleet().finish(late); })) {
+        if (!all)
+          notices_.tell("end",
+                        "ended before all stored readings are processed; the next start "
+                        "continues from the saved states");
+        return;
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     notices_.tell("store", "the states could not be saved; they will be rebuilt from the readings");
   }
 
  private:
-  bool guarded(const std::function<void()>& work) {
-    try {
-      work();
-      return true;
-    } catch (const StoreError& error) {
-      notices_.tell("store", error.what());
-      return false;
-    }
-  }
+  bool guarded(const std::function<void()>& work) { return monitor::guarded(notices_, work); }
 
   RunningFleet& running_;
   Retention& retention_;
@@ -327,30 +380,41 @@ class Follower {
 /// The server, the publisher and the webhook, while they live.
 class Outlets {
  public:
+  /// Begins to serve.
   Outlets(const MonitorConfig& config, const MonitorOptions& options, RunningFleet& running,
-          Intake& intake, const prognosis::Tracker& tracker, Store& store, Notices& notices)
-      : events_(intake, tracker, !config.sequence) {
-    if (options.once) return;
-    const FleetReader& fleet = running.readers();
+          Intake& intake, const prognosis::Tracker& tracker)
+      : config_(config),
+        once_(options.once),
+        running_(running),
+        events_(intake, tracker, !config.sequence) {
+    if (once_) return;
     running.checks().bind(events_.mapping());
     for (const SourceSettings& source : config.sources) {
       if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
     }
     if (config.http)
-      server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get(),
+      server_ = std::make_unique<HttpServer>(*config.http, running.readers(), inbox_.get(),
                                              config.http->events ? &events_ : nullptr);
-    if (config.publish)
+  }
+  /// Sends states and alarms from here on, once there are forecasts.
+  void open(Store& store, Notices& notices) {
+    if (once_) return;
+    if (config_.publish)
       publisher_ = std::jthread([&](std::stop_token stop) {
-        publish_states(fleet, *config.publish, notices, std::move(stop));
+        publish_states(running_.readers(), *config_.publish, notices, std::move(stop));
       });
-    if (config.webhook)
+    if (config_.webhook)
       webhook_ = std::jthread([&](std::stop_token stop) {
-        send_alarms(fleet, *config.webhook, store, notices, running.webhook(), std::move(stop));
+        send_alarms(running_.readers(), *config_.webhook, store, notices, running_.webhook(),
+                    std::move(stop));
       });
   }
   std::string address() const { return server_ ? server_->address() : std::string(); }
 
  private:
+  const MonitorConfig& config_;
+  bool once_;
+  RunningFleet& running_;
   EventInbox events_;
   std::unique_ptr<SourceInbox> inbox_;
   std::unique_ptr<HttpServer> server_;
@@ -389,12 +453,17 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
                  Access::write, [&](const std::string& what) { notices.tell("store", what); });
   RunningFleet running(config, population, options, *store, tally, notices);
   for (SourceSettings& source : config.sources) running.checks().bind(source.mapping);
-  running.catch_up(signals);
   WakeSignal wake;
   Intake intake(*store, tally, notices, [&] { wake.ring(); });
-  const Outlets outlets(config, options, running, intake, *population.tracker, *store, notices);
-  started(running.readers(), outlets.address());
+  // Readings are accepted from here on; how long the states take to follow depends on the store.
+  Outlets outlets(config, options, running, intake, *population.tracker);
   Sources sources(config, options.once, intake, *store, notices, wake);
+  if (!running.start(signals)) {
+    notices.tell("start", "ended during the start; the next start continues from the saved states");
+    return;
+  }
+  outlets.open(*store, notices);
+  started(running.readers(), outlets.address());
   Retention retention(config.keep_s, *store, *population.tracker, notices);
   Follower follower(running, retention, notices);
   std::optional<FitExchange> exchange;
@@ -418,11 +487,11 @@ void run_monitor(const MonitorConfig& configured, const Population& population,
   }
   exchange.reset();
   sources.stop();
-  follower.finish();
+  follower.finish(signals);
   if (options.once && config.keep_s) {
     while (!signals.ends() && follower.remove_old(nullptr)) {
     }
-    follower.finish();
+    follower.finish(signals);
   }
   ended(running.readers());
 }

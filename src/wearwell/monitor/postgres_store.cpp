@@ -102,6 +102,14 @@ void put(pqxx::work& work, const char* name, const std::string& value) {
       name, value);
 }
 
+// As in SQLite: from each name to the next in the index.
+constexpr const char* unit_names_there =
+    "WITH RECURSIVE named (unit) AS (SELECT min(unit) FROM wearwell_reading UNION ALL SELECT "
+    "(SELECT "
+    "min(unit) FROM wearwell_reading WHERE unit > named.unit) FROM named WHERE named.unit IS NOT "
+    "NULL) "
+    "SELECT unit FROM named WHERE unit IS NOT NULL UNION SELECT unit FROM wearwell_event";
+
 class PostgresStore : public Store {
  public:
   PostgresStore(const std::string& url, const StoreColumns& columns, Access access,
@@ -114,6 +122,8 @@ class PostgresStore : public Store {
   std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
   bool has_unit(const std::string& unit) override;
+  std::vector<std::string> units() override;
+  std::int64_t last_place() override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
   std::vector<UnitEvent> events_of(const std::string& unit) override;
@@ -517,6 +527,23 @@ bool PostgresStore::has_unit(const std::string& unit) {
               .as<bool>();
   });
   return has;
+}
+
+std::vector<std::string> PostgresStore::units() {
+  std::vector<std::string> units;
+  read_.run([&](pqxx::work& work) {
+    units.clear();
+    for (const auto& row : work.exec(unit_names_there)) units.push_back(row[0].as<std::string>());
+  });
+  return units;
+}
+
+std::int64_t PostgresStore::last_place() {
+  std::int64_t last = 0;
+  read_.run([&](pqxx::work& work) {
+    last = work.exec1("SELECT coalesce(max(place), 0) FROM wearwell_reading")[0].as<std::int64_t>();
+  });
+  return last;
 }
 
 void PostgresStore::save(const std::string& population, const std::vector<Checkpoint>& states,

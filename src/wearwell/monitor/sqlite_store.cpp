@@ -76,6 +76,12 @@ std::vector<UnitEvent> events_in(SqliteStatement& select) {
   return events;
 }
 
+// From each name to the next in the index, not through all readings.
+constexpr const char* unit_names =
+    "WITH RECURSIVE named (unit) AS (SELECT min(unit) FROM reading UNION ALL SELECT (SELECT "
+    "min(unit) FROM reading WHERE unit > named.unit) FROM named WHERE named.unit IS NOT NULL) "
+    "SELECT unit FROM named WHERE unit IS NOT NULL UNION SELECT unit FROM event";
+
 class SqliteStore : public Store {
  public:
   SqliteStore(const std::filesystem::path& file, const StoreColumns& columns, Access access,
@@ -88,6 +94,8 @@ class SqliteStore : public Store {
   std::optional<StoredReading> reading(const std::string& unit, std::int64_t key) override;
   std::uint64_t count() override;
   bool has_unit(const std::string& unit) override;
+  std::vector<std::string> units() override;
+  std::int64_t last_place() override;
   std::vector<Kept> add_events(const std::vector<UnitEvent>& events) override;
   std::vector<UnitEvent> events_after(std::int64_t number) override;
   std::vector<UnitEvent> events_of(const std::string& unit) override;
@@ -409,6 +417,20 @@ bool SqliteStore::has_unit(const std::string& unit) {
                          "FROM event WHERE unit = ?)");
   select.bind(1, std::string_view(unit)).bind(2, std::string_view(unit));
   return select.next() && select.integer(0) != 0;
+}
+
+std::vector<std::string> SqliteStore::units() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, unit_names);
+  std::vector<std::string> units;
+  while (select.next()) units.push_back(select.text(0));
+  return units;
+}
+
+std::int64_t SqliteStore::last_place() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT coalesce(max(place), 0) FROM reading");
+  return select.next() ? select.integer(0) : 0;
 }
 
 void SqliteStore::save(const std::string& population, const std::vector<Checkpoint>& states,

@@ -108,6 +108,10 @@ class Store {
   virtual std::uint64_t count() = 0;
   /// Whether a reading or an event of a unit of this name is stored.
   virtual bool has_unit(const std::string& unit) = 0;
+  /// The names of all these units.
+  virtual std::vector<std::string> units() = 0;
+  /// Of the last stored reading; 0 without any.
+  virtual std::int64_t last_place() = 0;
 
   /// Stores new events, all or, when it throws, none; the same one again counts as repeated. Too old
   /// ones would change what removed readings say.
