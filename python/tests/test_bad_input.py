@@ -146,6 +146,8 @@ def test_readings_where_paths_of_a_family_begin(family):
     if family != "wiener-process":
         with pytest.raises(ww.InputError, match="row 2, column 'wear': 0 must be positive for the family '.*'; family='normal' takes"):
             of([1, 2, 3], [1.1, 0, 3.1])
+        with pytest.raises(ww.InputError, match="row 3, column 'wear': 0 must be positive"):
+            of([1, 2, 3, 4], [1.1, np.nan, 0, 3.1])
 
 
 def test_numbers_of_categories_with_missing_cells():

@@ -130,7 +130,7 @@ require_one_path <- function(along, axis, measured) {
 
 # Paths of all families but the normal are 0 at 0, and certain there; only those of a Wiener process fall below.
 require_above_zero <- function(along, readings, axis, measured, family) {
-  low <- readings <= 0 & family != "wiener-process" & max(readings) > 0  # where all are below 0 the path falls
+  low <- readings <= 0 & family != "wiener-process" & any(readings > 0, na.rm = TRUE)  # where all are below 0 the path falls
   row <- which(along <= 0 | low)[1]
   if (is.na(row)) return()
   where <- paste0("data, row ", row, ", column '")

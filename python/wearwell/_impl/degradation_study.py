@@ -37,7 +37,7 @@ def _require_one_path(columns, x, y):
 def _require_above_zero(columns, x, y, family):
     """Paths of all families but the normal are 0 at 0, and certain there; only those of a Wiener process fall below."""
     axis, readings = columns.cells(x), columns.cells(y)
-    early, low = axis <= 0, (readings <= 0) & (family != "wiener-process" and readings.max() > 0)  # where all are below 0 the path falls
+    early, low = axis <= 0, (readings <= 0) & (family != "wiener-process" and (readings > 0).any())  # where all are below 0 the path falls
     if not (early | low).any():
         return
     row = int((early | low).argmax())
