@@ -36,6 +36,14 @@ class Programs : public ProgramRig {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return known(config);
   }
+  /// The store then has these readings from a file, and most states are not saved.
+  void kill_before_states_follow(const std::filesystem::path& config,
+                                 const std::vector<std::string>& lines) const {
+    append(config.parent_path() / "incoming" / "a.jsonl", lines);
+    ChildProcess monitor = start(config);
+    ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+    monitor.end(SIGKILL);
+  }
   static constexpr int event_kinds = 5;
   /// One of these kinds of events, of the n-th reading of a machine.
   static std::string event_line(int kind, int machine, int n) {
@@ -312,6 +320,13 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   EXPECT_TRUE(known(config) == undisturbed(all));
 }
 
+// The last lines, which `lines` has no longer.
+std::vector<std::string> taken_from_the_end(std::vector<std::string>& lines, std::ptrdiff_t count) {
+  std::vector<std::string> last(lines.end() - count, lines.end());
+  lines.erase(lines.end() - count, lines.end());
+  return last;
+}
+
 // Killed with many readings whose states it has not saved, it answers and accepts readings at once; its states follow.
 TEST_F(Programs, AcceptReadingsWhileStatesFollow) {
   const auto port = static_cast<unsigned short>(free_port());
@@ -320,17 +335,13 @@ TEST_F(Programs, AcceptReadingsWhileStatesFollow) {
       std::string(folder_source) +
           fmt::format("[source.web]\nkind = \"http\"\n[http]\nlisten = \"127.0.0.1:{}\"\n", port));
   auto lines = readings(8, 2001);
-  const std::vector<std::string> late(lines.end() - 8, lines.end());
-  lines.resize(lines.size() - 8);
-  append(config.parent_path() / "incoming" / "a.jsonl", lines);
-  ChildProcess monitor = start(config);
-  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
-  monitor.end(SIGKILL);
+  const std::vector<std::string> late = taken_from_the_end(lines, 8);
+  ASSERT_NO_FATAL_FAILURE(kill_before_states_follow(config, lines));
   const std::size_t reported_before = log(config).size();
   const auto is_ready = [&] {
     return log(config).find("monitoring", reported_before) != std::string::npos;
   };
-  monitor = start(config);
+  ChildProcess monitor = start(config);
   ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
   EXPECT_EQ(get(port, "/health").body, "{\"status\":\"starting\"}\n");
   EXPECT_EQ(get(port, "/api/v1/units").status, 503);
@@ -357,13 +368,9 @@ TEST_F(Programs, KnowTheirUnitsFromTheFirstReading) {
                                      "\"127.0.0.1:{}\"\n[limits]\nunits = 8\n",
                                      port));
   auto lines = readings(8, 1001);
-  const std::vector<std::string> late(lines.end() - 8, lines.end());
-  lines.resize(lines.size() - 8);
-  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  const std::vector<std::string> late = taken_from_the_end(lines, 8);
+  ASSERT_NO_FATAL_FAILURE(kill_before_states_follow(config, lines));
   ChildProcess monitor = start(config);
-  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
-  monitor.end(SIGKILL);
-  monitor = start(config);
   ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
   const auto refused = post(port, "/api/v1/readings",
                             R"({"machine": "new", "n": 1, "t": 1700000060, "km": 1, "h": 0.5})");
@@ -381,11 +388,8 @@ TEST_F(Programs, EndInTheMiddleOfAStart) {
   const auto config = configure(
       "a", std::string(folder_source) + fmt::format("[http]\nlisten = \"127.0.0.1:{}\"\n", port));
   const auto lines = readings(8, 1000);
-  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  ASSERT_NO_FATAL_FAILURE(kill_before_states_follow(config, lines));
   ChildProcess monitor = start(config);
-  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
-  monitor.end(SIGKILL);
-  monitor = start(config);
   ASSERT_TRUE(eventually([&] { return is_listening(port); })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
   EXPECT_THAT(log(config), HasSubstr("ended during the start; the next start continues"));

@@ -31,6 +31,7 @@ struct Range {
   double middle() const {
     return two_digits(is_positive() ? std::sqrt(least * largest) : (least + largest) / 2);
   }
+  double size() const { return two_digits(std::max(std::abs(least), std::abs(largest))); }
 };
 
 Range range_of(const Table& table, const Column& column) {
@@ -83,10 +84,8 @@ Term factor_of(Term term, bool is_warm) {
         name);
   } else {
     term.factor = fmt::format(" * exp({0}_effect * {0}/{0}_reference)", name);
-    term.constants =
-        fmt::format("{}_reference = {}\n", name,
-                    toml_quantity(two_digits(std::max(term.range.largest, -term.range.least)),
-                                  term.column.unit));
+    term.constants = fmt::format("{}_reference = {}\n", name,
+                                 toml_quantity(term.range.size(), term.column.unit));
     term.prior =
         fmt::format("{}_effect = {{ distribution = \"normal\", mean = 0, sd = 2 }}\n", name);
   }
@@ -97,10 +96,8 @@ Term factor_of(Term term, bool is_warm) {
 Term summand_of(Term term, const std::string& size) {
   const std::string& name = term.name;
   term.factor = fmt::format(" + {0}_effect * {0}/{0}_reference", name);
-  term.constants = fmt::format(
-      "{}_reference = {}\n", name,
-      toml_quantity(two_digits(std::max(term.range.largest, std::abs(term.range.least))),
-                    term.column.unit));
+  term.constants =
+      fmt::format("{}_reference = {}\n", name, toml_quantity(term.range.size(), term.column.unit));
   term.prior = fmt::format(
       "{}_effect = {{ distribution = \"normal\", mean = 0, sd = {} }}    # to the reference\n",
       name, size);
@@ -162,8 +159,7 @@ std::optional<Scaffold> response_scaffold(ColumnRoles& roles) {
     roles.pass_over("unit");
   const Range range = range_of(roles.table(), *response.column);
   const bool multiplies = range.is_positive();
-  const double largest = std::max(std::abs(range.least), std::abs(range.largest));
-  const std::string size = toml_quantity(two_digits(largest > 0 ? largest : 1), response.unit);
+  const std::string size = toml_quantity(range.size() > 0 ? range.size() : 1, response.unit);
   std::string measured = name_of(*response.column, "measured");
   if (measured == "response" || measured == "level") measured = "measured";
   const std::vector<Term> terms =
