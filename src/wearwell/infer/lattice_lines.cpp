@@ -152,6 +152,9 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
         if (!known_.emplace(key(next.index), lines_.size() + ring.size()).second) continue;
         next.middle = line.middle;
         next.width = line.width;
+        // Modes of neighbours lie nearly in a line.
+        const Line& opposite = neighbour(line, static_cast<int>(a), -way);
+        next.middle += std::clamp(line.middle - opposite.middle, -line.width, line.width);
         ring.push_back(std::move(next));
       }
     }
@@ -200,7 +203,7 @@ const Line& Lines::neighbour(const Line& line, int axis, int way) const {
   Index index = line.index;
   index[axis] = static_cast<std::int16_t>(index[axis] + way);
   const auto found = known_.find(key(index));
-  return found == known_.end() ? line : lines_[found->second];
+  return found == known_.end() || found->second >= lines_.size() ? line : lines_[found->second];
 }
 
 Located Lines::located(const Line& line, std::size_t j) const {
@@ -262,6 +265,7 @@ class Lines::Walk {
 void Lines::integrate(Line& line, Sides& sides) const {
   Walk walk(*this, line);
   double middle = walk.value(line.middle);
+  Located at_mode = walk.located();
   for (int iteration = 0; iteration < 6; ++iteration) {
     const double reach = 0.7 * line.width;
     const double below = walk.value(line.middle - reach), above = walk.value(line.middle + reach);
@@ -276,11 +280,12 @@ void Lines::integrate(Line& line, Sides& sides) const {
     line.middle += move;
     line.width = std::clamp(width, 0.25 * line.width, 4 * line.width);
     middle = there;
+    at_mode = walk.located();
     if (std::abs(move) < 0.05 * line.width) break;
   }
-  line.values.push_back(walk.value(line.middle));
-  line.highest = line.values.front();
-  if (keeps_) line.kept.push_back(walk.located());
+  line.values.push_back(middle);
+  line.highest = middle;
+  if (keeps_) line.kept.push_back(at_mode);
   walk_outward(walk, line, sides);
 }
 
