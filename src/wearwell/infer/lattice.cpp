@@ -24,7 +24,8 @@ using namespace lattice;
 // The limit of evaluations, and the error that is accepted and reported if the limit is reached.
 constexpr double good_enough = 1e-3, acceptable = 5e-3;
 constexpr long most_nodes = 6'000'000;
-// The relative log density at which a first lattice ends: two millionths of a normal posterior lie beyond.
+// The relative log density at which a first lattice ends: two millionths of a normal posterior
+// lie beyond.
 constexpr double first_end = -16;
 // Finer than sums require: with cells that suffice for sums, quantiles have errors of some
 // hundredths of a standard deviation, which decrease with the fourth power of the step.
@@ -62,8 +63,8 @@ struct Filled {
   }
 };
 
-// Where the lattice has to end so that the mass beyond, about proportional to the density there, is at most
-// `most`; its present end if it is.
+// Where the lattice has to end so that the mass beyond, about proportional to the density there,
+// is at most `most`; its present end if it is.
 double deeper_end(const Filled& filled, double most) {
   const double beyond = filled.error_estimates.beyond;
   return beyond > most ? filled.end - std::clamp(1.5 * std::log(beyond / most), 1.0, 4.0)
@@ -203,8 +204,9 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   in.chart = straight ? straight.get() : along.get();
   in.coarse = coarse_on(*in.chart, {}, first_end, most_nodes);
   if (!settings.along_ridge && !map->affine() && !(in.coarse->error <= enough)) {
-    // Lattices compare if most of the mass lies within their ends. If the straight one is expensive, the other
-    // is chosen unless it is, too; otherwise one with half as many nodes more is not better.
+    // Lattices compare if most of the mass lies within their ends. If the straight one is
+    // expensive, the other is chosen unless it is, too; otherwise one with half as many nodes more
+    // is not better.
     constexpr long few_nodes = 140'000;
     deepen(*in.coarse, most_missing, few_nodes, settings);
     const bool straight_fails = !in.coarse->failure.empty();
