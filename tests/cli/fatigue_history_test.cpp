@@ -119,7 +119,12 @@ TEST_F(FatigueHistory, DesignCurvesWithoutAReport) {
                   "study.toml' --method exact --no-report --json -o out");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_TRUE(fs::exists(folder() / "out/tables/design-curves.csv"));
-  const json curves = json::parse(fit.out)["design_curves"];
+  const json all = json::parse(fit.out), curves = all["design_curves"];
+  // T_N is 10^(2.563 sigma), so its quantiles are those of sigma.
+  const json &t = curves["scatter"]["T_N"], &sigma = all["parameters"]["sigma"];
+  constexpr double width = 2 * 1.2815515655446004;
+  for (const auto& [i, key] : {std::pair{0, "q05"}, {1, "q50"}, {2, "q95"}})
+    EXPECT_NEAR(t[i].get<double>() / std::pow(10, width * sigma[key].get<double>()), 1, 1e-6);
   ASSERT_EQ(curves["curves"].size(), 4u);
   for (const json& curve : curves["curves"]) {
     double before = 0;

@@ -44,11 +44,11 @@ struct Spread {
   // The largest half-width over the axes, the squares of the others, and the offset of the mass
   // from the middle of the largest.
   double widest = 0, others = 0, off = 0;
+  double lowest, highest;  // at the node and the ends of the axes
 
   Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
          const std::function<double(const double* x)>& quantity)
-      : center(at_node) {
-    double lowest = at_node, highest = at_node;
+      : center(at_node), lowest(at_node), highest(at_node) {
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
@@ -118,6 +118,8 @@ QuantityDistribution::QuantityDistribution(const WeightedDraws& draws,
       center = at_node;
       half_width = 0;
     }
+    lowest_ = std::min(lowest_, spread.lowest);
+    highest_ = std::max(highest_, spread.highest);
     total += weight;
     (cells_ && !std::isfinite(center) ? endless : points).push_back({center, half_width, weight});
   }
@@ -237,8 +239,10 @@ double QuantityDistribution::quantile(double p) const {
   const std::size_t i = around ? cell_at(*around, p - below) : cell_at(sections_.back(), infinity);
   const double step = std::max(
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
-  return solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
-                          {.relative = 0x1p-39}, lowest, highest);
+  const double found = solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
+                                        {.relative = 0x1p-39}, lowest, highest);
+  // Cells whose mass is spread evenly reach a little beyond all values, a share of survivors beyond 1.
+  return std::clamp(found, lowest_, highest_);
 }
 
 std::size_t QuantityDistribution::cell_at(const Section& section, double weight) const {

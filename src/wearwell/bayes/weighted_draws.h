@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -83,6 +84,7 @@ class QuantityDistribution {
   std::vector<double> center_, half_width_, weight_;
   std::vector<Section> sections_;
   bool cells_ = false;
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;  // of all values
 };
 
 /// One draw: a point by its weight, then a position within its cell by a density linear along each

@@ -24,18 +24,23 @@ using namespace lattice;
 // The limit of evaluations, and the error that is accepted and reported if the limit is reached.
 constexpr double good_enough = 1e-3, acceptable = 5e-3;
 constexpr long most_nodes = 6'000'000;
+// The relative log density at which a first lattice ends: two millionths of a normal posterior
+// lie beyond.
+constexpr double first_end = -16;
 // Finer than sums require: with cells that suffice for sums, quantiles have errors of some
-// hundredths of a standard deviation, which decrease with the fourth power of the step.
-constexpr double widest_reported = 0.55;
-constexpr double longest_on_line = 0.7;
-
-// The relative density at which the lattice ends; it depends on the tolerance.
-double log_negligible(double tolerance) {
-  return std::max(-22.0, -22 + std::log(tolerance / 1e-5));
+// hundredths of a standard deviation, which decrease with the fourth power of the step. Three
+// parameters can afford more.
+double widest_reported(int dimension) {
+  return dimension == 3 ? 0.25 : 0.55;
 }
 
-Steps steps_of(double step) {
-  return {step, step, step, std::min(step, longest_on_line)};
+Steps steps_of(double step, int dimension) {
+  constexpr double longest_on_line = 0.7;
+  Steps steps;
+  steps.fill(step);
+  double& on_line = steps[static_cast<std::size_t>(dimension - 1)];
+  on_line = std::min(on_line, longest_on_line);
+  return steps;
 }
 
 // A filled lattice, or the reason of its failure.
@@ -44,6 +49,7 @@ struct Filled {
   std::string failure;
   ErrorEstimates error_estimates;
   double error = INFINITY;  // infinite unless filled
+  double end = 0;           // the relative log density at which it ends
   long evaluations = 0;     // of the last filling
 
   Filled(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
@@ -54,6 +60,7 @@ struct Filled {
 
   void fill(double log_negligible, long most, const ExactSettings& settings) {
     const long before = lines.nodes();
+    end = log_negligible;
     failure = lines.fill(log_negligible, most, settings.progress);
     evaluations = lines.nodes() - before;
     error = INFINITY;
@@ -63,27 +70,44 @@ struct Filled {
   }
 };
 
+// Where the lattice has to end so that the mass beyond, about proportional to the density there,
+// is at most `most`; its present end if it is.
+double deeper_end(const Filled& filled, double most) {
+  const double beyond = filled.error_estimates.beyond;
+  return beyond > most ? filled.end - std::clamp(1.5 * std::log(beyond / most), 1.0, 4.0)
+                       : filled.end;
+}
+
+// Stops above `enough_nodes`.
+void deepen(Filled& filled, double most_beyond, long enough_nodes, const ExactSettings& settings) {
+  while (filled.failure.empty() && filled.lines.nodes() <= enough_nodes &&
+         deeper_end(filled, most_beyond) < filled.end)
+    filled.fill(deeper_end(filled, most_beyond), most_nodes, settings);
+}
+
 // Refines each axis separately, so that a narrow axis does not refine the others. Errors decay as
 // exp(-c/step), faster for coarse steps.
 Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, double tolerance,
                  const Steps& widest) {
-  constexpr double share = 0.2, least = 1.15, most = 2.5, coarse = 0.6;
+  constexpr double share = 0.2, least = 1.15, largest = 2.5, coarse = 0.6;
   Steps next;
-  for (std::size_t a = 0; a < d; ++a) {
+  for (std::size_t a = 0; a < most; ++a) {
     const ErrorEstimate& error_estimate = error_estimates.along[a];
     const double too_much = std::log(error_estimate.lacks / (share * tolerance));
     const double faster = steps[a] > coarse ? 1.5 : 1;
     const double finer =
         1 + too_much / (-4 * faster * std::log(std::min(error_estimate.decay, 0.9)));
     const bool refined = too_much > 0 && error_estimates.steps > 0.5 * tolerance;
-    const double step = refined ? steps[a] / std::clamp(finer, least, most) : steps[a];
+    const double step = refined ? steps[a] / std::clamp(finer, least, largest) : steps[a];
     next[a] = std::min(widest[a], step);
   }
   return next;
 }
 
-double mean_step(const Steps& steps) {
-  return std::pow(steps[0] * steps[1] * steps[2] * steps[3], 1.0 / d);
+double mean_step(const Steps& steps, int dimension) {
+  double product = 1;
+  for (int a = 0; a < dimension; ++a) product *= steps[static_cast<std::size_t>(a)];
+  return std::pow(product, 1.0 / dimension);
 }
 
 // Coordinates and a coarse lattice in them.
@@ -101,17 +125,19 @@ struct Refined {
 };
 
 constexpr double coarsest = 1;
+constexpr double share_beyond = 0.5;   // of the tolerated error
+constexpr double most_missing = 1e-3;  // beyond coarse lattices that are compared
 
 // Refines and deepens until the error is at most `enough` and steps are at most `widest`.
 Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
                const Steps& widest, const ExactSettings& settings) {
-  const double first_end = log_negligible(settings.tolerance);
-  double end = first_end;
+  double end = in.coarse->end;
   bool may_deepen = true;
   std::shared_ptr<Filled> filled = in.coarse;
   Refined refined;
   double before = INFINITY, step_before = coarsest;
-  for (Steps steps = steps_of(coarsest); refined.evaluations < settings.max_evaluations;) {
+  const int d = posterior.dimension();
+  for (Steps steps = steps_of(coarsest, d); refined.evaluations < settings.max_evaluations;) {
     if (settings.stop.stop_requested()) throw Cancelled();
     if (!filled)
       filled =
@@ -140,12 +166,12 @@ Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
     refined.failure = fmt::format("no convergence in {} evaluations", refined.evaluations);
     // With a kink or a jump errors decrease only by a power of the step; a refinement that exceeds
     // the evaluations is not started. A small change of the step shows no power.
-    const double step = mean_step(steps);
+    const double step = mean_step(steps, d);
     if (!std::isfinite(before) || step < 0.9 * step_before) {
       const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
       const bool hopeless =
           std::isfinite(before) &&
-          (error_estimates.steps >= before || std::pow(error_estimates.steps / enough, 4 / power) *
+          (error_estimates.steps >= before || std::pow(error_estimates.steps / enough, d / power) *
                                                       static_cast<double>(refined.evaluations) >
                                                   static_cast<double>(settings.max_evaluations));
       before = error_estimates.steps;
@@ -153,14 +179,11 @@ Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
       if (hopeless && refined.best && refined.best->error <= good_enough) break;
     }
     const Steps finer = next_steps(steps, error_estimates, enough, widest);
-    // The mass beyond is about proportional to the density at the end.
-    const double most_beyond = 0.5 * enough;
-    const bool deeper = may_deepen && error_estimates.beyond > most_beyond;
-    if (deeper) end -= std::clamp(1.5 * std::log(error_estimates.beyond / most_beyond), 1.0, 4.0);
+    if (may_deepen) end = deeper_end(*filled, share_beyond * enough);
     if (finer != steps) {
       steps = finer;
       filled.reset();
-    } else if (deeper) {
+    } else if (end < filled->end) {
       filled->fill(end, most_nodes, settings);
     } else {
       break;
@@ -180,42 +203,45 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     map.emplace(posterior, whitening);
     along = ridge_chart(*map);
   }
+  const int d = posterior.dimension();
   // Error estimates of coarse lattices are several times too large.
   const bool coarse = settings.tolerance >= good_enough;
   const double enough = coarse ? 5 * settings.tolerance : settings.tolerance;
-  const auto filled_on = [&](const LatticeChart& chart, const Axes& axes, double step, long most) {
-    return std::make_shared<Filled>(posterior, chart, axes, steps_of(step),
-                                    log_negligible(settings.tolerance), most, settings);
+  const auto coarse_on = [&](const LatticeChart& chart, const Axes& axes, double end, long most) {
+    return std::make_shared<Filled>(posterior, chart, axes, steps_of(coarsest, d), end, most,
+                                    settings);
   };
   Coordinates in;
   in.chart = straight ? straight.get() : along.get();
-  in.coarse = filled_on(*in.chart, {}, coarsest, most_nodes);
-  // Chooses between the charts by lattices of medium steps. If one is expensive, chooses the other.
-  constexpr double telling = 0.7;
-  constexpr long few_nodes = 140'000, enough_nodes = 400'000;
+  in.coarse = coarse_on(*in.chart, {}, first_end, most_nodes);
   if (!settings.along_ridge && !map->affine() && !(in.coarse->error <= enough)) {
-    const bool expensive = !in.coarse->failure.empty() || in.coarse->lines.nodes() > few_nodes;
-    // A chart whose coarse lattice has 50 % more nodes is not better; few nodes suffice to see
-    // this.
-    const auto rounder = [&] {
-      return filled_on(*along, {}, coarsest, in.coarse->lines.nodes() / 2 * 3)->failure.empty() &&
-             filled_on(*along, {}, telling, enough_nodes)->error <
-                 filled_on(*straight, {}, telling, enough_nodes)->error;
+    // Lattices compare if most of the mass lies within their ends. If the straight one is
+    // expensive, the other is chosen unless it is, too; otherwise one with half as many nodes more
+    // is not better.
+    constexpr long few_nodes = 140'000;
+    deepen(*in.coarse, most_missing, few_nodes, settings);
+    const bool straight_fails = !in.coarse->failure.empty();
+    const bool expensive = straight_fails || in.coarse->lines.nodes() > few_nodes;
+    auto rounder = coarse_on(*along, {}, straight_fails ? first_end : in.coarse->end,
+                             expensive ? few_nodes : in.coarse->lines.nodes() / 2 * 3);
+    const auto cost = [](const Filled& filled) {
+      return filled.error_estimates.steps * static_cast<double>(filled.lines.nodes());
     };
-    if (expensive ? filled_on(*along, {}, coarsest, few_nodes)->failure.empty() : rounder()) {
+    if (rounder->failure.empty() && (expensive || cost(*rounder) < cost(*in.coarse))) {
       in.chart = along.get();
-      in.coarse = filled_on(*in.chart, {}, coarsest, most_nodes);
+      in.coarse = std::move(rounder);
     }
   }
-  const Steps widest = steps_of(coarse ? coarsest : widest_reported);
+  deepen(*in.coarse, share_beyond * enough, most_nodes, settings);
+  const Steps widest = steps_of(coarse ? coarsest : widest_reported(d), d);
   Refined refined;
   // Long tails take most nodes. If axes that end them soon do not converge, even ones remain.
-  constexpr long long_tails = 30'000;
+  constexpr long long_tails = 20'000;
   if (in.coarse->failure.empty() && in.coarse->lines.nodes() > long_tails) {
     Coordinates stretched = in;
     stretched.axes = in.coarse->lines.stretched_axes();
-    const long most = in.coarse->lines.nodes() / 2;
-    stretched.coarse = filled_on(*in.chart, stretched.axes, coarsest, most);
+    stretched.coarse =
+        coarse_on(*in.chart, stretched.axes, in.coarse->end, in.coarse->lines.nodes() / 5 * 3);
     if (stretched.coarse->failure.empty())
       refined = refine(posterior, stretched, enough, widest, settings);
   }

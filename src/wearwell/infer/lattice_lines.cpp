@@ -41,7 +41,11 @@ double mass_of(const Line& line) {
 
 Lines::Lines(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
              const Steps& steps)
-    : posterior_(posterior), chart_(chart), axes_(axes), steps_(steps) {
+    : posterior_(posterior),
+      chart_(chart),
+      outer_(posterior.dimension() - 1),
+      axes_(axes),
+      steps_(steps) {
   reference_ = density(place({}, -1, 0, 0));
 }
 
@@ -53,7 +57,7 @@ Lines::~Lines() {
 }
 
 double Lines::log_of(double mass) const {
-  for (const double step : steps_) mass *= step;
+  for (int a = 0; a < dimension(); ++a) mass *= steps_[static_cast<std::size_t>(a)];
   return reference_ + std::log(mass) + chart_.log_scale();
 }
 
@@ -80,7 +84,7 @@ std::string Lines::fill(double log_negligible, long most, Progress* progress) {
 
 Axes Lines::stretched_axes() const {
   Axes axes;
-  for (std::size_t a = 0; a < outer; ++a) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(outer_); ++a) {
     std::map<int, double> marginal;
     double all = 0;
     for (const Line& line : lines_) {
@@ -142,7 +146,7 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
   for (std::size_t i = first; i < lines_.size(); ++i) {
     const Line& line = lines_[i];
     if (line.highest < highest_ + log_negligible_) continue;
-    for (std::size_t a = 0; a < outer; ++a) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(outer_); ++a) {
       for (const int way : {-1, 1}) {
         Line next;
         next.index = line.index;
@@ -152,6 +156,9 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
         if (!known_.emplace(key(next.index), lines_.size() + ring.size()).second) continue;
         next.middle = line.middle;
         next.width = line.width;
+        // Modes of neighbours lie nearly in a line.
+        const Line& opposite = neighbour(line, static_cast<int>(a), -way);
+        next.middle += std::clamp(line.middle - opposite.middle, -line.width, line.width);
         ring.push_back(std::move(next));
       }
     }
@@ -161,24 +168,25 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
 
 // The three coordinates: step (index + shift along one axis).
 Place Lines::place(const Index& index, int axis, double shift, double on_line) const {
-  Eigen::Vector4d along;
+  Eigen::Vector4d along = Eigen::Vector4d::Zero();
   double slopes = 1;
-  for (int i = 0; i < outer; ++i) {
+  for (int i = 0; i < outer_; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const Axis::Place there = axes_[a].at(steps_[a] * (index[a] + (i == axis ? shift : 0)));
     along[i] = there.u;
     slopes *= there.slope;
   }
-  along[outer] = on_line;
+  along[outer_] = on_line;
   Place place;
   place.log_jacobian = chart_.to_real(along, place.z) + std::log(slopes);
   return place;
 }
 Place Lines::at(const Line& line, double t) const {
-  return place(line.index, -1, 0, line.middle + line.width * steps_[outer] * t);
+  return place(line.index, -1, 0,
+               line.middle + line.width * steps_[static_cast<std::size_t>(outer_)] * t);
 }
 double Lines::density(const Place& there) const {
-  return posterior_.value(there.z) + there.log_jacobian;
+  return posterior_.value(parameters(there.z)) + there.log_jacobian;
 }
 Place Lines::between(const Line& line, const Line& other, const Line& opposite, int axis,
                      double shift, int t) const {
@@ -187,12 +195,13 @@ Place Lines::between(const Line& line, const Line& other, const Line& opposite, 
   };
   return place(line.index, axis, shift,
                half_way(line.middle, other.middle, opposite.middle) +
-                   half_way(line.width, other.width, opposite.width) * steps_[outer] * t);
+                   half_way(line.width, other.width, opposite.width) *
+                       steps_[static_cast<std::size_t>(outer_)] * t);
 }
 
 Eigen::Vector4d Lines::natural(const Place& there) const {
-  Eigen::Vector4d x;
-  posterior_.to_natural(there.z, std::span<double>(x.data(), d));
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();
+  posterior_.to_natural(parameters(there.z), {x.data(), static_cast<std::size_t>(dimension())});
   return x;
 }
 
@@ -200,7 +209,7 @@ const Line& Lines::neighbour(const Line& line, int axis, int way) const {
   Index index = line.index;
   index[axis] = static_cast<std::int16_t>(index[axis] + way);
   const auto found = known_.find(key(index));
-  return found == known_.end() ? line : lines_[found->second];
+  return found == known_.end() || found->second >= lines_.size() ? line : lines_[found->second];
 }
 
 Located Lines::located(const Line& line, std::size_t j) const {
@@ -230,7 +239,7 @@ class Lines::Walk {
     const auto parameter = lattice.chart_.line_parameter();
     if (!parameter) return;
     there_ = lattice.place(index_, -1, 0, line.middle);
-    along_.emplace(lattice.posterior_, there_.z, *parameter);
+    along_.emplace(lattice.posterior_, lattice.parameters(there_.z), *parameter);
     others_ = there_.log_jacobian - lattice.chart_.on_line(line.middle).log_slope;
   }
 
@@ -246,7 +255,9 @@ class Lines::Walk {
   // Of the last evaluated point.
   Located located() const {
     if (!along_) return {lattice_.natural(there_), there_.log_jacobian};
-    return {Eigen::Map<const Eigen::Vector4d>(along_->natural().data()), there_.log_jacobian};
+    Located here{Eigen::Vector4d::Zero(), there_.log_jacobian};
+    std::copy(along_->natural().begin(), along_->natural().end(), here.natural.begin());
+    return here;
   }
 
  private:
@@ -262,6 +273,7 @@ class Lines::Walk {
 void Lines::integrate(Line& line, Sides& sides) const {
   Walk walk(*this, line);
   double middle = walk.value(line.middle);
+  Located at_mode = walk.located();
   for (int iteration = 0; iteration < 6; ++iteration) {
     const double reach = 0.7 * line.width;
     const double below = walk.value(line.middle - reach), above = walk.value(line.middle + reach);
@@ -276,11 +288,12 @@ void Lines::integrate(Line& line, Sides& sides) const {
     line.middle += move;
     line.width = std::clamp(width, 0.25 * line.width, 4 * line.width);
     middle = there;
+    at_mode = walk.located();
     if (std::abs(move) < 0.05 * line.width) break;
   }
-  line.values.push_back(walk.value(line.middle));
-  line.highest = line.values.front();
-  if (keeps_) line.kept.push_back(walk.located());
+  line.values.push_back(middle);
+  line.highest = middle;
+  if (keeps_) line.kept.push_back(at_mode);
   walk_outward(walk, line, sides);
 }
 
@@ -306,7 +319,7 @@ void Lines::walk_outward(Walk& walk, Line& line, Sides& sides) const {
     const bool first = line.values.size() == 1;
     for (int t = (way < 0 ? line.first : last) + way;
          std::abs(t) <= most_across && (farther(v) || (first && values.empty())); t += way) {
-      v = walk.value(line.middle + t * steps_[outer] * line.width);
+      v = walk.value(line.middle + t * steps_[static_cast<std::size_t>(outer_)] * line.width);
       values.push_back(v);
       if (keeps_) kept.push_back(walk.located());
       line.highest = std::max(line.highest, v);

@@ -39,6 +39,31 @@ std::vector<double> ends_at(std::vector<std::pair<double, double>> points, doubl
   return ends;
 }
 
+// Ascending places, searched from a guess.
+class Places {
+ public:
+  explicit Places(const std::vector<double>& all) : all_(all) {}
+
+  // The index of the first place from x on; the last is at least x.
+  std::size_t first_from(double x, std::size_t guess) const {
+    constexpr int most_steps = 6;
+    guess = std::min(guess, all_.size() - 1);
+    for (int step = 0; step < most_steps; ++step) {
+      if (all_[guess] < x) {
+        ++guess;
+      } else if (guess > 0 && !(all_[guess - 1] < x)) {
+        --guess;
+      } else {
+        return guess;
+      }
+    }
+    return static_cast<std::size_t>(std::lower_bound(all_.begin(), all_.end(), x) - all_.begin());
+  }
+
+ private:
+  const std::vector<double>& all_;
+};
+
 // Of a cell from `low` on: its weight up to each of these places within it, and its density there.
 struct Cubic {
   double weight, at_low, at_high;
@@ -114,20 +139,22 @@ void CellMixture::condense(std::size_t most) {
   // at each end, and between it and the end before.
   const std::size_t n = ends.size();
   std::vector<double> up_to(n), density(n), ended_here(n), left(n), right(n), at(n), inside(n);
+  // Cells that follow each other are often neighbours of about equal length.
+  const Places places(ends);
+  std::size_t near = 0, across = 0;
   for (const Cell& cell : cells_) {
     check_stop();
     if (cell.high == infinity) continue;
-    auto k = static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), cell.low) -
-                                      ends.begin());
+    std::size_t k = places.first_from(cell.low, near);
     const double length = cell.high - cell.low, a = cell.at_low, b = cell.at_high;
     if (!(length > 0)) {
       (ends[k] == cell.low ? at : inside)[k] += cell.weight;
       continue;
     }
     if (ends[k] == cell.low) right[k++] += cell.weight * a / length;
-    const auto past = static_cast<std::size_t>(
-        std::lower_bound(ends.begin() + static_cast<std::ptrdiff_t>(k), ends.end(), cell.high) -
-        ends.begin());
+    const std::size_t past = places.first_from(cell.high, k + across);
+    across = past - k;
+    near = past;
     add_cubic({cell.weight, a, b}, cell.low, length, std::span(ends).subspan(k, past - k),
               up_to.data() + k, density.data() + k);
     k = past;
@@ -157,7 +184,7 @@ void CellMixture::condense(std::size_t most) {
 }
 
 void CellMixture::limit_size(std::size_t most) {
-  constexpr std::size_t few = 512;
+  constexpr std::size_t few = 256;
   if (size() > most) condense(few);
 }
 

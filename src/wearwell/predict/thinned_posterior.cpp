@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "wearwell/base/rng.h"
@@ -120,8 +121,9 @@ class Region {
   void take_away(std::vector<std::size_t>& points, std::vector<double>& weight) const {
     const Eigen::MatrixXd sums = sums_of(points);
     const Index n = sums.rows(), free = n - sums.cols();
-    const Eigen::MatrixXd q = sums.householderQr().householderQ();
-    Eigen::MatrixXd none = q.rightCols(free);  // combinations with zero moments
+    // Combinations with zero moments.
+    Eigen::MatrixXd none =
+        sums.householderQr().householderQ() * Eigen::MatrixXd::Identity(n, n).rightCols(free);
     Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
     std::vector<bool> gone(static_cast<std::size_t>(n));
     for (Index c = 0; c < free; ++c) {
@@ -155,12 +157,39 @@ class Region {
   Eigen::RowVectorXd middle_, size_;
 };
 
-// Splits at equal weight along the axis of largest spread until there are enough regions.
+using Order = std::function<bool(std::size_t, std::size_t)>;
+
+// The number of the first points in this order that together weigh at least `wanted`, at most all but
+// one. Moves them to the front by halving the rest that is still undecided.
+template <class Before>
+std::size_t cut_at(const Cloud& cloud, std::span<std::size_t> points, double wanted,
+                   const Before& before) {
+  std::size_t low = 0, high = points.size();
+  double below = 0;
+  const auto place = [&](std::size_t k) { return points.begin() + static_cast<std::ptrdiff_t>(k); };
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    std::nth_element(place(low), place(middle), place(high), before);
+    double more = 0;
+    for (std::size_t k = low; k < middle; ++k) more += cloud.weight[points[k]];
+    if (below + more < wanted) {
+      low = middle;
+      below += more;
+    } else {
+      high = middle;
+    }
+  }
+  return std::min(low + 1, points.size() - 1);
+}
+
+// Splits at equal weight along the axis of largest spread until there are enough regions; in each
+// the points are ordered along the axis of the last split.
 void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t regions,
-           std::vector<std::size_t>& kept, std::vector<double>& weights) {
+           const Order& last, std::vector<std::size_t>& kept, std::vector<double>& weights) {
   check_stop();
   const auto moments = static_cast<std::size_t>(Region::moments(cloud.at.cols()));
   if (regions <= 1 || points.size() <= 2 * moments) {
+    if (last) std::sort(points.begin(), points.end(), last);
     return Region(cloud, points).reduce(points, kept, weights);
   }
   Eigen::RowVectorXd first = Eigen::RowVectorXd::Zero(cloud.at.cols()), second = first;
@@ -174,18 +203,17 @@ void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t region
   const Eigen::RowVectorXd spread = second / sum - (first / sum).cwiseAbs2();
   Index axis = 0;
   while (spread[axis] < (1 - shift) * spread.maxCoeff()) ++axis;
-  std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-    return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
-  });
   const std::size_t left = regions / 2;
   const double wanted =
       (1 - equal) * sum * static_cast<double>(left) / static_cast<double>(regions);
-  std::size_t cut = 0;
-  for (double below = 0; cut + 1 < points.size() && below < wanted; ++cut) {
-    below += cloud.weight[points[cut]];
-  }
-  halve(cloud, points.first(cut), left, kept, weights);
-  halve(cloud, points.subspan(cut), regions - left, kept, weights);
+  const auto before = [&](std::size_t a, std::size_t b) {
+    const double here = cloud.at(static_cast<Index>(a), axis),
+                 there = cloud.at(static_cast<Index>(b), axis);
+    return here < there || (here == there && a < b);
+  };
+  const std::size_t cut = cut_at(cloud, points, wanted, before);
+  halve(cloud, points.first(cut), left, before, kept, weights);
+  halve(cloud, points.subspan(cut), regions - left, before, kept, weights);
 }
 
 }  // namespace
@@ -200,7 +228,7 @@ ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most)
   if (n > most && 8 * moments <= most) {
     std::vector<std::size_t> kept;
     weights.clear();
-    halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
+    halve(whitened(draws, dominant), chosen, most / moments, {}, kept, weights);
     chosen = std::move(kept);
   } else if (n > most) {
     // Equal-weight points by systematic sampling along the order of the nodes, in which neighbours

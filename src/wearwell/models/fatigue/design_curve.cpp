@@ -310,7 +310,7 @@ PresetAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit)
   const bool has_slope =
       law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
   if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;
-  const fatigue::ScatterRange t = fatigue::scatter_range(law, draws);
+  const fatigue::ScatterRange t = fatigue::scatter_range(law, all);
   present::Table table{"scatter",
                        "Slope and scatter ranges, 10 to 90 % of items (FKM, DIN 50100)",
                        {{"of"}, {"5 %"}, {"50 %"}, {"95 %"}}};

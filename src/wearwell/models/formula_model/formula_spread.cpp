@@ -14,7 +14,6 @@ class Part {
  public:
   Part(const FormulaRows& rows, const std::vector<SpreadPath>& paths)
       : rows_(rows), effects_(rows.model().effects.size()), paths_(paths) {
-    found.most_cells = effects_ > 1 ? 8192 : 1 << 20;  // with two effects a point has hundreds
     fresh_ = lines_of_new_unit(effects_, 0.25, effects_ > 1 ? 5 : 8.25);
     for (const SpreadPath& each : paths) {
       at_.push_back(
@@ -72,7 +71,7 @@ class Part {
   void add_curves(const EffectLines& effects, std::size_t i, double weight, CellMixture& to) {
     const std::span<const double> values = std::span(value_).subspan(i * effects.count());
     effects.each(values, [&](auto share, auto value) { to.add_curve(weight, share, value); });
-    to.limit_size(found.most_cells);
+    to.limit_size();
   }
 
   // The direction of two effects in which the path of a new unit changes, at the farthest position.
@@ -136,7 +135,7 @@ void Spreads::add(const Spreads& other) {
   const auto sum = [this](std::vector<CellMixture>& to, const std::vector<CellMixture>& from) {
     for (std::size_t i = 0; i < to.size(); ++i) {
       to[i].add(from[i]);
-      to[i].limit_size(most_cells);
+      to[i].limit_size();
     }
   };
   for (std::size_t i = 0; i < paths.size(); ++i) {

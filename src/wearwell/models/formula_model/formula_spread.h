@@ -27,8 +27,6 @@ struct Spread {
 };
 struct Spreads {
   std::vector<Spread> paths;
-  std::size_t most_cells =
-      0;  ///< of a mixture before it is condensed, which takes as long as to sum it
   void add(const Spreads& other);  ///< of other points of the posterior
 };
 
