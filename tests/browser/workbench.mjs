@@ -472,6 +472,7 @@ async function readings(browser) {
   await page.click('#step-model');
   await page.click('.question button >> nth=0');
   await page.waitForSelector('.question', {state: 'detached', timeout: 60000});
+  check(await page.evaluate(() => document.activeElement.closest('#panel-model') !== null), 'readings: after an answer the focus is at the top of the page');
   await page.click('.editing button:has-text("Save")');
   await page.waitForFunction(() => document.querySelector('.editing').textContent.includes('Saved as wear.toml'), null, {timeout: 60000});
 
@@ -579,9 +580,12 @@ async function inGerman(browser, {name, ...options}) {
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
   await looks(page, `${name} model`, complaints);
   await shot('model');
+  const told = await page.textContent('.reasons');
+  check(told.includes("life: Spalte 'hours [h]' in h") && await page.locator(':is(.reasons, .readings) [lang="en"]').count() === 0, `${name}: guesses are ${told}`);
   await page.click('#step-fit');
   await page.click('#panel-fit button');
   await page.waitForSelector('#trusted', {timeout: 240000});
+  check(await page.locator('[role="status"] #trusted').count() === 1, `${name}: a screen reader does not hear the verdict`);
   check((await page.textContent('#result .command')).startsWith('wearwell fit ') && (await page.textContent('#result .python')).includes('ww.fit('), `${name}: the fit has no lines`);
   await looks(page, `${name} fit`, complaints);
   await shot('fit');
@@ -741,7 +745,10 @@ async function corrections(browser, {name, ...options}) {
   await looks(page, `${name} unit`, complaints);
   await page.screenshot({path: join(screenshots, `workbench-${name}-unit.png`), fullPage: true});
   await page.evaluate(() => { document.getElementById('study').value = ''; });
-  await page.click('#banners button');
+  const focus = () => page.evaluate(() => document.activeElement.id || document.activeElement.closest('[id]').id);
+  await page.focus('#banners button');
+  await page.keyboard.press('Enter');
+  check(await focus() === 'unit-2', `${name}: after a message the focus is on ${await focus()}`);
 
   // Lines of the file become headings and units.
   await openTable('rig.csv');
@@ -754,6 +761,7 @@ async function corrections(browser, {name, ...options}) {
   await page.screenshot({path: join(screenshots, `workbench-${name}-line.png`), fullPage: true});
   await page.click('#heading-lines button:has-text("There is no line of units")');
   await page.waitForFunction((before) => document.querySelector('#panel-data caption').textContent !== before, rows, {timeout: 60000});
+  check(await focus() === 'heading-lines', `${name}: after a choice the focus is on ${await focus()}`);
   check((await page.textContent('#panel-data caption')).includes('16 rows'), `${name}: without a line of units there are ${await page.textContent('#panel-data caption')}`);
   await page.click('#line-5');
   await page.click('#heading-lines button:has-text("These are units")');

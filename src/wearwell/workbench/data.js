@@ -83,7 +83,7 @@
     const number = table.columns[index].kind === 'number';
     const text = value === null ? '' : String(value);  // all digits
     const made = element('td', {class: `${number || text.length < 25 ? 'short' : ''}${number ? ' number' : ''}${refusal ? ' refused' : ''}`}, text);
-    if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${refusal}`));
+    if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${wearwell.ofProgram(refusal)}`));
     return made;
   }
 
@@ -170,7 +170,7 @@
     place.sheets.replaceChildren();
     place.table.hidden = false;
     place.wide.hidden = !table.wide;
-    place.wide.textContent = table.wide ? `${wearwell.capital(table.wide)}.` : '';
+    place.wide.textContent = table.wide ? `${wearwell.capital(wearwell.ofProgram(table.wide))}.` : '';
     settings();
     place.lines.show(table);
     place.dates.show(table);
