@@ -284,6 +284,23 @@ TEST_F(WorkbenchTest, ShowsATableAsItWasRead) {
   EXPECT_EQ(plot["left_out"]["empty"], 2);
 }
 
+// The table that is shown is the one that was read; a study reads the file.
+TEST_F(WorkbenchTest, SaysThatTheFileOfTheTableHasChanged) {
+  write("lives.csv", "hours [h],status\n100,failure\n200,running\n");
+  static_cast<void>(done("/api/open", {{"file", "lives.csv"}}));
+  const auto is_changed = [&] {
+    return done("/api/check", {{"file", "l.toml"}, {"text", "model = 1"}})["table_changed"];
+  };
+  EXPECT_EQ(is_changed(), false);
+  write("lives.csv", "hours [h],status\n100,failure\n200,running\n300,failure\n");
+  EXPECT_EQ(is_changed(), true);
+  EXPECT_EQ(got("/api/session")["table_changed"], true);
+  static_cast<void>(done("/api/open", {{"file", "lives.csv"}}));
+  EXPECT_EQ(is_changed(), false);
+  std::filesystem::remove(folder() / "lives.csv");
+  EXPECT_EQ(is_changed(), true);
+}
+
 // A plot of many rows stays a picture, and keeps their range.
 TEST_F(WorkbenchTest, ThinsAPlotOfManyRows) {
   std::string text = "x,y\n";

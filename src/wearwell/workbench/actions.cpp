@@ -140,9 +140,19 @@ Json guess_action(Session& session, const json& wish) {
   return guesses_json(*table_of_wish(session, wish), session.models, wish);
 }
 
+// Whether another program has changed or removed the file of the open table. A study reads the file.
+bool is_table_changed(Session& session) {
+  const std::lock_guard lock(session.mutex);
+  const auto& open = session.table;
+  return open && stamp_of(session.folder / open->file) != open->stamp;
+}
+
 Json check_action(Session& session, const json& wish) {
   const std::string name = wish.value("file", "study.toml");
-  return checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+  Json json =
+      checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+  json["table_changed"] = is_table_changed(session);
+  return json;
 }
 
 Json form_action(Session& session, const json& wish) {
@@ -331,12 +341,14 @@ Json session_json(Session& session) {
     version = session.version;
   }
   Json files = listed_files(session.folder);
+  const bool table_changed = is_table_changed(session);
   const std::lock_guard lock(session.mutex);
   return {{"version", version},
           {"folder", printable(valid_utf8(session.folder.string()))},
           {"files", std::move(files)},
           {"table", session.table ? session.table->file : ""},
           {"table_number", session.table ? session.table->number : 0},
+          {"table_changed", table_changed},
           {"workbook", session.workbook},
           {"study", session.study},
           {"result", session.result},

@@ -245,6 +245,7 @@
   function session(now) {
     place.reading.session(now);
     announced = now.table_number;
+    if (table?.number === now.table_number) wearwell.model.fileChanged(now.table_changed);
     catchUp();
   }
 
@@ -252,5 +253,5 @@
   const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update?.());
 
   // A page that is opened again shows what the program has open.
-  wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};
+  wearwell.data = {build, files, session, has, open, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};
 })();

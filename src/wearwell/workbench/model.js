@@ -121,6 +121,7 @@
   async function checkText(checked) {
     const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
     if (checked !== text()) return;
+    fileChanged(found.table_changed);
     verdict(found);
     if (table === null && saved !== null) openItsTable();
   }
@@ -154,10 +155,18 @@
     return undefined;
   }
 
+  // Of the file of the table that is shown.
+  function fileChanged(changed) {
+    if (!table || Boolean(table.changed) === changed) return;
+    table.changed = changed;
+    compare();
+  }
+
   // A study that stays, beside a table that it does not read, or reads with other settings, says so.
   function compare() {
     const notice = document.getElementById('notice');
     notice.replaceChildren();
+    if (table?.changed) notice.append(element('div', {class: 'callout warn'}, element('p', {}, strings.changedTable(table.file)), wearwell.button(strings.apply, () => wearwell.data.open(table.file, table.settings), 'plain')));
     if (!table || !keys.length || !isKept() || keptFor === table.number) return;
     const files = keys.filter(({path}) => /^data\b.*\bfile$/.test(path)).map(({value}) => value.replace(/^\.\//, ''));
     const read = {...table.settings, ...(table.wide ? {sql: table.sql} : {})};
@@ -380,5 +389,5 @@
     marks();
   }
 
-  wearwell.model = {build, leave, study, setRole, becomes, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
+  wearwell.model = {build, leave, study, setRole, becomes, resume, tableOpened, fileChanged, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
 })();

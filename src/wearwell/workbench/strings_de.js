@@ -49,6 +49,7 @@ wearwell.languages.de = {
 
   otherTable: (study, table) => `${study || 'Die Studie'} bleibt erhalten. Sie liest nicht ${table}, die gezeigte Tabelle.`,
   otherSettings: (study, table, differ) => `${study || 'Die Studie'} bleibt erhalten. Sie liest ${table} mit anderen Einstellungen als die gezeigte Tabelle (Studie / gezeigt): ${differ}.`,
+  changedTable: (table) => `${table} ist geändert oder entfernt worden, seit sie gelesen wurde. Gezeigt wird die Tabelle davor; Prüfung und Anpassung lesen die Datei.`,
   notSet: 'nicht gesetzt', guessTable: (table) => `Studie aus ${table} vorschlagen, wie gezeigt`, openAsRead: 'Tabelle zeigen, die die Studie liest', keepStudy: 'Studie behalten',
 
   modelTitle: 'Modell', noTable: 'Öffnen Sie zuerst eine Tabelle oder eine Studie.',

@@ -49,6 +49,7 @@ wearwell.languages.en = {
 
   otherTable: (study, table) => `${study || 'The study'} is kept. It does not read ${table}, the table that is shown.`,
   otherSettings: (study, table, differ) => `${study || 'The study'} is kept. It reads ${table} with other settings than the table that is shown (study / shown): ${differ}.`,
+  changedTable: (table) => `${table} has been changed or removed since it was read. The table that is shown is the one before; check and fit read the file.`,
   notSet: 'not set', guessTable: (table) => `Guess a study from ${table} as shown`, openAsRead: 'Show the table that the study reads', keepStudy: 'Keep the study',
 
   modelTitle: 'Model', noTable: 'Open a table first, or a study.',
