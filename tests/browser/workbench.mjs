@@ -9,6 +9,7 @@ import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
 import {createInterface} from 'node:readline';
+import {workbook} from './workbook.mjs';
 
 const [modules, screenshots, wearwell, folder, ...wanted] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
@@ -23,6 +24,10 @@ const hours = [212.5, 305, 371, 418.5, 466, 509, 540, 588, 633, 702, 749, 1800, 
 const german = (x) => x.toLocaleString('de-DE', {minimumFractionDigits: 1});
 const messy = ['Pumpenprüfstand Halle 3', 'Prüfer: Jürgen Müller', '', 'Nr.;Laufzeit [h];Status;Bemerkung',
                ...hours.map((each, i) => `P${i + 1};${german(each)};${i < 11 ? 'Ausfall' : 'läuft'};${i === 3 ? '"Lager; laut"' : ''}`), ''].join('\r\n');
+
+// The same as a workbook, whose table is on the second sheet.
+const messyBook = workbook([['Deckblatt', [['Halle 3'], ['', 'geprüft']]], ['Läufe', [['Pumpenprüfstand Halle 3'], ['Prüfer: Jürgen Müller'], [], ['Nr.', 'Laufzeit [h]', 'Status', 'Bemerkung'],
+  ...hours.map((each, i) => [`P${i + 1}`, each, i < 11 ? 'Ausfall' : 'läuft', i === 3 ? 'Lager; laut' : ''])]]]);
 
 async function serve(inside) {
   const child = spawn(wearwell, ['open', inside, '--no-browser'], {stdio: ['ignore', 'pipe', 'inherit']});
@@ -67,7 +72,7 @@ async function looks(page, what, complaints) {
   if (wide) complaints.push(`${what}: the page is wider than the screen`);
 }
 
-async function walk(browser, {name, ...options}) {
+async function walk(browser, {name, book, ...options}) {
   const complaints = [];
   const inside = fresh(name);
   const {address, stop} = await serve(inside);
@@ -77,7 +82,9 @@ async function walk(browser, {name, ...options}) {
   let actions = 0;
   const act = async (does) => { actions += 1; await does(); };
 
-  await act(() => page.setInputFiles('#choose', {name: 'pumps.csv', mimeType: 'text/csv', buffer: Buffer.from(messy, 'latin1')}));
+  await act(() => page.setInputFiles('#choose', book ? {name: 'pumps.xlsx', mimeType: 'application/octet-stream', buffer: messyBook}
+    : {name: 'pumps.csv', mimeType: 'text/csv', buffer: Buffer.from(messy, 'latin1')}));
+  if (book) await act(() => page.click('button:text-is("Läufe")', {timeout: 60000}));
   await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
   await page.waitForSelector('#panel-data svg.plot');
   await looks(page, `${name} data`, complaints);
@@ -363,6 +370,39 @@ async function large(browser) {
   await context.close();
   await stop();
   faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `large: ${each}`));
+}
+
+// From an S-N table in a workbook, with a mean below that is refused until it is stated, to its design values, in at most ten actions.
+async function curve(browser, {name, ...options}) {
+  const complaints = [], inside = fresh(name), {address, stop} = await serve(inside), context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  let actions = 0;
+  const act = async (does) => { actions += 1; await does(); };
+  await act(() => page.setInputFiles('#choose', {name: 'tests.xlsx', mimeType: 'application/octet-stream', buffer: readFileSync(new URL('../../examples/messy/woehler.xlsx', import.meta.url))}));
+  await act(() => page.click('button:text-is("Versuche")', {timeout: 60000}));
+  await page.waitForSelector('#refused-summary_rows', {timeout: 60000});
+  check((await page.textContent('#banners')).includes('Mittelwert'), `${name}: the row of a mean is not refused: ${await page.textContent('#banners')}`);
+  await looks(page, `${name} refused`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-refused.png`), fullPage: true});
+  await act(() => page.fill('#refused-summary_rows', 'last'));
+  await act(() => page.press('#refused-summary_rows', 'Enter'));
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  check(!(await page.textContent('#banners')) && !(await page.textContent('#refused')), `${name}: what was refused stays on the page`);
+  await act(() => page.click('#step-model'));
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await act(() => page.click('#step-fit'));
+  await act(() => page.click('#panel-fit button'));
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  const shown = await page.$$eval('#table-bounds tbody tr', (all) => all.map((each) => each.textContent));
+  check(actions <= 10 && shown.some((each) => each.startsWith('B10')), `${name}: ${actions} actions, design values ${shown}`);
+  await looks(page, `${name} fit`, complaints);
+  const fit = spawnSync(wearwell, ['fit', 'tests.toml', '-o', 'by-program', '--quiet'], {cwd: inside, encoding: 'utf8'});
+  check(fit.status <= 1, `${name}: wearwell fit: ${fit.stderr}`);
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  check(summary('tests-results') === summary('by-program'), `${name}: the program gives other digits`);
+  await context.close();
+  await stop();
+  faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `${name}: ${each}`));
 }
 
 // From wear paths to remaining useful lives, in at most ten actions, and `wearwell fit` and `wearwell life` give the same. The liners are
@@ -886,7 +926,7 @@ const light = {viewport: {width: 1280, height: 900}, colorScheme: 'light'}, dark
 const narrowLight = {viewport: {width: 390, height: 844}, colorScheme: 'light'}, narrowDark = {viewport: {width: 390, height: 844}, colorScheme: 'dark'};
 const walks = {
   lives: async () => {
-    await walk(browser, {name: 'wide-light', ...light});
+    await walk(browser, {name: 'wide-light', book: true, ...light});
     await walk(browser, {name: 'narrow-dark', ...narrowDark});
   },
   german: async () => {
@@ -898,6 +938,7 @@ const walks = {
     await priors(browser, {name: 'priors-narrow-dark', ...narrowDark});
   },
   corrections: () => corrections(browser, {name: 'corrections-light', ...light}),
+  curve: () => curve(browser, {name: 'curve-tablet-dark', viewport: {width: 820, height: 1180}, colorScheme: 'dark'}),
   dates: () => dates(browser, {name: 'dates-narrow-dark', ...narrowDark}),
   errors: () => errors(browser),
   tabs: () => tabs(browser),

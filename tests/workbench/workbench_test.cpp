@@ -181,7 +181,8 @@ TEST_F(WorkbenchTest, ATableThatCannotBeReadIsRefusedInTheBackground) {
   EXPECT_EQ(read["state"], "failed");
   EXPECT_THAT(read["problem"].get<std::string>(), HasSubstr("bad.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder() / "bad.csv"));
-  EXPECT_EQ(uploaded("good.csv", "a,b\n1,2\n"), 200);
+  // It is read once it is stated how.
+  EXPECT_EQ(uploaded("good.csv&settings=%7B%22comment%22:%22%23%22%7D", "# 3\na,b\n1,2\n"), 200);
   read = ended_reading()["reading"];
   EXPECT_EQ(read["state"], "done");
   EXPECT_EQ(read["problem"], "");

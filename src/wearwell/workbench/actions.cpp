@@ -387,9 +387,11 @@ Json open_file(Session& session, const json& wish) {
   return open_named(session, text_of_wish(wish, "file"), settings_of(wish), {});
 }
 
-Json upload(Session& session, const std::string& name, std::string bytes) {
+Json upload(Session& session, const json& wish, std::string bytes) {
+  const std::string name = text_of_wish(wish, "file");
+  const auto settings = settings_of(wish);
   const fs::path path = path_in(session.folder, name);
-  if (!store_upload(session, path, name, bytes)) return open_named(session, name, {}, {});
+  if (!store_upload(session, path, name, bytes)) return open_named(session, name, settings, {});
   // It is not removed if another program has changed it since.
   const auto forget = [&session, path, bytes = std::move(bytes)] {
     const std::lock_guard one_writer(session.writing);
@@ -398,7 +400,7 @@ Json upload(Session& session, const std::string& name, std::string bytes) {
   };
   const bool is_table = kind_of(path) == "table";
   try {
-    return open_named(session, name, {}, forget);
+    return open_named(session, name, settings, forget);
   } catch (...) {
     if (!is_table) forget();
     throw;
