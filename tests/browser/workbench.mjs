@@ -9,6 +9,7 @@ import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
 import {createInterface} from 'node:readline';
+import {workbook} from './workbook.mjs';
 
 const [modules, screenshots, wearwell, folder, ...wanted] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
@@ -23,6 +24,10 @@ const hours = [212.5, 305, 371, 418.5, 466, 509, 540, 588, 633, 702, 749, 1800, 
 const german = (x) => x.toLocaleString('de-DE', {minimumFractionDigits: 1});
 const messy = ['Pumpenprüfstand Halle 3', 'Prüfer: Jürgen Müller', '', 'Nr.;Laufzeit [h];Status;Bemerkung',
                ...hours.map((each, i) => `P${i + 1};${german(each)};${i < 11 ? 'Ausfall' : 'läuft'};${i === 3 ? '"Lager; laut"' : ''}`), ''].join('\r\n');
+
+// The same as a workbook, whose table is on the second sheet.
+const messyBook = workbook([['Deckblatt', [['Halle 3'], ['', 'geprüft']]], ['Läufe', [['Pumpenprüfstand Halle 3'], ['Prüfer: Jürgen Müller'], [], ['Nr.', 'Laufzeit [h]', 'Status', 'Bemerkung'],
+  ...hours.map((each, i) => [`P${i + 1}`, each, i < 11 ? 'Ausfall' : 'läuft', i === 3 ? 'Lager; laut' : ''])]]]);
 
 async function serve(inside) {
   const child = spawn(wearwell, ['open', inside, '--no-browser'], {stdio: ['ignore', 'pipe', 'inherit']});
@@ -67,7 +72,7 @@ async function looks(page, what, complaints) {
   if (wide) complaints.push(`${what}: the page is wider than the screen`);
 }
 
-async function walk(browser, {name, ...options}) {
+async function walk(browser, {name, book, ...options}) {
   const complaints = [];
   const inside = fresh(name);
   const {address, stop} = await serve(inside);
@@ -77,7 +82,9 @@ async function walk(browser, {name, ...options}) {
   let actions = 0;
   const act = async (does) => { actions += 1; await does(); };
 
-  await act(() => page.setInputFiles('#choose', {name: 'pumps.csv', mimeType: 'text/csv', buffer: Buffer.from(messy, 'latin1')}));
+  await act(() => page.setInputFiles('#choose', book ? {name: 'pumps.xlsx', mimeType: 'application/octet-stream', buffer: messyBook}
+    : {name: 'pumps.csv', mimeType: 'text/csv', buffer: Buffer.from(messy, 'latin1')}));
+  if (book) await act(() => page.click('button:text-is("Läufe")', {timeout: 60000}));
   await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
   await page.waitForSelector('#panel-data svg.plot');
   await looks(page, `${name} data`, complaints);
@@ -278,10 +285,16 @@ async function tabs(browser) {
   await first.click('#panel-fit button');
   await first.waitForSelector('#trusted', {timeout: 240000});
   const before = await b10();
+  // Another program changes the table: the one that is shown is old.
+  writeFileSync(join(inside, 'pumps.csv'), `${messy}P16;800,5;läuft;\r\n`, 'latin1');
   await first.click('#step-model');
   await first.fill('[id="key-predict.credible_level"]', '0.99');
   await first.press('[id="key-predict.credible_level"]', 'Tab');
   await value(first, 'credible_level = 0.99');
+  await first.waitForSelector('#notice .callout:has-text("pumps.csv has been changed or removed")', {timeout: 60000});
+  await looks(first, 'tabs changed', complaints);
+  await first.click('#notice button:has-text("Read again")');
+  await first.waitForFunction(() => document.querySelector('#panel-data caption').textContent.includes('16 rows') && !document.querySelector('#notice').textContent.includes('changed or removed'), null, {timeout: 60000});
   await first.click('#step-fit');
   await first.click('#panel-fit button');
   await first.waitForFunction((old) => [...document.querySelectorAll('#result tr')].some((each) => each.textContent.startsWith('B10') && each.textContent !== old), before, {timeout: 240000});
@@ -357,6 +370,39 @@ async function large(browser) {
   await context.close();
   await stop();
   faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `large: ${each}`));
+}
+
+// From an S-N table in a workbook, with a mean below that is refused until it is stated, to its design values, in at most ten actions.
+async function curve(browser, {name, ...options}) {
+  const complaints = [], inside = fresh(name), {address, stop} = await serve(inside), context = await browser.newContext(options);
+  const page = await open(context, address, complaints);
+  let actions = 0;
+  const act = async (does) => { actions += 1; await does(); };
+  await act(() => page.setInputFiles('#choose', {name: 'tests.xlsx', mimeType: 'application/octet-stream', buffer: readFileSync(new URL('../../examples/messy/woehler.xlsx', import.meta.url))}));
+  await act(() => page.click('button:text-is("Versuche")', {timeout: 60000}));
+  await page.waitForSelector('#refused-summary_rows', {timeout: 60000});
+  check((await page.textContent('#banners')).includes('Mittelwert'), `${name}: the row of a mean is not refused: ${await page.textContent('#banners')}`);
+  await looks(page, `${name} refused`, complaints);
+  await page.screenshot({path: join(screenshots, `workbench-${name}-refused.png`), fullPage: true});
+  await act(() => page.fill('#refused-summary_rows', 'last'));
+  await act(() => page.press('#refused-summary_rows', 'Enter'));
+  await page.waitForSelector('#panel-data tbody tr', {timeout: 60000});
+  check(!(await page.textContent('#banners')) && !(await page.textContent('#refused')), `${name}: what was refused stays on the page`);
+  await act(() => page.click('#step-model'));
+  await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
+  await act(() => page.click('#step-fit'));
+  await act(() => page.click('#panel-fit button'));
+  await page.waitForSelector('#trusted', {timeout: 240000});
+  const shown = await page.$$eval('#table-bounds tbody tr', (all) => all.map((each) => each.textContent));
+  check(actions <= 10 && shown.some((each) => each.startsWith('B10')), `${name}: ${actions} actions, design values ${shown}`);
+  await looks(page, `${name} fit`, complaints);
+  const fit = spawnSync(wearwell, ['fit', 'tests.toml', '-o', 'by-program', '--quiet'], {cwd: inside, encoding: 'utf8'});
+  check(fit.status <= 1, `${name}: wearwell fit: ${fit.stderr}`);
+  const summary = (result) => readFileSync(join(inside, result, 'summary.json'), 'utf8');
+  check(summary('tests-results') === summary('by-program'), `${name}: the program gives other digits`);
+  await context.close();
+  await stop();
+  faults.push(...complaints.filter((each) => !/status of 400/.test(each)).map((each) => `${name}: ${each}`));
 }
 
 // From wear paths to remaining useful lives, in at most ten actions, and `wearwell fit` and `wearwell life` give the same. The liners are
@@ -472,6 +518,7 @@ async function readings(browser) {
   await page.click('#step-model');
   await page.click('.question button >> nth=0');
   await page.waitForSelector('.question', {state: 'detached', timeout: 60000});
+  check(await page.evaluate(() => document.activeElement.closest('#panel-model') !== null), 'readings: after an answer the focus is at the top of the page');
   await page.click('.editing button:has-text("Save")');
   await page.waitForFunction(() => document.querySelector('.editing').textContent.includes('Saved as wear.toml'), null, {timeout: 60000});
 
@@ -579,9 +626,12 @@ async function inGerman(browser, {name, ...options}) {
   await page.waitForSelector('.check[data-state="good"]', {timeout: 60000});
   await looks(page, `${name} model`, complaints);
   await shot('model');
+  const told = await page.textContent('.reasons');
+  check(told.includes("life: Spalte 'hours [h]' in h") && await page.locator(':is(.reasons, .readings) [lang="en"]').count() === 0, `${name}: guesses are ${told}`);
   await page.click('#step-fit');
   await page.click('#panel-fit button');
   await page.waitForSelector('#trusted', {timeout: 240000});
+  check(await page.locator('[role="status"] #trusted').count() === 1, `${name}: a screen reader does not hear the verdict`);
   check((await page.textContent('#result .command')).startsWith('wearwell fit ') && (await page.textContent('#result .python')).includes('ww.fit('), `${name}: the fit has no lines`);
   await looks(page, `${name} fit`, complaints);
   await shot('fit');
@@ -741,7 +791,10 @@ async function corrections(browser, {name, ...options}) {
   await looks(page, `${name} unit`, complaints);
   await page.screenshot({path: join(screenshots, `workbench-${name}-unit.png`), fullPage: true});
   await page.evaluate(() => { document.getElementById('study').value = ''; });
-  await page.click('#banners button');
+  const focus = () => page.evaluate(() => document.activeElement.id || document.activeElement.closest('[id]').id);
+  await page.focus('#banners button');
+  await page.keyboard.press('Enter');
+  check(await focus() === 'unit-2', `${name}: after a message the focus is on ${await focus()}`);
 
   // Lines of the file become headings and units.
   await openTable('rig.csv');
@@ -754,6 +807,7 @@ async function corrections(browser, {name, ...options}) {
   await page.screenshot({path: join(screenshots, `workbench-${name}-line.png`), fullPage: true});
   await page.click('#heading-lines button:has-text("There is no line of units")');
   await page.waitForFunction((before) => document.querySelector('#panel-data caption').textContent !== before, rows, {timeout: 60000});
+  check(await focus() === 'heading-lines', `${name}: after a choice the focus is on ${await focus()}`);
   check((await page.textContent('#panel-data caption')).includes('16 rows'), `${name}: without a line of units there are ${await page.textContent('#panel-data caption')}`);
   await page.click('#line-5');
   await page.click('#heading-lines button:has-text("These are units")');
@@ -872,7 +926,7 @@ const light = {viewport: {width: 1280, height: 900}, colorScheme: 'light'}, dark
 const narrowLight = {viewport: {width: 390, height: 844}, colorScheme: 'light'}, narrowDark = {viewport: {width: 390, height: 844}, colorScheme: 'dark'};
 const walks = {
   lives: async () => {
-    await walk(browser, {name: 'wide-light', ...light});
+    await walk(browser, {name: 'wide-light', book: true, ...light});
     await walk(browser, {name: 'narrow-dark', ...narrowDark});
   },
   german: async () => {
@@ -884,6 +938,7 @@ const walks = {
     await priors(browser, {name: 'priors-narrow-dark', ...narrowDark});
   },
   corrections: () => corrections(browser, {name: 'corrections-light', ...light}),
+  curve: () => curve(browser, {name: 'curve-tablet-dark', viewport: {width: 820, height: 1180}, colorScheme: 'dark'}),
   dates: () => dates(browser, {name: 'dates-narrow-dark', ...narrowDark}),
   errors: () => errors(browser),
   tabs: () => tabs(browser),

@@ -1,5 +1,6 @@
 // The sentences of the workbench: both languages have the same keys, none is empty or in the other language, each is used, and no
 // sentence stands in the scripts outside the tables. Without a browser.
+// What the program says of a table (strings.program) stands in its sources, and what these say there is in the tables.
 //
 //   node workbench_strings.mjs SCRIPTS
 import {readFileSync, readdirSync} from 'node:fs';
@@ -87,9 +88,33 @@ for (const [name, table] of others) {
 for (const [name, table] of tables)
   for (const [place, [text]] of table) check(text.trim() === text && text.length > 0, `${name}: ${place} is empty or has blanks at its ends`);
 
+// Sentences of the program. Adjacent literals of C++ are one; between those of a table stand names.
+const sources = join(scripts, '..'), literal = /"((?:[^"\\\n]|\\.)*)"(?:\s*"((?:[^"\\\n]|\\.)*)")*/g;
+const literals = (code) => [...code.matchAll(literal)].map(([all]) => [...all.matchAll(/"((?:[^"\\\n]|\\.)*)"/g)].map(([, each]) => each).join('').replaceAll('\\"', '"'));
+const said = readdirSync(sources, {recursive: true}).filter((each) => /^(study|workbench|models|input|infer)\/.*\.cpp$/.test(each)).map((each) => [each, readFileSync(join(sources, each), 'utf8')]);
+const inSources = said.flatMap(([, code]) => literals(code)).join('\n');
+const fragments = (sentence) => sentence.split(/\{[^}]*\}/);
+for (const [key, english] of Object.entries(languages.en.program)) {
+  for (const each of fragments(english)) check(inSources.includes(each.trim()), `program.${key}: the program does not say "${each}"`);
+  for (const [name, {program}] of Object.entries(languages)) check(program[key]?.split('{}').length === english.split('{}').length, `${name}: program.${key} has other names`);
+}
+// Of readings, guesses and questions of a table.
+const known = Object.values(languages.en.program).join('\n'), calls = /\b(?:guesses|taken|unstated|questions|readings)\.(?:push_back|emplace_back)\(|\bunstated_line\(|\bor_state\(|TableQuestion question\{|\bsaid\.(?:push_back|emplace_back)\(|\bstudy\.(?:taken|guesses|reading) = |\broles\.study\(/g;
+let seen = 0;
+for (const [name, code] of said.filter(([each]) => /^(study|models|workbench)/.test(each))) {
+  for (const {0: call, index} of code.matchAll(calls)) {
+    const end = code.slice(index).search(call.includes('study(') ? /ReadingFit/ : /;\n/);
+    for (const sentence of literals(code.slice(index, index + end)).flatMap(fragments).filter((each) => /[a-z]{3} [a-z]{2}/.test(each))) {
+      seen += 1;
+      check(known.includes(sentence.trim()), `${name}: not in the tables: ${sentence}`);
+    }
+  }
+}
+check(seen > 60, `only ${seen} sentences of the program are found`);
+
 // What scripts use, and what stands in them beside that.
 const top = new Set(Object.keys(languages.en)), used = new Set();
-const technical = /^(use strict|input:checked|allow-scripts allow-downloads allow-popups|study\.toml|data\..*|Bearer .*|Content-Type|scroll whole|callout (warn|fail)|fields sliders|random_effects\..*|http:\/\/www\.w3\.org\/1998\/Math\/MathML|choices question| label label-.*|\/api\/.*|M\$\{.*|(weak|p) = \{ distribution = .*|\\n\\n\[subpopulations\].*)$/;
+const technical = /^(button:not\(:disabled\), .*|use strict|input:checked|allow-scripts allow-downloads allow-popups|study\.toml|data\..*|Bearer .*|Content-Type|scroll whole|callout (warn|fail)|fields sliders|random_effects\..*|http:\/\/www\.w3\.org\/1998\/Math\/MathML|choices question| label label-.*|\/api\/.*|M\$\{.*|(weak|p) = \{ distribution = .*|\\n\\n\[subpopulations\].*)$/;
 for (const name of readdirSync(scripts).filter((each) => each.endsWith('.js') && !each.startsWith('strings_'))) {
   const code = read(name).replace(/^\s*\/\/.*$/gm, '').replace(/ \/\/ .*$/gm, '');
   for (const [, key] of code.matchAll(/\bstrings\.([A-Za-z_]+)/g)) {

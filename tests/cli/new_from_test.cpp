@@ -158,5 +158,22 @@ TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {
   EXPECT_TRUE(std::filesystem::exists(folder() / "lives-study" / "study.toml"));
 }
 
+// One cell of words makes a column of labels, which is no response: the message names the cell, and new says it at once.
+TEST_F(NewFrom, NamesTheCellThatIsNoNumberOfAResponse) {
+  write("rates.csv",
+        "film_2,N (1000),loss\n10,1,1.2\n20,1,x\n20,2,2.1\n40,1,3.9\n80,2,n/a\n80,3,8\n");
+  const CommandResult run = here("new formula --from rates.csv --column response=loss");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("likelihood.loss: is not a numeric column: "),
+                             HasSubstr("2, column 'loss': 'x' is not a number\n"),
+                             HasSubstr("\n    [likelihood.loss]\n"), Not(HasSubstr("\\x0a"))));
+  const CommandResult fit = here("fit rates-study/study.toml");
+  EXPECT_EQ(fit.exit_code, 2);
+  EXPECT_THAT(fit.err, HasSubstr("row 2, column 'loss': 'x' is not a number"));
+  // The second film, and a factor: neither is a unit of a text.
+  write("rates.csv", "film_2,N (1000),loss\n10,1,1.2\n20,1,2\n20,2,2.1\n40,1,3.9\n80,3,8\n");
+  EXPECT_EQ(here("new formula again --from rates.csv --column response=loss").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace wearwell

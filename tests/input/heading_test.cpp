@@ -93,6 +93,10 @@ TEST_F(HeadingTest, WhatIsNoUnit) {
               ElementsAre(DoubleEq(2e-3), DoubleEq(3e-3)));
   EXPECT_THAT(read("life_10", "V = 'life_10'", "cycle"), ElementsAre(2, 3));
   EXPECT_THAT(read("life (2)", "V = 'life (2)'", "cycle"), ElementsAre(2, 3));
+  // Also where any dimension is allowed: the second of its kind, not a factor of 2.
+  for (const char* second : {"film_2", "film (2)", "film_10"})
+    EXPECT_EQ(read_heading(second, "").unit, "") << second;
+  EXPECT_EQ(read_heading("N (1000)", "").unit, "1000");
   EXPECT_THAT(refused("V [corrected]", "V = 'V'", "m^3"), HasSubstr("'corrected' is not a unit"));
   EXPECT_THAT(refused("cycles [Stk]", "V = 'cycles'", "cycle"), HasSubstr("'Stk' is not a unit"));
   EXPECT_THAT(refused("V", "V = 'V'", "m^3"),

@@ -200,6 +200,14 @@ std::string listed(const char* title, const std::vector<std::string>& lines) {
   return text;
 }
 
+// Under a message may stand the line of the study, with a mark: these keep their columns.
+std::string problem_text(std::string_view message) {
+  const std::size_t end = std::min(message.find('\n'), message.size());
+  std::string text = wrapped(printable(message.substr(0, end)), 2, 4);
+  if (end < message.size()) text += printable_lines(message.substr(end + 1)) + "\n";
+  return text;
+}
+
 std::string description(const NewOptions& options, const std::vector<GuessedStudy>& found) {
   const Scaffold& first = found.front().study;
   std::vector<std::string> others;
@@ -252,7 +260,7 @@ int run(NewOptions options, Models models) {
     fmt::print(
         "The study does not run yet:\n"
         "{}Correct {}, then run: wearwell check {}\n",
-        wrapped(printable(error.what()), 2, 4), study.string(), file);
+        problem_text(error.what()), study.string(), file);
     return 1;
   }
   fmt::print(

@@ -21,11 +21,8 @@ bool is_power_of_ten(const std::string& text) {
   return std::abs(power - std::round(power)) < 1e-9;
 }
 
-bool is_unit(const std::string& text, std::string_view si, bool suffix = false) {
+bool is_unit(const std::string& text, std::string_view si) {
   if (text.empty()) return false;
-  const bool number = text.front() >= '0' && text.front() <= '9' && text.find('/') == text.npos &&
-                      text.find(' ') == text.npos;
-  if (number && !si.empty() && (suffix || !is_power_of_ten(text))) return false;
   try {
     if (si.empty()) return parse_unit(text).has_value();
     read_unit(text, si);
@@ -77,6 +74,12 @@ std::optional<Heading> within(const std::string& text) {
 
 }  // namespace
 
+bool is_unit_of_heading(const std::string& text, std::string_view si, bool suffix) {
+  const bool number = !text.empty() && text.front() >= '0' && text.front() <= '9' &&
+                      text.find('/') == text.npos && text.find(' ') == text.npos;
+  return !(number && (suffix || !is_power_of_ten(text))) && is_unit(text, si);
+}
+
 Heading read_heading(std::string_view heading, std::string_view si) {
   const std::string text(trimmed(heading));
   if (auto found = in_brackets(text, '[', ']')) {
@@ -89,7 +92,7 @@ Heading read_heading(std::string_view heading, std::string_view si) {
     if (found->name.ends_with('/'))
       found->name = trimmed(found->name.substr(0, found->name.size() - 1));
     found->certain = without_times(found->unit) != found->unit;
-    if (found->certain || is_unit(found->unit, si)) return *found;
+    if (found->certain || is_unit_of_heading(found->unit, si)) return *found;
   }
   // Tries the longest unit first: "speed in 1/min" is not "speed in 1" per minute.
   constexpr std::array<std::string_view, 4> separators = {" / ", " in ", ", ", "/"};
@@ -98,11 +101,11 @@ Heading read_heading(std::string_view heading, std::string_view si) {
     if (at == text.npos || at == 0) continue;
     const Heading found{std::string(trimmed(text.substr(0, at))),
                         bare_unit(text.substr(at + separator.size())), false};
-    if (is_unit(found.unit, si)) return found;
+    if (is_unit_of_heading(found.unit, si)) return found;
   }
   for (std::size_t at = text.find('_'); at != text.npos && at > 0; at = text.find('_', at + 1)) {
     const Heading found{text.substr(0, at), text.substr(at + 1), false, true};
-    if (is_unit(found.unit, si, true)) return found;
+    if (is_unit_of_heading(found.unit, si, true)) return found;
   }
   if (const auto found = within(text)) return *found;
   return {text, "", false};

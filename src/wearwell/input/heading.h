@@ -21,6 +21,10 @@ struct Heading {
 /// `si`: the dimension that an ambiguous unit must have; empty for any.
 Heading read_heading(std::string_view heading, std::string_view si);
 
+/// Whether a text at the end of a heading is a unit of the dimension of `si` (any if empty); `suffix`: behind '_'. A number there is a
+/// factor, "cycles (1000)", or the place of a column among others: "film (2)", "film_2".
+bool is_unit_of_heading(const std::string& text, std::string_view si, bool suffix = false);
+
 /// Whether a cell may be the unit of its column: "mm", "[mm]", "(mm)".
 bool is_unit_cell(std::string_view cell);
 

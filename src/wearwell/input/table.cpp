@@ -20,26 +20,26 @@ std::string remarks_suffix(const std::vector<std::string>& remarks) {
 }
 
 const Column& Table::column(std::string_view name) const {
-  std::vector<std::string> names;
-  const Column *of_name = nullptr, *other = nullptr, *exact = nullptr;
   const auto refuse_two = [&](const Column& a, const Column& b) {
     throw InputError(fmt::format(
         "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}). Use the whole heading "
         "of one, or rename one if both are the same",
         source, name, a.name, &a - columns.data() + 1, b.name, &b - columns.data() + 1));
   };
-  for (const Column& each : columns) {
-    names.push_back(each.name);
-    if (each.name == name) {
-      if (exact) refuse_two(*exact, each);
-      exact = &each;
+  // Headings are taken apart only where none is the whole name: rows ask for their column, too.
+  const Column* found = nullptr;
+  const auto look = [&](const auto& is_named) {
+    for (const Column& each : columns) {
+      if (!is_named(each)) continue;
+      if (found) refuse_two(*found, each);
+      found = &each;
     }
-    if (read_heading(each.name, "").name != name) continue;
-    (of_name ? other : of_name) = &each;
-  }
-  if (exact) return *exact;
-  if (other) refuse_two(*of_name, *other);
-  if (of_name) return *of_name;
+  };
+  look([&](const Column& each) { return each.name == name; });
+  if (!found) look([&](const Column& each) { return read_heading(each.name, "").name == name; });
+  if (found) return *found;
+  std::vector<std::string> names;
+  for (const Column& each : columns) names.push_back(each.name);
   throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", source, name,
                                nearest_name(name, names)));
 }

@@ -38,6 +38,10 @@ std::string without_accents(std::string_view text) {
        {"\u00a0", " "}, {"\u202f", " "}}};
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
+    if (static_cast<unsigned char>(text[i]) < 0x80) {
+      result += text[i++];
+      continue;
+    }
     bool found = false;
     for (const auto& [accented, without] : plain) {
       if (!text.substr(i).starts_with(accented)) continue;
@@ -137,7 +141,7 @@ std::string stated_unit(const Column& column) {
                                         heading.unit == "in" || heading.unit == "at");
   if (!heading.unit.empty() && !index) return plain_powers(heading.unit);
   const std::string brackets = plain_powers(bracketed(column.name));
-  return is_unit_of(brackets, "") ? brackets : "";
+  return is_unit_of_heading(brackets, "") ? brackets : "";
 }
 
 NameAndUnit name_and_unit(const Column& column, std::string_view si) {

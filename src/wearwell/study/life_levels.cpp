@@ -64,7 +64,7 @@ LifeLevels read_life_levels(const TomlReader& predict) {
 StudyKeys level_keys(const std::string& of) {
   return {
       {"predict.level", "0.9", "confidence (credible level) of the bounds of " + of},
-      {"predict.credible_level", "0.9", "the same"},
+      {"predict.credible_level", "0.9", "as predict.level; write one of the two"},
       {"predict.sides", "\"both\"",
        "which bounds at this level: \"lower\" (the default), \"upper\", or \"both\" ends of the "
        "interval"}};

@@ -140,9 +140,19 @@ Json guess_action(Session& session, const json& wish) {
   return guesses_json(*table_of_wish(session, wish), session.models, wish);
 }
 
+// Whether another program has changed or removed the file of the open table. A study reads the file.
+bool is_table_changed(Session& session) {
+  const std::lock_guard lock(session.mutex);
+  const auto& open = session.table;
+  return open && stamp_of(session.folder / open->file) != open->stamp;
+}
+
 Json check_action(Session& session, const json& wish) {
   const std::string name = wish.value("file", "study.toml");
-  return checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+  Json json =
+      checked_study(path_in(session.folder, name), text_of_wish(wish, "text"), session.models);
+  json["table_changed"] = is_table_changed(session);
+  return json;
 }
 
 Json form_action(Session& session, const json& wish) {
@@ -331,12 +341,14 @@ Json session_json(Session& session) {
     version = session.version;
   }
   Json files = listed_files(session.folder);
+  const bool table_changed = is_table_changed(session);
   const std::lock_guard lock(session.mutex);
   return {{"version", version},
           {"folder", printable(valid_utf8(session.folder.string()))},
           {"files", std::move(files)},
           {"table", session.table ? session.table->file : ""},
           {"table_number", session.table ? session.table->number : 0},
+          {"table_changed", table_changed},
           {"workbook", session.workbook},
           {"study", session.study},
           {"result", session.result},
@@ -375,9 +387,11 @@ Json open_file(Session& session, const json& wish) {
   return open_named(session, text_of_wish(wish, "file"), settings_of(wish), {});
 }
 
-Json upload(Session& session, const std::string& name, std::string bytes) {
+Json upload(Session& session, const json& wish, std::string bytes) {
+  const std::string name = text_of_wish(wish, "file");
+  const auto settings = settings_of(wish);
   const fs::path path = path_in(session.folder, name);
-  if (!store_upload(session, path, name, bytes)) return open_named(session, name, {}, {});
+  if (!store_upload(session, path, name, bytes)) return open_named(session, name, settings, {});
   // It is not removed if another program has changed it since.
   const auto forget = [&session, path, bytes = std::move(bytes)] {
     const std::lock_guard one_writer(session.writing);
@@ -386,7 +400,7 @@ Json upload(Session& session, const std::string& name, std::string bytes) {
   };
   const bool is_table = kind_of(path) == "table";
   try {
-    return open_named(session, name, {}, forget);
+    return open_named(session, name, settings, forget);
   } catch (...) {
     if (!is_table) forget();
     throw;

@@ -26,9 +26,10 @@ Look look_of(std::string_view path);
 using Action = Json (*)(Session& session, const nlohmann::json& wish);
 Action action_of(std::string_view path);
 
-/// Writes `bytes` as a new file `name` of the folder, and opens it. A file with other content stays, and
-/// is an error. A new file that cannot be read as a table is removed; one whose reading is stopped stays.
-Json upload(Session& session, const std::string& name, std::string bytes);
+/// Writes `bytes` as a new file of the folder, and opens it; `wish` as of `open_file`. A file with other
+/// content stays, and is an error. A new file that cannot be read as a table is removed; one whose
+/// reading is stopped stays.
+Json upload(Session& session, const nlohmann::json& wish, std::string bytes);
 
 /// Opens a study or a result of the folder, or begins to read a table (workbench/table_reading.h).
 Json open_file(Session& session, const nlohmann::json& wish);

@@ -72,7 +72,9 @@
     if (rows.length) card.append(...wearwell.sameLines(lines));
   }
 
+  // Units and lives have other names in another result.
   function result(found) {
+    if (folder !== found.folder) for (const id of ['ask-unit', 'decide-at']) document.getElementById(id).value = '';
     folder = found.folder;
     place.none.hidden = found.lives;
     place.none.textContent = found.no_lives ?? strings.noLives;

@@ -48,13 +48,32 @@
   });
   function catchUp() { if (!opening && announced > (table?.number ?? 0)) wearwell.quietly(reload); }
 
-  const open = (file, settings = {}) => opens(() => wearwell.post('/api/open', {file, settings}));
-  const upload = (file) => opens(() => wearwell.upload(file));
+  // The latest file that this page wants open.
+  let wish = null;
+  const begin = (next, ask) => opens(async () => {
+    wish = next;
+    place.refused.replaceChildren();
+    try {
+      return await ask();
+    } catch (error) {
+      if (error.status === 400) refused();
+      throw error;
+    }
+  });
+  const open = (file, settings = {}) => begin({file, settings, again: (wanted) => open(file, wanted)}, () => wearwell.post('/api/open', {file, settings}));
+  const upload = (file, settings = {}) => begin({file: file.name, settings, again: (wanted) => upload(file, wanted)}, () => wearwell.upload(file, settings));
+
+  // A table that is not read as it is stored may be read once it is stated how.
+  function refused() {
+    if (!/\.(csv|tsv|txt|dat|asc|json|ndjson|jsonl|gz|parquet|xlsx)$/i.test(wish.file)) return;
+    place.refused.replaceChildren(element('details', {open: true}, element('summary', {}, `${wish.file}: ${strings.stored}`), storedForm('refused', wish.settings, wish.again)));
+  }
 
   // A table that has been read is announced by its number.
   function ended({state, file, sheets: names, problem}) {
     if (state === 'sheets') sheets({file, sheets: names});
     if (state === 'stopped') place.moved.textContent = strings.readingStopped(file);
+    if (state === 'failed' && wish?.file === file) refused();
     if (state === 'failed') wearwell.quietly(() => { throw new Error(problem); });
   }
 
@@ -83,7 +102,7 @@
     const number = table.columns[index].kind === 'number';
     const text = value === null ? '' : String(value);  // all digits
     const made = element('td', {class: `${number || text.length < 25 ? 'short' : ''}${number ? ' number' : ''}${refusal ? ' refused' : ''}`}, text);
-    if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${refusal}`));
+    if (refusal) made.append(element('small', {}, `${strings.refusedCell}: ${wearwell.ofProgram(refusal)}`));
     return made;
   }
 
@@ -117,18 +136,21 @@
     return ofTable(rows);
   });
 
-  function settings() {
+  // How a file stores its table, in fields.
+  function storedForm(id, known, read) {
     const make = (key) => (key === 'sql' ? wearwell.area : wearwell.field);
-    const inputs = Object.entries(strings.settings).map(([key, label]) => [key, make(key)(label, `setting-${key}`, {value: table.settings[key] ?? ''})]);
-    place.settings.replaceChildren(element('summary', {}, strings.stored), element('p', {}, table.layout),
-        element('form', {class: 'fields'}, ...inputs.map(([, field]) => field), element('button', {}, strings.apply)));
-    place.settings.querySelector('form').addEventListener('submit', (event) => {
+    const inputs = Object.entries(strings.settings).map(([key, label]) => [key, make(key)(label, `${id}-${key}`, {value: known[key] ?? ''})]);
+    const form = element('form', {class: 'fields'}, ...inputs.map(([, field]) => field), element('button', {}, strings.apply));
+    form.addEventListener('submit', (event) => {
       event.preventDefault();
       const wanted = {};
       for (const [key, field] of inputs) { const {value} = field.querySelector('input, textarea'); if (value) wanted[key] = value; }
-      readWith(wanted);
+      read(wanted);
     });
+    return form;
   }
+
+  const settings = () => place.settings.replaceChildren(element('summary', {}, strings.stored), element('p', {lang: 'en'}, table.layout), storedForm('setting', table.settings, readWith));
 
   // The axis on which a run-out would have gone on.
   const isLife = (column) => column && /^(ms|s|min|k?h|hours?|d|days?|weeks?|months?|years?|m?cycles?|rev|revolutions?|km|miles?)$/i.test(column.unit);
@@ -168,9 +190,10 @@
     table = next;
     [from, fromColumn] = [0, 0];
     place.sheets.replaceChildren();
+    place.refused.replaceChildren();
     place.table.hidden = false;
     place.wide.hidden = !table.wide;
-    place.wide.textContent = table.wide ? `${wearwell.capital(table.wide)}.` : '';
+    place.wide.textContent = table.wide ? `${wearwell.capital(wearwell.ofProgram(table.wide))}.` : '';
     settings();
     place.lines.show(table);
     place.dates.show(table);
@@ -194,6 +217,7 @@
       if (event.dataTransfer.files.length) upload(event.dataTransfer.files[0]);
     });
     place.sheets = element('div', {});
+    place.refused = element('div', {id: 'refused'});
     place.reading = wearwell.reading(ended);
     place.lines = wearwell.headingLines(readWith);
     place.dates = wearwell.datePanel(readDates);
@@ -225,7 +249,7 @@
         element('div', {class: 'pager'}, place.earlier, place.rowsShown, place.later, go), place.columnPager, place.plotting);
     panel.append(element('h2', {}, strings.dataTitle),
         element('div', {class: 'doors'}, drop, element('div', {class: 'field'}, element('label', {for: 'in-folder'}, strings.inFolder),
-            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.moved, place.reading.panel, place.table);
+            element('div', {class: 'line'}, place.list, place.openButton))), place.sheets, place.refused, place.moved, place.reading.panel, place.table);
   }
 
   function files(all) {
@@ -245,6 +269,7 @@
   function session(now) {
     place.reading.session(now);
     announced = now.table_number;
+    if (table?.number === now.table_number) wearwell.model.fileChanged(now.table_changed);
     catchUp();
   }
 
@@ -252,5 +277,5 @@
   const unitsChanged = () => place.grid.querySelectorAll('input, select').forEach((each) => each.update?.());
 
   // A page that is opened again shows what the program has open.
-  wearwell.data = {build, files, session, has, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};
+  wearwell.data = {build, files, session, has, open, openNamed, ofTable, named, unitsChanged, restore: reload, redraw: () => { if (table && !place.plotting.hidden && drawnIn !== place.plot.clientWidth) wearwell.quietly(() => ofTable(plot)); }};
 })();

@@ -15,6 +15,14 @@
     place.stop.hidden = !running;
   }
 
+  // A screen reader hears a fit begin and end, and between them where it is every ten seconds.
+  let heard = 0;
+  function announce(running, text) {
+    if (running && performance.now() - heard < 10000) return;
+    heard = running ? performance.now() : 0;
+    if (place.heard.textContent !== text) place.heard.textContent = text;
+  }
+
   function progress(fit) {
     const running = fit.state === 'running';
     show(running);
@@ -22,10 +30,12 @@
     place.progress.replaceChildren();
     if (running) {
       if (fit.total) { place.bar.max = fit.total; place.bar.value = fit.done; } else { place.bar.removeAttribute('value'); }
-      const steps = fit.total ? strings.steps_of(wearwell.count(fit.done), wearwell.count(fit.total), fit.what) : fit.done ? strings.steps_(wearwell.count(fit.done), fit.what) : fit.what;
+      const what = wearwell.ofProgram(fit.what);
+      const steps = fit.total ? strings.steps_of(wearwell.count(fit.done), wearwell.count(fit.total), what) : fit.done ? strings.steps_(wearwell.count(fit.done), what) : what;
       place.progress.append([strings.running(fit.study), steps, strings.seconds(Math.round(fit.seconds))].filter(Boolean).join(', '));
     }
     if (fit.state === 'stopped') place.progress.append(strings.stopped);
+    announce(running, place.progress.textContent);
     place.problem.replaceChildren(...(fit.state === 'failed' ? [element('p', {class: 'wrong'}, strings.failed), element('pre', {tabindex: 0, lang: 'en'}, fit.problem)] : []));
   }
 
@@ -41,7 +51,7 @@
         rows.length < all ? element('p', {class: 'note'}, strings.ofRows(rows.length, all)) : null);
   };
 
-  const ofProgram = (found) => wearwell.table({...found, lang: 'en'});
+  const programTable = (found) => wearwell.table({...found, lang: 'en'});
 
   function checks(all, folder) {
     const advised = all.some((each) => each.advice);
@@ -60,10 +70,10 @@
     const frame = element('iframe', {title: strings.report, sandbox: 'allow-scripts allow-downloads allow-popups'});
     const details = element('details', {}, element('summary', {}, strings.report), frame);
     details.addEventListener('toggle', () => { if (details.open && !frame.src) frame.src = report; });
-    place.result.replaceChildren(element('h3', {lang: 'en'}, found.title),
-        element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted),
-        ...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [ofProgram(main)] : []), checks(found.checks, found.folder), live.panel,
-        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(ofProgram)),
+    place.verdict.replaceChildren(element('h3', {lang: 'en'}, found.title),
+        element('p', {class: `callout ${found.trusted ? 'good' : 'fail'}`, id: 'trusted'}, found.trusted ? strings.trusted : strings.notTrusted));
+    place.result.replaceChildren(...found.leads.map((each) => element('p', {class: 'lead', lang: 'en'}, each)), element('dl', {class: 'tiles', lang: 'en'}, ...tiles), ...(main ? [programTable(main)] : []), checks(found.checks, found.folder), live.panel,
+        element('details', {}, element('summary', {}, strings.tablesTitle), ...found.tables.filter((each) => each !== main && each.id !== 'checks').map(programTable)),
         details, element('p', {}, element('a', {href: report, target: '_blank', rel: 'noopener'}, strings.reportTab)), element('p', {class: 'note'}, strings.filesIn(found.folder)),
         ...wearwell.sameLines(found));
     live.result(found);
@@ -76,6 +86,7 @@
     show(false);
     place.bar.hidden = true;
     place.progress.textContent = strings.fitLost;
+    announce(false, strings.fitLost);
   }
 
   function session(now) {
@@ -95,11 +106,13 @@
     place.stop = wearwell.button(strings.stop, () => wearwell.attempt(() => wearwell.post('/api/stop')), 'plain');
     place.stop.hidden = true;
     place.bar = element('progress', {'aria-label': strings.fitTitle, hidden: true});
-    place.progress = element('p', {role: 'status', id: 'progress'});
+    place.progress = element('p', {id: 'progress'});
+    place.heard = element('p', {class: 'heard', role: 'status'});
     place.problem = element('div', {role: 'alert'});
     live = wearwell.liveLife();
+    place.verdict = element('div', {role: 'status'});
     place.result = element('div', {id: 'result'}, element('p', {}, strings.noResult));
-    panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.problem, place.result);
+    panel.append(element('h2', {}, strings.fitTitle), element('div', {class: 'line'}, place.go, place.stop, place.bar), place.progress, place.heard, place.problem, place.verdict, place.result);
   }
 
   wearwell.fit = {build, session, lost, result: () => wearwell.quietly(result)};

@@ -66,6 +66,14 @@ std::string kind_of(const fs::path& file) {
   return is_table_name(file) ? "table" : "";
 }
 
+std::string stamp_of(const fs::path& file) {
+  std::error_code no_size, no_time;
+  const auto size = fs::file_size(file, no_size);
+  const auto time = fs::last_write_time(file, no_time);
+  if (no_size || no_time) return "";
+  return fmt::format("{} {}", size, time.time_since_epoch().count());
+}
+
 nlohmann::ordered_json listed_files(const fs::path& folder) {
   std::map<std::string, std::vector<std::string>> names;
   std::error_code error;

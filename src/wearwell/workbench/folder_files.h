@@ -17,6 +17,9 @@ std::string kind_of(const std::filesystem::path& file);
 bool is_table_name(const std::filesystem::path& file);
 bool is_study_name(const std::filesystem::path& file);
 
+/// Size and time of a file: another one means that it has been changed. Empty if there is none.
+std::string stamp_of(const std::filesystem::path& file);
+
 /// {"tables": [...], "studies": [...], "results": [...]}: names in the folder, sorted; at most 500
 /// of a kind.
 nlohmann::ordered_json listed_files(const std::filesystem::path& folder);

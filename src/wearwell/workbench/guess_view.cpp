@@ -86,8 +86,8 @@ ordered_json guesses_json(const OpenTable& open, Models models, const nlohmann::
     throw InputError(fmt::format(
         "{}: {}no study follows from its headings ({}). A study needs lives (life, cycles to "
         "failure, or hours with a status), a measurement (wear, volume, mass, crack) against "
-        "cycles, time or distance, stresses and lives, or a response under conditions. Name a "
-        "column's role below",
+        "cycles, time or distance, stresses and lives, or a response under conditions. Choose the "
+        "role of a column in its heading, or in the step Model",
         printable(open.file), dates, fmt::join(headings, ", ")));
   }
   ordered_json json = {{"readings", ordered_json::array()}};

@@ -10,6 +10,38 @@
   wearwell.strings = languages[language];
   document.documentElement.lang = language;
 
+  // What the program says of a table: its sentences are those of the English table. Of two that fit the one with more words counts.
+  const special = /[.*+?^${}()|[\]\\]/g, name = '{}', any = '([^]*?)';
+  const sentences = language === 'en' ? [] : Object.entries(languages.en.program).map(([entry, english]) => {
+    const between = english.split(name), plain = between.map((each) => each.replace(special, '\\$&'));
+    return {words: between.join('').length, isWhole: between.length === 1, own: wearwell.strings.program[entry], pattern: new RegExp(`^${plain.join(any)}$`),
+            isQuoted: between.map((each) => each.endsWith('\u0027'))};
+  }).sort((a, b) => b.words - a.words);
+
+  // In this language; null if the table does not have it. A name in quotation marks stays as it is.
+  function translated(text, least = 0) {
+    for (const {words, isWhole, own, isQuoted, pattern} of sentences) {
+      const found = words >= least || isWhole ? pattern.exec(text) : null;
+      if (!found) continue;
+      const names = found.slice(1).map((each, i) => (isQuoted[i] ? each : phrase(each)));
+      return own.split(name).reduce((made, each, i) => made + names[i - 1] + each);
+    }
+    return null;
+  }
+
+  // A phrase within a sentence, or several with "and" between them.
+  function phrase(text) {
+    const and = ({program}) => ` ${program.and} `, all = text.split(and(languages.en)).map((each) => translated(each, 10));
+    return translated(text, 10) ?? (all.includes(null) ? text : all.join(and(wearwell.strings)));
+  }
+
+  // An element with a text of the program, which is English where the table does not have it.
+  wearwell.ofProgram = (text) => translated(text) ?? text;
+  wearwell.programElement = (name, attributes, text) => {
+    const own = language === 'en' ? text : translated(text);
+    return wearwell.element(name, {...attributes, lang: own === null ? 'en' : undefined}, own ?? text);
+  };
+
   // `leave` keeps what a page that is loaded again would lose.
   wearwell.languageSwitch = (leave) => {
     const {element, strings} = wearwell;

@@ -25,7 +25,7 @@
   // {panel, result(found)} of the step Fit.
   wearwell.liveLife = () => {
     let found = null, sliders = null, asking = false, again = false, longest = null;
-    const controls = element('div', {class: 'fields sliders'}), picture = element('div', {class: 'picture'}), answer = element('pre', {class: 'answer', tabindex: 0, lang: 'en'}), same = element('div', {});
+    const controls = element('div', {class: 'fields sliders'}), picture = element('div', {class: 'picture'}), answer = element('pre', {class: 'answer', tabindex: 0, lang: 'en', 'aria-live': 'polite'}), same = element('div', {});
     const unit = element('select', {id: 'live-unit'});
     const wrong = element('p', {class: 'wrong', role: 'status'});
     const write = wearwell.button(strings.writeValues, () => wearwell.attempt(writeValues), 'plain'), reset = wearwell.button(strings.resetSliders, () => { for (const each of all()) each.reset(); ask(); }, 'plain');

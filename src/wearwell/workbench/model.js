@@ -60,6 +60,7 @@
     place.readings.hidden = true;
     place.roles.hidden = true;
     place.limit.hidden = true;
+    place.chosen.replaceChildren();
     place.reasons.replaceChildren();
   }
 
@@ -120,6 +121,7 @@
   async function checkText(checked) {
     const found = await wearwell.post('/api/check', {file: place.name.value || 'study.toml', text: checked});
     if (checked !== text()) return;
+    fileChanged(found.table_changed);
     verdict(found);
     if (table === null && saved !== null) openItsTable();
   }
@@ -153,10 +155,18 @@
     return undefined;
   }
 
+  // Of the file of the table that is shown.
+  function fileChanged(changed) {
+    if (!table || Boolean(table.changed) === changed) return;
+    table.changed = changed;
+    compare();
+  }
+
   // A study that stays, beside a table that it does not read, or reads with other settings, says so.
   function compare() {
     const notice = document.getElementById('notice');
     notice.replaceChildren();
+    if (table?.changed) notice.append(element('div', {class: 'callout warn'}, element('p', {}, strings.changedTable(table.file)), wearwell.button(strings.apply, () => wearwell.data.open(table.file, table.settings), 'plain')));
     if (!table || !keys.length || !isKept() || keptFor === table.number) return;
     const files = keys.filter(({path}) => /^data\b.*\bfile$/.test(path)).map(({value}) => value.replace(/^\.\//, ''));
     const read = {...table.settings, ...(table.wide ? {sql: table.sql} : {})};
@@ -186,7 +196,7 @@
     place.text.scrollTop = Math.max(0, (line - 4) * parseFloat(getComputedStyle(place.text).lineHeight));
   }
 
-  const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => element('li', {lang: 'en'}, each)))) : null);
+  const list = (title, lines) => (lines.length ? element('div', {}, element('h3', {class: 'reason'}, title), element('ul', {}, ...lines.map((each) => wearwell.programElement('li', {}, each)))) : null);
 
   // The options of a reading, as `wearwell new` has them: {"--column", "depth=wear"}.
   function choose(options) {
@@ -220,8 +230,8 @@
   }
 
   function reasons(reading) {
-    const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, element('legend', {lang: 'en'}, question.text),
-        ...question.readings.map((each) => wearwell.button(each.text, () => choose(each.options), 'plain'))));
+    const asked = reading.questions.map((question) => element('fieldset', {class: 'choices question'}, wearwell.programElement('legend', {}, question.text),
+        ...question.readings.map((each) => wearwell.button(wearwell.ofProgram(each.text), () => choose(each.options), 'plain'))));
     const wantsLimit = [...reading.guesses, ...reading.unstated].some((each) => each.includes('--limit'));
     place.limit.hidden = !wantsLimit && choices.limit === undefined;
     place.reasons.replaceChildren(...[...asked, list(strings.guesses, reading.guesses), list(strings.unstated, reading.unstated), list(strings.taken, reading.taken)].filter(Boolean));
@@ -262,7 +272,7 @@
     place.readings.replaceChildren(element('legend', {}, strings.readings), ...readings.map((each, i) => {
       const input = element('input', {type: 'radio', name: 'reading', value: each.preset, id: `reading-${i}`, checked: i === first});
       input.addEventListener('change', () => { choices.preset = each.preset; take(each); });
-      return element('label', {class: 'tick', for: `reading-${i}`}, input, `${each.preset}: ${each.reading}`, equal > 1 && each.equal ? element('small', {}, ` (${strings.equal})`) : null);
+      return element('label', {class: 'tick', for: `reading-${i}`}, input, element('span', {}, `${each.preset}: `, wearwell.programElement('span', {}, each.reading)), equal > 1 && each.equal ? element('small', {}, ` (${strings.equal})`) : null);
     }));
     place.readings.hidden = false;
     if (first >= 0) { take(readings[first]); return; }
@@ -315,7 +325,7 @@
   async function save() {
     place.note.textContent = '';
     if (unread) throw new Error(strings.chooseReading);
-    if (questions.length) throw new Error(strings.openQuestion(questions[0].text));
+    if (questions.length) throw new Error(strings.openQuestion(wearwell.ofProgram(questions[0].text)));
     const content = text(), name = place.name.value, before = name === savedName ? saved : null;
     await wearwell.post('/api/save', {file: name, text: content, before});
     [saved, savedName] = [content, name];
@@ -334,7 +344,7 @@
     place.roles = element('details', {hidden: true}, element('summary', {}, strings.columnRole), element('div', {class: 'fields'},
         element('div', {class: 'field'}, element('label', {for: 'role'}, strings.role), place.role),
         element('div', {class: 'field'}, element('label', {for: 'role-column'}, strings.column), place.column),
-        wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))), place.chosen);
+        wearwell.button(strings.setRole, () => choose(['--column', `${place.role.value}=${place.column.value}`]))));
     const limit = wearwell.field(strings.limit[0], 'limit', {placeholder: strings.limit[1]});
     place.limit = element('form', {class: 'fields', hidden: true}, limit, element('button', {class: 'plain'}, strings.setRole));
     place.limit.addEventListener('submit', (event) => { event.preventDefault(); wearwell.attempt(() => setLimit(limit.querySelector('input').value)); });
@@ -354,7 +364,7 @@
     place.note = element('p', {class: 'note', role: 'status'});
     place.undo = wearwell.button(strings.undo, undo, 'plain');
     place.work = element('div', {class: 'two', hidden: true},
-        element('div', {}, place.readings, place.limit, place.reasons, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
+        element('div', {}, place.readings, place.limit, place.reasons, place.chosen, place.roles, element('h3', {}, strings.formTitle), place.form, ...place.parts.map((each) => each.panel)),
         element('div', {class: 'editing'}, element('h3', {}, element('label', {for: 'study'}, strings.editorLabel)),
             element('div', {class: 'editor'}, place.gutter, place.text), place.check, formulas.panel,
             element('div', {class: 'line'}, name, wearwell.button(strings.save, () => wearwell.attempt(save)), place.undo, place.state), place.note));
@@ -379,5 +389,5 @@
     marks();
   }
 
-  wearwell.model = {build, leave, study, setRole, becomes, resume, tableOpened, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
+  wearwell.model = {build, leave, study, setRole, becomes, resume, tableOpened, fileChanged, show, save, hasText: () => Boolean(text()), restore: async () => { const {file, text: content} = await wearwell.get('/api/study'); show(file, content); }};
 })();

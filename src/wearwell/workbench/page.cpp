@@ -15,6 +15,7 @@ ServedPage workbench_page() {
                       {of::workbench_strings_en_js(), of::workbench_strings_en_js_sha256()},
                       {of::workbench_strings_de_js(), of::workbench_strings_de_js_sha256()},
                       {of::workbench_language_js(), of::workbench_language_js_sha256()},
+                      {of::workbench_focus_js(), of::workbench_focus_js_sha256()},
                       {of::workbench_server_js(), of::workbench_server_js_sha256()},
                       {of::workbench_scatter_js(), of::workbench_scatter_js_sha256()},
                       {of::workbench_reading_js(), of::workbench_reading_js_sha256()},

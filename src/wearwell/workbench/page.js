@@ -28,9 +28,10 @@
   wearwell.sameLines = ({command, python}) => (command ? [element('p', {class: 'note'}, strings.sameCommand), element('pre', {class: 'command', tabindex: 0}, command),
       element('p', {class: 'note'}, strings.samePython), element('pre', {class: 'python', tabindex: 0}, python)] : []);
 
-  function complain(message) {
-    const shown = element('div', {class: 'callout fail'}, element('pre', {}, message));
-    shown.append(wearwell.button(strings.close, () => shown.remove(), 'plain'));
+  // What the program refuses is in English. The focus goes back from the message to what was in use.
+  function complain({message, status}) {
+    const before = document.activeElement, shown = element('div', {class: 'callout fail'}, element('pre', {lang: status ? 'en' : undefined}, message));
+    shown.append(wearwell.button(strings.close, () => { if (before.isConnected) before.focus(); shown.remove(); }, 'plain'));
     part('banners').replaceChildren(shown);
   }
 
@@ -46,7 +47,7 @@
     try {
       await act();
     } catch (error) {
-      complain(error.message);
+      complain(error);
     } finally {
       document.body.removeAttribute('aria-busy');
     }
@@ -95,6 +96,7 @@
   }
 
   async function start() {
+    wearwell.keepFocus(() => document.querySelector('#steps [aria-selected="true"]'));
     part('skip').textContent = strings.skip;
     for (const each of [part('navigation'), part('steps')]) each.setAttribute('aria-label', strings.stepsLabel);
     part('connection').before(wearwell.languageSwitch(() => wearwell.model.leave()));
@@ -102,7 +104,7 @@
     tabs();
     connection('wait');
     wearwell.step('data');
-    if (!wearwell.hasToken()) { connection('lost'); complain(strings.noToken); return; }
+    if (!wearwell.hasToken()) { connection('lost'); complain({message: strings.noToken}); return; }
     await wearwell.attempt(async () => {
       const now = await wearwell.get('/api/session');
       session(now);

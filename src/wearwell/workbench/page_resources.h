@@ -15,6 +15,8 @@ std::string_view workbench_strings_de_js();
 std::string_view workbench_strings_de_js_sha256();
 std::string_view workbench_language_js();
 std::string_view workbench_language_js_sha256();
+std::string_view workbench_focus_js();
+std::string_view workbench_focus_js_sha256();
 std::string_view workbench_server_js();
 std::string_view workbench_server_js_sha256();
 std::string_view workbench_scatter_js();

@@ -149,9 +149,14 @@ HttpResponse Routes::answer(const HttpRequest& question, const HttpCounts&) cons
       return json_response(json);
     }
     if (target.path == upload_path) {
-      const auto name = target.query.find("file");
-      return json_response(
-          upload(session_, name == target.query.end() ? "" : name->second, question.body));
+      const auto given = [&](const char* key, const char* otherwise) {
+        const auto found = target.query.find(key);
+        return found == target.query.end() ? otherwise : found->second;
+      };
+      return json_response(upload(session_,
+                                  {{"file", given("file", "")},
+                                   {"settings", nlohmann::json::parse(given("settings", "{}"))}},
+                                  question.body));
     }
     const nlohmann::json wish = nlohmann::json::parse(question.body, nullptr, false);
     if (!wish.is_object()) return refusal(400, "the body is not a JSON object");

@@ -43,6 +43,14 @@
     };
   }
 
+  // The ticks whose texts stand beside each other without touching; powers of ten come first.
+  function labelled(ticks, length) {
+    const kept = [], half = ({text}) => 3.6 * text.length + 4, isPower = ({text}) => /^1\D*(0\D*)*$/.test(text);
+    for (const each of [...ticks.filter(isPower), ...ticks.filter((tick) => !isPower(tick))])
+      if (kept.every((other) => Math.abs(other.part - each.part) * length >= half(other) + half(each))) kept.push(each);
+    return new Set(kept);
+  }
+
   // Dots are lines without length, with round ends; a run-out is an arrow: its life would have been longer.
   const dots = (places) => places.map(([a, b]) => `M${a.toFixed(1)} ${b.toFixed(1)}h0`).join('');
   // Many of them are squares, which are painted in a tenth of the time; one path for each part of the picture, so that a tile of the screen paints its own.
@@ -86,10 +94,11 @@
     const x = (value) => box.left + across.place(value) * (box.right - box.left);
     const y = (value) => box.bottom - up.place(value) * (box.bottom - box.top);
     const svg = element('svg', {viewBox: `0 0 ${width} ${height}`, width, height, role: plot.movable ? 'group' : 'img', 'aria-label': plot.description, class: 'plot'});
-    for (const {part, text} of across.ticks) {
-      const at = box.left + part * (box.right - box.left);
-      svg.append(element('line', {class: 'grid', x1: at, x2: at, y1: box.top, y2: box.bottom}),
-                 element('text', {x: at, y: box.bottom + 17, 'text-anchor': 'middle'}, text));
+    const texts = labelled(across.ticks, box.right - box.left);
+    for (const tick of across.ticks) {
+      const at = box.left + tick.part * (box.right - box.left);
+      svg.append(element('line', {class: 'grid', x1: at, x2: at, y1: box.top, y2: box.bottom}));
+      if (texts.has(tick)) svg.append(element('text', {x: at, y: box.bottom + 17, 'text-anchor': 'middle'}, tick.text));
     }
     for (const {part, text} of up.ticks) {
       const at = box.bottom - part * (box.bottom - box.top);

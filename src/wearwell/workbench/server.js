@@ -19,7 +19,7 @@
   wearwell.hasToken = () => Boolean(token);
   wearwell.get = (path, query = {}) => answer(`${path}?${new URLSearchParams(query)}`);
   wearwell.post = (path, body = {}) => answer(path, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
-  wearwell.upload = (file) => answer(`/api/upload?${new URLSearchParams({file: file.name})}`,
+  wearwell.upload = (file, settings) => answer(`/api/upload?${new URLSearchParams({file: file.name, settings: JSON.stringify(settings)})}`,
       {method: 'POST', headers: {'Content-Type': 'application/octet-stream'}, body: file});
 
   async function listen(changed, state) {

@@ -27,6 +27,7 @@ struct OpenTable {
   std::optional<WideTable> wide = {};  ///< then `table` is what its SELECT makes,
   Table as_stored = {};                ///< and this is the table before it
   std::uint64_t number = 0;            ///< of its reading: a request names the one it means
+  std::string stamp = {};              ///< `stamp_of` its file, from before the reading
   nlohmann::ordered_json shown = {};   ///< its `table_json`, and the first lines of its file
 };
 

@@ -60,7 +60,9 @@ void read_in_thread(Session& session, const std::string& file, const Settings& s
   try {
     std::shared_ptr<OpenTable> open;
     stoppable(stop, [&] {
+      const std::string stamp = stamp_of(path_in(session.folder, file));
       open = std::make_shared<OpenTable>(open_table(session.folder, file, settings));
+      open->stamp = stamp;
       open->number = number;
       open->shown = table_json(*open);
       open->shown["first_lines"] = first_lines(path_in(session.folder, file));

@@ -16,6 +16,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/as_read.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/date_text.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/readable_cell.h"
@@ -33,16 +34,18 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t looked_at = 200, most_refused = 1000;
 
+// Shown in the cell, so without its place.
 std::string refusal_of(const Table& table, const Column& column, std::size_t row) {
   try {
     static_cast<void>(cell_value(table, column, row));
     return "";
   } catch (const InputError& error) {
-    return error.what();
+    const std::string text = error.what(), before = place(table, column.name, row) + ": ";
+    return text.starts_with(before) ? text.substr(before.size()) : text;
   }
 }
 
-// NaN where the cell is empty or refused; `refusal` says why.
+// NaN where the cell has no value or is refused; `refusal` says why.
 double number_in(const Table& table, const Column& column, std::size_t row, std::string* refusal) {
   if (column.is_number) return column.numbers[row];
   if (column.text[row].empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +59,7 @@ bool is_mostly_numbers(const Table& table, const Column& column) {
   if (column.is_number) return false;
   std::size_t seen = 0, numbers = 0;
   for (std::size_t row = 0; row < table.rows && seen < looked_at; ++row) {
-    if (column.text[row].empty()) continue;
+    if (is_absent(column.text[row])) continue;
     ++seen;
     numbers += !std::isnan(number_in(table, column, row, nullptr));
   }
@@ -74,7 +77,7 @@ ordered_json column_json(const Table& table, const Column& column) {
   std::size_t empty = 0, refused = 0;
   double least = std::numeric_limits<double>::infinity(), largest = -least;
   for (std::size_t row = 0; row < table.rows; ++row) {
-    if (!column.is_number && column.text[row].empty()) {
+    if (!column.is_number && (mostly ? is_absent(column.text[row]) : column.text[row].empty())) {
       ++empty;
       continue;
     }

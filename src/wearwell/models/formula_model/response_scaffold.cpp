@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "wearwell/base/unit_system.h"
 #include "wearwell/models/formula_model/scaffold_parts.h"
 #include "wearwell/study/column_values.h"
 #include "wearwell/study/heading_words.h"
@@ -41,6 +42,9 @@ Range range_of(const Table& table, const Column& column) {
 }
 
 std::string toml_quantity(double value, const std::string& unit) {
+  // A factor, as of "N (1000)", is no unit of a text.
+  if (const auto factor = parse_unit(unit); factor && factor->dimension.empty() && unit[0] <= '9')
+    return quantity_text(value * factor->scale, "1");
   const std::string text = quantity_text(value, unit);
   return unit.empty() || unit == "1" ? text : toml_text(text);
 }

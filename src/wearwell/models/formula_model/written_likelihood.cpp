@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <set>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/shell_word.h"
+#include "wearwell/input/table.h"
 #include "wearwell/models/formula_model/formula_data.h"
 #include "wearwell/models/formula_model/formula_reader.h"
 #include "wearwell/prob/log_location_scale.h"
@@ -115,11 +117,31 @@ std::string nearest_column(const FormulaData& data, const std::string& name) {
   return names.empty() ? "" : fmt::format(" (nearest: '{}')", nearest_name(name, names));
 }
 
+namespace {
+
+// The first cell that keeps a column of text from being numeric; empty if there is none.
+std::string cell_without_number(const Table& table, const LabelColumn& label) {
+  const Column& column = table.column(label.column);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    try {
+      static_cast<void>(cell_value(table, column, row));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
 void fail_without_column(const TomlReader& root, const FormulaData& data,
                          const WrittenLikelihood& written) {
-  root.required_table("likelihood")
-      .fail(written.column, fmt::format("is not a numeric column under data.columns{}",
-                                        nearest_column(data, written.column)));
+  const TomlReader likelihood = root.required_table("likelihood");
+  const LabelColumn* const label = data.label(written.column);
+  if (const std::string cell = label ? cell_without_number(data.table, *label) : ""; !cell.empty())
+    likelihood.fail(written.column, fmt::format("is not a numeric column: {}", cell));
+  likelihood.fail(written.column, fmt::format("is not a numeric column under data.columns{}",
+                                              nearest_column(data, written.column)));
 }
 
 WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column,
