@@ -58,9 +58,12 @@ find_column <- function(columns, name, what) {
 }
 
 no_column <- function(what, table, name, names) {
+  stop_input(what, ": ", table, " has no column '", name, "' (columns: ", words(names), ")", did_you_mean(name, names))
+}
+
+did_you_mean <- function(name, names) {
   near <- names[order(utils::adist(name, names, ignore.case = TRUE))[1]]
-  stop_input(what, ": ", table, " has no column '", name, "' (columns: ", words(names), ")",
-             if (length(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?"))
+  if (length(near) && !is.na(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?")
 }
 
 plain_values <- function(each) if (inherits(each$values, "units")) as.double(each$values) else each$values

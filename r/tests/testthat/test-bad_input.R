@@ -135,6 +135,32 @@ for (preset in names(presets)) {
   })
 }
 
+campaign <- list(
+  design = list(point = 1:8, role = rep("model", 8), `slip_speed [rpm]` = 1:8 * 200, `torque [N m]` = rep(25, 8), `temperature [degC]` = rep(120, 8), `closing_time [s]` = rep(0.9, 8)),
+  cycles = list(plate = rep(1, 8), cycle = 1:8, `slip_speed [rpm]` = rep(1200, 8), `torque [N m]` = rep(25, 8), `temperature [degC]` = rep(120, 8), `closing_time [s]` = rep(0.9, 8),
+                `energy [J]` = rep(25131, 8)),
+  weighings = list(plate = rep(1, 8), cycle = 0:7, block = c("start", rep("run-in", 7)), `mass [g]` = 250 - 0:7 * 0.01))
+
+test_that("columns of a clutch's tables are read, or refused by table and column", {
+  study <- function(tables) {
+    ww_clutch(tables$design, tables$cycles, tables$weighings, density = "2.2 g/cm^3", depth = "1 mm", area = "100 cm^2", balance_sd = "1 mg", fit = FALSE)
+  }
+  of_all <- lapply(campaign, function(table) frame_with("x", NULL, table))
+  for (table in names(campaign)) {
+    for (column in names(campaign[[table]])) {
+      for (kind in setdiff(names(kinds), c("as it is", "integer", "factor", "ordered", "texts", "as is", "negative", "zero", "alike", "huge", "tiny"))) {
+        tables <- of_all
+        tables[[table]] <- frame_with(column, kinds[[kind]](campaign[[table]][[column]]), campaign[[table]])
+        found <- tryCatch(study(tables), error = identity)
+        if (!inherits(found, "condition")) next
+        about <- paste(table, column, kind)
+        expect_s3_class(found, "wearwell_input_error")
+        expect_match(conditionMessage(found), paste0("^", table, "|^run-in: "), info = paste(about, conditionMessage(found)))
+      }
+    }
+  }
+})
+
 test_that("texts of 0 and 1 are read as the codes, and what a preset refuses has the names of its arguments", {
   good <- presets$ww_sn$frame
   values <- function(frame) presets$ww_sn$study(frame)$columns$status$values
