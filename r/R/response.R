@@ -11,9 +11,13 @@ says_stopped <- function(heading) grepl(of_censoring, heading, ignore.case = TRU
 
 surv_types <- c("right", "left", "interval", "counting", "interval2")
 
+refuse_path <- function(data, name) {
+  if (is_path(data)) stop_input(name, " is \"", data, "\"; it is a data frame or a named list of columns (read.csv() reads a file)")
+}
+
 # The columns of a frame by the names that a formula may use: the heading, or, of "F [N]", F. Each is a list of values, heading, unit.
 frame_columns <- function(data, units, name = "data") {
-  if (is_path(data)) stop_input(name, " is \"", data, "\"; it is a data frame or a named list of columns (read.csv() reads a file)")
+  refuse_path(data, name)
   require_columns(data, name)
   if (!length(data)) stop_input(name, " has no columns")
   units <- unit_texts(units, "units")

@@ -109,7 +109,13 @@ presets <- list(
   ww_bearing = list(
     study = function(frame) ww_bearing(frame, "d", revolutions = "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
                                        units = c(d = "um", p = "MPa"), fit = FALSE),
-    frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)))
+    frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)),
+  ww_repairable = list(
+    study = function(frame) ww_repairable(frame, "age", unit = "part", event = "what", units = c(age = "h"), fit = FALSE),
+    frame = list(age = c(100, 250, 400, 90, 300, 500, 40, 420), part = rep(c("A", "B", "C"), c(3, 3, 2)), what = c("failure", "failure", "end")[c(1, 2, 3, 1, 2, 3, 1, 3)])),
+  ww_returns = list(
+    study = function(frame) ww_returns(frame, sold = "sold", returned = "back", until = "2024-12", fit = FALSE),
+    frame = list(sold = rep(c("2024-01", "2024-02", "2024-03", "2024-04"), 2), back = rep(c("2024-05", "", "2024-08", ""), 2))))
 
 for (preset in names(presets)) {
   test_that(paste("columns of presets are read, or refused by their headings:", preset), {

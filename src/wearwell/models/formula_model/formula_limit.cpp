@@ -68,10 +68,12 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
                                                  did_you_mean(each, units)));
     }
   }
-  if (too_many_lives(asked)) return;
+  // Of units that are too many only the names are needed, which a question on one of them finds.
+  const bool names_only = too_many_lives(asked).has_value();
   for (std::size_t u = 0; u < units.size(); ++u) {
     if (only && std::find(reported.begin(), reported.end(), units[u]) == reported.end()) continue;
-    path.seen.push_back(seen_unit(asked, table, name, wanted, u));
+    path.seen.push_back(names_only ? LimitedPath::SeenUnit{{}, {}, asked.last_place(u), u}
+                                   : seen_unit(asked, table, name, wanted, u));
   }
   if (!reported.empty()) path.next.reset();
 }
