@@ -76,6 +76,7 @@ class ColumnReader {
   }
 
   Column take() { return std::move(column_); }
+  bool has_truths() const { return kind_ == "b"; }
 
  private:
   template <class T>
@@ -147,7 +148,7 @@ void require_exact(double magnitude, const std::string& table, const std::string
       row + 1, column));
 }
 
-Table read_arrow(ArrowArrayStream& stream, const std::string& name) {
+ArrowTable read_arrow(ArrowArrayStream& stream, const std::string& name) {
   struct Release {
     ArrowArrayStream& stream;
     ~Release() {
@@ -177,8 +178,13 @@ Table read_arrow(ArrowArrayStream& stream, const std::string& name) {
       readers[c].add(*batch.value.children[c], batch.value.offset, batch.value.length);
     table.rows += static_cast<std::size_t>(batch.value.length);
   }
-  for (ColumnReader& each : readers) table.columns.push_back(each.take());
-  return table;
+  ArrowTable read;
+  for (ColumnReader& each : readers) {
+    table.columns.push_back(each.take());
+    if (each.has_truths()) read.truths.push_back(table.columns.back().name);
+  }
+  read.table = std::move(table);
+  return read;
 }
 
 }  // namespace wearwell::python

@@ -45,9 +45,15 @@ struct ArrowArrayStream {
 
 namespace wearwell::python {
 
+/// A table, and the headings of its columns of booleans, which are numbers in it.
+struct ArrowTable {
+  Table table;
+  std::vector<std::string> truths;
+};
+
 /// Reads all batches of a stream of structures, and releases it: numbers, booleans, texts, and dictionaries of texts.
 /// Null is an empty cell. Throws InputError that names the column where it is something else.
-Table read_arrow(ArrowArrayStream& stream, const std::string& name);
+ArrowTable read_arrow(ArrowArrayStream& stream, const std::string& name);
 
 /// A whole number that no double holds is no column of measurements. Throws InputError.
 void require_exact(double magnitude, const std::string& table, const std::string& column,

@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "core.h"
@@ -24,6 +25,8 @@ void add_errors(py::module_&) {
       PyErr_SetString(machine.ptr(), shown(error.what()).c_str());
     } catch (const std::system_error& error) {  // of the file system too
       PyErr_SetString(machine.ptr(), shown(error.what()).c_str());
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(machine.ptr(), "out of memory");
     } catch (const Cancelled& cancelled) {
       PyErr_SetString(PyExc_KeyboardInterrupt, cancelled.what());
     }

@@ -103,10 +103,19 @@ std::tuple<bool, bool, double> straight_line(const Table& table, const std::stri
   return {line.begins_at_zero, line.falls, line.rate};
 }
 
+void require_rows_of_family(const Table& table, const std::string& axis,
+                            const std::string& measured, const std::string& family) {
+  attended(py::none{}, [&](const Monitor&) {
+    formula_model::require_rows_of_family(table, table.column(axis), table.column(measured),
+                                          family);
+  });
+}
+
 }  // namespace
 
 void add_tables(py::module_& module) {
-  py::class_<Table, std::shared_ptr<Table>>(module, "Table")
+  // Python keeps with a table which of its columns were of booleans.
+  py::class_<Table, std::shared_ptr<Table>>(module, "Table", py::dynamic_attr())
       .def_readonly("rows", &Table::rows)
       .def("headings",
            [](const Table& table) {
@@ -139,14 +148,15 @@ void add_tables(py::module_& module) {
   module.def("table_of_arrow", [](const std::string& name, const py::capsule& capsule) {
     void* const stream = PyCapsule_GetPointer(capsule.ptr(), "arrow_array_stream");
     if (!stream) throw py::error_already_set();
-    Table table = read_arrow(*static_cast<ArrowArrayStream*>(stream), name);
-    embed::refuse_no_table(table);
-    return table;
+    ArrowTable read = read_arrow(*static_cast<ArrowArrayStream*>(stream), name);
+    embed::refuse_no_table(read.table);
+    return std::make_pair(std::move(read.table), std::move(read.truths));
   });
   module.def("arrow_stream_of", &arrow_stream_of);
   module.def("rounded_up", &rounded_up);
   module.def("life_size", &size_of_lives);
   module.def("straight_line", &straight_line);
+  module.def("require_rows_of_family", &require_rows_of_family);
   module.def("failure_code_of", &failure_code_of);
   module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {
     const py::gil_scoped_release release;

@@ -11,6 +11,7 @@ import pandas as pd
 import pytest
 
 import wearwell as ww
+from arrow_stream import Stream
 
 hours = [120.0, 340.0, 560.0, 230.0, 450.0, 610.0, 80.0, 150.0]
 event = [1, 1, 1, 1, 0, 1, 1, 0]
@@ -69,6 +70,26 @@ def test_a_column_of_each_kind_is_read_or_refused_by_name(life, column, kind):
         assert life(pd.DataFrame(columns)).description()
     except ww.InputError as error:
         assert re.search(rf"\b({column}|stress|by|event)\b", str(error)), error
+
+
+def test_columns_of_booleans_are_no_measurements_in_any_table(tmp_path):
+    """As in frames: of a table that was made before, of an Arrow stream, and of files, where they are texts."""
+    frame = pd.DataFrame({"hours": hours, "event": event, "flag": [True, False] * 4, "load": stress})
+    packed = ww.table(frame)
+    arrow = ww.table(Stream([("hours", "g", [float(each) for each in hours]), ("flag", "b", [True, False] * 4)], [8]))
+    frame.to_csv(tmp_path / "lives.csv", index=False)
+    for table in packed, arrow:
+        for argument in "count", "entry":
+            with pytest.raises(ww.InputError, match=f"^{argument}: column 'flag' holds True and False"):
+                ww.life(table, "hours", unused=["event"] if table is packed else None, **{argument: "flag"})
+        with pytest.raises(ww.InputError, match="^y: column 'flag' holds True and False"):
+            ww.degradation(table, "flag", "hours", unit=False)
+    file = str(tmp_path / "lives.csv")
+    for argument in "count", "entry":
+        with pytest.raises(ww.InputError, match="row 1, column 'flag': 'True' is not a number"):
+            ww.life(file, "hours", event="event", **{argument: "flag"})
+    with pytest.raises(ww.InputError, match="^x: column 'flag' holds no numbers, but texts such as 'True'"):
+        ww.degradation(file, "hours", "flag", unit=False)
 
 
 def test_levels_of_an_index_and_of_headings_are_refused_by_name(life):

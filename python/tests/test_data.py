@@ -208,8 +208,8 @@ def test_predictions_under_new_conditions(varying):
     assert (following["lower"] < mean["lower"]).all() and (following["upper"] > mean["upper"]).all()
     half = varying.predict(new, level=0.5, kind="next")
     assert (half["upper"] < following["upper"]).all()
-    with pytest.raises(ValueError, match="no column 'G'"):
-        varying.predict({"F": [1.0], "s": [1.0], "G": [1.0]})
+    with pytest.raises(ValueError, match="no column 's'"):
+        varying.predict({"F": [1.0], "G": [1.0]})
     with pytest.raises(ValueError, match="level"):
         varying.predict(new, level=90)
 

@@ -132,6 +132,18 @@ def test_lives_that_cannot_be_had_are_refused(fit, options, message):
         fit.life(**{**asked, **options})
 
 
+def test_columns_that_a_prediction_does_not_need_are_ignored(fit):
+    new = pd.DataFrame({"F": [150.0, 250.0], "s": [5e4, 6e4]})
+    expected = fit.predict(new)
+    pd.testing.assert_frame_equal(fit.predict(new.assign(note=[[1], [2]], day="Monday", V=1.0)), expected)
+    of_headings = pd.DataFrame({"F [kN]": [0.15, 0.25], "s [m]": [5e4, 6e4]})
+    pd.testing.assert_frame_equal(fit.predict(of_headings, along="s"), expected)
+    for wrong, message in (new[["s"]].assign(note="x"), r"^new has no column 'F' \(its columns: s, note\)$"), \
+            (new.rename(columns={"s": "path"}), "^new has no column 's'"), (new.set_index("F"), r"^new has no column 'F'; .* new.reset_index\(\)"):
+        with pytest.raises(ww.InputError, match=message):
+            fit.predict(wrong)
+
+
 @pytest.mark.parametrize("new, options, message", [
     ({"F": [300.0], "s": [6e4]}, {}, "no column 'joint'"),
     ({"joint": ["J9"], "F": [300.0], "s": [6e4]}, {}, "column 'joint': the data have no joint 'J9' \\(J1, .*empty cell"),

@@ -2,6 +2,8 @@
 
 import pickle
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -62,3 +64,10 @@ def test_advice_names_arguments(examples):
     assert any('method="exact"' in str(each.message) for each in warned)
     assert not re.search(r"--[a-z]", str(fit) + " ".join(advice.values()) + " ".join(str(each.message) for each in warned))
     assert '-> Draw more (draws, warmup), or use method="exact".' in str(fit)
+
+
+def test_memory_that_lacks_is_a_machine_error():
+    """A process that may take 16 MB more, and a table of 32 MB."""
+    code = "import resource, numpy, wearwell as ww; a = numpy.ones(4_000_000); size = int(open('/proc/self/statm').read().split()[0]) * 4096; " \
+           "resource.setrlimit(resource.RLIMIT_AS, (size + 2**24, -1))\ntry: ww.table({'a': a})\nexcept ww.MachineError as error: print(error)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "out of memory\n"

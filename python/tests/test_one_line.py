@@ -385,10 +385,33 @@ def test_clutch_of_tables_in_memory():
             ({"units": 3}, "units is int"), ({"units": {"cycles": 3}}, "units: cycles is int"), ({"missing_cycles": None}, "missing_cycles is None; it is 'refuse'"):
         with pytest.raises(ww.InputError, match=message):
             ww.clutch(design, cycles, weighings, **lining, **wrong)
+    hill = {"points": {"hill": {}}}
+    for wrong, message in (hill, r"these are missing, here with values of an example: points\.hill\.slip_speed = "), ({"title": 3}, "title: must be a text, and is"), \
+            ({"levels": "half", "units": {"cycles": {"energy": "J"}}}, "levels: entry 1: 'half' is not a number"):
+        with pytest.raises(ww.InputError, match=f"^{message}"):
+            ww.clutch(design, cycles, weighings, **lining, **wrong)
+    for name, (table, message) in {
+            "design": (pd.DataFrame(design).set_index("point"), r"design has no column 'point'; it is a level of the index, and design.reset_index\(\) makes it"),
+            "cycles": (pd.Series([1.0]), "cycles is Series, one column without others"),
+            "weighings": ({**weighings, "cycle": [True]}, "weighings, column 'cycle' holds True and False")}.items():
+        with pytest.raises(ww.InputError, match=message):
+            ww.clutch(**{"design": design, "cycles": {**cycles, "energy [J]": [25131.0]}, "weighings": weighings, name: table}, **lining)
+    later = {"plate": [1, 1], "cycle": [0, 40], "block": ["start", "run-in"], "mass [g]": [249.9995, 249.8]}
+    with pytest.raises(ww.InputError, match=r'but 40 ran; if a log loses some cycles, missing_cycles="fill" says so$'):
+        ww.clutch(design, {**{k: v for k, v in cycles.items() if k != "energy"}, "energy [J]": [25131.0]}, later, **lining)
     with pytest.raises(ww.InputError, match="'cycle' is no table"):
         ww.clutch(design, cycles, weighings, density=1, depth=1, area=1, balance_sd=1, units={"cycle": {}})
-    with pytest.raises(ww.InputError, match="cycles, column 'energy' has no unit"):
+    with pytest.raises(ww.InputError, match=r"cycles, column 'energy' has no unit: name it 'energy \[J\]', or write units={'cycles': {'energy': 'J'}}"):
         ww.clutch(design, cycles, weighings, density="2.2 g/cm^3", depth="1 mm", area="100 cm^2", balance_sd="1 mg")
+
+
+def test_units_beyond_what_fits_into_memory_are_refused_before_the_fit():
+    """600 units: their lives would take 6 GB. The refusal names the argument, and comes without a fit."""
+    readings = pd.DataFrame({"wear": [1.0, 2.1] * 600, "km": [10.0, 20.0] * 600, "machine": np.repeat(range(600), 2)})
+    stages = []
+    with pytest.raises(ww.InputError, match=r"limit: 30: the data have 600 units of 'machine', .* predict=\{\"lives_of\": \[\]\} only a new one$"):
+        ww.degradation(readings, "wear", "km", unit="machine", limit=30, progress=lambda *each: stages.append(each))
+    assert not stages
 
 
 def test_fit_of_one_line_can_be_pickled_and_copied():

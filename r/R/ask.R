@@ -81,12 +81,16 @@ require_values <- function(newdata, columns, what = "newdata") {
 }
 
 # Of each place its predictions by measured column, of the item of that name or, NA, of a new one.
-answers_of <- function(fit, question, level, name) {
+answers_of <- function(fit, question, level, name, newdata) {
   question$units <- if (is.na(name)) list() else list(name)  # none: no paths of items are computed
   found <- tryCatch(ww_ask(fit, question, level)$predictions, wearwell_input_error = function(error) {
     unknown <- regmatches(conditionMessage(error),
                           regexec("predict.units: the data have no (.*) '(.*)' ([(].*[)])", conditionMessage(error)))[[1]]
-    if (!length(unknown)) stop(error)
+    if (!length(unknown)) {
+      needed <- regmatches(conditionMessage(error), regexec("needs (predict[.]given[.]|given = list[(])([A-Za-z0-9_]+)", conditionMessage(error)))[[1]]
+      if (length(needed)) require_conditions(newdata, needed[3])
+      stop(error)
+    }
     stop_input("newdata, column '", unknown[2], "': the data have no ", unknown[2], " '", unknown[3], "' ", unknown[4],
                "; NA is a new one")
   })
@@ -95,6 +99,14 @@ answers_of <- function(fit, question, level, name) {
   found <- found[seen == !is.na(name)]
   by_column <- split(found, factor(column(found, "quantity", ""), unique(column(found, "quantity", ""))))
   lapply(seq_along(question$at), function(i) unname(lapply(by_column, `[[`, i)))
+}
+
+# That a frame has these columns; of one that lacks, another column may be meant.
+require_conditions <- function(frame, needed) {
+  missing <- setdiff(needed, names(frame))
+  if (!length(missing)) return()
+  stop_input("newdata has no column '", paste(missing, collapse = "' and no column '"), "' (its columns: ", words(names(frame)), ")",
+             did_you_mean(missing[1], setdiff(names(frame), needed)))
 }
 
 predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = NULL, ...) {
@@ -107,8 +119,6 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   newdata <- as.data.frame(newdata, check.names = FALSE, optional = TRUE)
   if (nrow(newdata) == 0) stop_input("newdata has no rows")
   if (is.null(along) && is_of_lives(study) && is.null(axis_of(study, units, NULL))) return(predicted_lives(object, study, newdata, level, kind))
-  unknown <- setdiff(names(newdata), names(units))
-  if (length(unknown)) stop_input("newdata: the study has no column '", unknown[1], "' (columns: ", words(conditions), ")")
   label <- names(study$random_effects)[1]
   if (kind == "unit" && is.null(label)) {
     stop_input("kind = 'unit' needs a study with random effects, and this one has none: kind = 'next' predicts a measurement of ",
@@ -123,7 +133,11 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
                "from where it stands")
   }
   if (is.null(axis)) axis <- numbers[1]
-  if (!isTRUE(axis %in% asked)) stop_input("newdata has no column '", if (is.na(axis)) conditions[1] else axis, "'")
+  if (!isTRUE(axis %in% asked)) {
+    needed <- if (is.na(axis)) conditions[1] else axis
+    require_conditions(newdata, needed)
+    stop_input("newdata: column '", needed, "' holds no numbers")
+  }
   require_values(newdata, asked)
   predictions_at(object, newdata, asked, axis, units, level, kind, whose, several = length(study$likelihood) > 1)
 }
@@ -141,7 +155,7 @@ predictions_at <- function(fit, newdata, asked, axis, units, level, kind, whose,
     if (length(others)) {
       question$given <- lapply(stats::setNames(others, others), function(name) in_unit(newdata[[name]][places[1]], units[[name]]))
     }
-    answers[places] <- answers_of(fit, question, level, whose[places[1]])
+    answers[places] <- answers_of(fit, question, level, whose[places[1]], newdata)
   }
   if (!all(lengths(answers) > 0)) {
     stop_input("measurements of a new item are not predicted with two random effects, or of a process; its path is: ",

@@ -5,7 +5,8 @@ column_values <- function(column, where) {
   if (length(dim(column)) > 1) stop_input(where, " has ", length(dim(column)), " dimensions; a column has one")
   if (is.factor(column)) column <- as.character(column)
   class <- setdiff(oldClass(column), c("AsIs", "units"))
-  if (inherits(column, c("Date", "POSIXt", "difftime"))) {
+  if (inherits(column, "difftime")) stop_input(where, " holds durations (", class[1], "); as.double(..., units = \"hours\") makes numbers of them")
+  if (inherits(column, c("Date", "POSIXt"))) {
     stop_input(where, " holds dates or times (", class[1], "); give a number with a unit, like hours since the start")
   }
   # as.double() alone does not know it: its bits would be read as another number.

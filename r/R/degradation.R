@@ -82,7 +82,8 @@ ww_degradation.formula <- function(x, data = NULL, limit = NULL, family = "norma
                  units = if (is.null(sides$unit)) "| %s in the formula, or unit = \"%s\" of a frame")
   require_finite(readings, measured$heading)
   require_finite(along, axis$heading)
-  if (family != "normal") require_above_zero(along, readings, sides$axis, measured, family)
+  rows <- table_of(stats::setNames(list(along, readings), c(sides$axis, measured$heading)))
+  core(C_require_rows_of_family, rows, sides$axis, measured$heading, family)
   if (is.null(label) && !one_unit) require_one_path(along, sides$axis, measured$name)
   line <- line_of_readings(study, s, y, label, family, if (start) FALSE else starts_at_zero)
   middle <- path_of_degradation(path, line, s, axis$unit, along, effects)
@@ -126,23 +127,6 @@ require_one_path <- function(along, axis, measured) {
   if (is.na(row)) return()
   stop_input("unit is missing: ", axis, " falls at row ", row, " from ", number_text(along[row - 1]), " to ", number_text(along[row]), ", so the rows are of several ",
              "units; | UNIT in the formula names the column that tells them apart, or unit = FALSE says that all rows of ", measured, " are of one")
-}
-
-# Paths of all families but the normal are 0 at 0, and certain there; only those of a Wiener process fall below.
-require_above_zero <- function(along, readings, axis, measured, family) {
-  low <- readings <= 0 & family != "wiener-process" & any(readings > 0, na.rm = TRUE)  # where all are below 0 the path falls
-  row <- which(along <= 0 | low)[1]
-  if (is.na(row)) return()
-  where <- paste0("data, row ", row, ", column '")
-  if (along[row] == 0 && readings[row] == 0) {
-    stop_input(where, axis, "': 0; a path of the family \"", family, "\" begins at 0, so a reading there says nothing: leave out the row")
-  }
-  if (along[row] <= 0) {
-    stop_input(where, axis, "': ", along[row], " must be positive: a path of the family \"", family, "\" begins at 0, where ", axis,
-               " is 0; family = \"normal\" takes such a row")
-  }
-  stop_input(where, measured$heading, "': ", readings[row], " must be positive for the family \"", family,
-             "\"; family = \"normal\" takes readings of 0 and less")
 }
 
 # Where a power of the axis is 1.

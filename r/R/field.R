@@ -12,8 +12,9 @@ ww_repairable <- function(data, age, unit, event = NULL, start = NULL, count = N
   if (is.null(event) && !grouped) stop_input("event is missing: the column that says \"failure\" or \"end\"")
   columns <- frame_columns(data, units)
   study <- preset_study(columns, list(unit = unit, age = age, start = start, count = count, mode = mode))
-  if (!is.null(study$mode) && !is.character(study$mode$values)) study$mode$values <- number_text(study$mode$values)
-  if (!is.character(study$unit$values)) study$unit$values <- number_text(study$unit$values)
+  for (role in c("mode", "unit")) {
+    if (!is.null(study[[role]])) study[[role]]$values <- label_texts(study[[role]]$values, paste0("data, column '", study[[role]]$heading, "'"))
+  }
   if (!is.null(event) && !is.list(event)) event <- list(column = event)
   unknown <- setdiff(c(names(event), if (is.null(names(event))) ""), c("column", "failure", "end"))
   if (is.null(event)) unknown <- character()
@@ -59,6 +60,12 @@ fix_tables <- function(mode, fixes) {
   modes <- function(of) if (any(kind == of)) as.list(names(fixes)[kind == of])
   c(toml_table("fixes", given_arguments(none = modes("none"), during = modes("during"))),
     if (any(kind == "after")) toml_table("fixes.effectiveness", fixes[kind == "after"]))
+}
+
+# Labels as texts: numbers without a point.
+label_texts <- function(values, where) {
+  values <- column_values(values, where)
+  if (is.double(values)) ifelse(is.na(values), NA, number_text(values)) else values
 }
 
 # A column of failures and ends of observation: truths and 0 and 1 by failures_of(), words as they are.
@@ -123,13 +130,15 @@ ww_returns <- function(data, sold = NULL, quantity = NULL, returned = NULL, unti
   require_options("ww_returns", ..., own = names(formals(ww_returns)))
   families <- setdiff(names(life_families), "log-location-scale")  # each under its own name, without a further argument
   if (!is_path(family) || !family %in% families) stop_input("family is ", shown_value(family), "; it is one of ", words(families))
+  refuse_path(data, "data")
   require_columns(data, "data")
+  if (!length(data)) stop_input("data has no columns")
   data <- with_text_dates(as.data.frame(data, check.names = FALSE, stringsAsFactors = FALSE))
   for (name in c("sold", "quantity", "returned")) {
     heading <- get(name)
-    if (!is.null(heading) && !one_text(heading, name) %in% names(data)) {
-      stop_input(name, ": data has no column '", heading, "' (columns: ", words(names(data)), ")")
-    }
+    if (is.null(heading)) next
+    if (!one_text(heading, name) %in% names(data)) no_column(name, "data", heading, names(data))
+    column_values(data[[heading]], paste0("data, column '", heading, "'"))
   }
   if (!is.null(returned) && is.null(sold)) stop_input("sold is missing: the column of the date of sale of each unit")
   time <- function(value, name) if (!is.null(value)) quantity(value, name)

@@ -193,7 +193,9 @@ life_columns <- function(lives, weights, columns, dead = FALSE) {
   }
   if (!is.null(weights)) {
     each <- find_column(columns, one_text(weights, "count"), "count")
-    study$count <- study_column(numbers_for(each, "count"), "")
+    counts <- numbers_for(each, "count")
+    if (anyNA(counts)) stop_input(place_of_row(each, which(is.na(counts))[1]), ": a value is missing; a count is a whole number from 1")
+    study$count <- study_column(counts, "", each$heading)
   }
   study
 }
@@ -331,6 +333,15 @@ one_line <- function(text, columns, proposed, notes, fit, call, ..., tables = NU
 
 # Columns by their headings in the frame: the study calls them by what they are, as status or alternating_stress.
 with_headings <- function(message, columns) {
+  lacks <- regmatches(message, regexec("^column ([A-Za-z_]+): needs a unit: .* unit = \"([^\"]*)\" \\}", message))[[1]]
+  if (length(lacks)) {
+    heading <- columns[[lacks[2]]]$heading
+    if (is.null(heading)) heading <- lacks[2]
+    return(paste0("column '", heading, "' needs a unit: units = c(", heading, " = \"", lacks[3], "\"), or '", heading, " [", lacks[3], "]' as the heading in data"))
+  }
+  message <- sub("^column status: (?=[^:]*, row )", "", message, perl = TRUE)
+  of_unit <- regmatches(message, regexec("^column ([A-Za-z_]+)[.]unit: (.*)$", message))[[1]]
+  if (length(of_unit)) message <- paste0("column '", of_unit[2], "': ", of_unit[3])
   named <- gregexpr("(column '|rows, and ')[A-Za-z_]+'", message)
   regmatches(message, named) <- lapply(regmatches(message, named), function(found) {
     parts <- regmatches(found, regexec("^(.*')([A-Za-z_]+)'$", found))
@@ -366,8 +377,17 @@ words_of_caller <- function(message) {
   message <- sub("^random_effects[.][^:]*: ", "", message)
   message <- sub("([0-9]) 1 must be ", "\\1 must be ", message)  # the unit of a plain number
   message <- sub("; or define your own word in the study: .*$", "; or make a column of truths of it, like data$failed <- data$end == \"broke\"", message)
+  message <- sub("; write status = \\{ column = \"[^\"]*\", failure = 0 \\} or failure = 1, or use words", "; write words alone, or make a column of truths of it", message)
+  message <- sub("state data.end = \"last failure\"", "state end = \"last failure\"", message, fixed = TRUE)
   message <- gsub("give the study a status column", "state the event, Surv(..., EVENT)", message, fixed = TRUE)
   message <- gsub("write \\[failure_modes\\] runout = (\"[^\"]*\")", "write mode = list(column = ..., runout = \\1)", message)
+  message <- sub("^(data, column '[^']*' has no unit: name it '([^'\\[\\]]*) \\[([^'\\]]*)\\]')$", "\\1, or write units = c(\\2 = \"\\3\")", message, perl = TRUE)
+  message <- sub("^([a-z]+)(, column '[^']*' has no unit: name it '([^'\\[\\]]*) \\[([^'\\]]*)\\]')$", "\\1\\2, or write units = list(\\1 = c(\\3 = \"\\4\"))", message, perl = TRUE)
+  message <- gsub("must be a text in quotes", "must be a text", message, fixed = TRUE)
+  message <- sub("^[0-9]+ keys are missing; with values of yours: ", "these are missing, here with values of an example: ", message)
+  message <- gsub("\\b(lives_of|units) = \\[\"([^\"]*)\"\\]", "predict = list(\\1 = \"\\2\")", message, perl = TRUE)
+  message <- gsub("\\b(lives_of|units) = \\[\\]", "predict = list(\\1 = list())", message, perl = TRUE)
+  message <- gsub("\\bdata\\.missing_cycles = ", "missing_cycles = ", message, perl = TRUE)
   message <- gsub("\\bprior\\.([A-Za-z0-9_]+)", "priors: \\1", message, perl = TRUE)
   message <- gsub("^data[.]columns[.]", "column ", message)
   message <- sub("^(likelihood[.]life|constants)[.](threshold|share_[a-z_]+):", "\\2:", message)

@@ -190,7 +190,11 @@ predicted_lives <- function(fit, study, newdata, level, kind) {
     stop_input("level is ", level, "; intervals of lives hold 90 %, and ww_percentile(fit, p, given, confidence) has bounds at any level")
   }
   if (kind == "unit") stop_input("kind = 'unit' predicts measurements of an item along its path; lives are those of new items: kind = 'next'")
-  conditions <- lives_conditions(fit, study, newdata, "newdata")
+  names <- conditions_of(study, column_units(study))
+  known <- intersect(names(newdata), names)
+  # A condition that is missing has its usual value, unless another column may mean it.
+  if (length(known) < length(newdata)) require_conditions(newdata, names)
+  conditions <- lives_conditions(fit, study, newdata[known], "newdata")
   unit <- ""
   rows <- lapply(conditions$given, function(at) {
     found <- lives_asked(fit, at, c(list(mean_life = TRUE), if (kind == "next") list(b_lives = list(50))))

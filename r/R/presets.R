@@ -51,8 +51,9 @@ preset_call <- function(call, name) {
   needed <- setdiff(names(defaults)[vapply(defaults, function(each) is.name(each) && !nzchar(as.character(each)), TRUE)], "...")
   missing <- setdiff(needed, names(call))
   if (length(missing)) {
-    stop_input(name, "(): ", words(missing), if (length(missing) > 1) " are" else " is", " missing; it takes a data frame and names of its columns: ",
-               name, "(", paste(c("data", sprintf("%s = ", setdiff(needed, "data")), "..."), collapse = ", "), ")")
+    takes <- if ("data" %in% needed) "a data frame and names of its columns" else "three data frames and quantities of the lining"
+    stop_input(name, "(): ", words(missing), if (length(missing) > 1) " are" else " is", " missing; it takes ", takes, ": ",
+               name, "(", paste(c(intersect("data", needed), sprintf("%s = ", setdiff(needed, "data")), "..."), collapse = ", "), ")")
   }
   call[[1]] <- as.name(name)
   call

@@ -11,9 +11,13 @@ says_stopped <- function(heading) grepl(of_censoring, heading, ignore.case = TRU
 
 surv_types <- c("right", "left", "interval", "counting", "interval2")
 
+refuse_path <- function(data, name) {
+  if (is_path(data)) stop_input(name, " is \"", data, "\"; it is a data frame or a named list of columns (read.csv() reads a file)")
+}
+
 # The columns of a frame by the names that a formula may use: the heading, or, of "F [N]", F. Each is a list of values, heading, unit.
 frame_columns <- function(data, units, name = "data") {
-  if (is_path(data)) stop_input(name, " is \"", data, "\"; it is a data frame or a named list of columns (read.csv() reads a file)")
+  refuse_path(data, name)
   require_columns(data, name)
   if (!length(data)) stop_input(name, " has no columns")
   units <- unit_texts(units, "units")
@@ -58,9 +62,12 @@ find_column <- function(columns, name, what) {
 }
 
 no_column <- function(what, table, name, names) {
+  stop_input(what, ": ", table, " has no column '", name, "' (columns: ", words(names), ")", did_you_mean(name, names))
+}
+
+did_you_mean <- function(name, names) {
   near <- names[order(utils::adist(name, names, ignore.case = TRUE))[1]]
-  stop_input(what, ": ", table, " has no column '", name, "' (columns: ", words(names), ")",
-             if (length(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?"))
+  if (length(near) && !is.na(near) && utils::adist(name, near, ignore.case = TRUE) <= 2) paste0("; did you mean '", near, "'?")
 }
 
 plain_values <- function(each) if (inherits(each$values, "units")) as.double(each$values) else each$values

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -71,6 +72,8 @@ struct Door<f> {
       return failure("machine", error.what());
     } catch (const std::system_error& error) {  // of the file system too
       return failure("machine", error.what());
+    } catch (const std::bad_alloc&) {
+      return failure("machine", "out of memory");
     }
     END_RCPP
   }

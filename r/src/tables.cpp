@@ -85,6 +85,14 @@ SEXP line_of(SEXP table, const std::string& axis, const std::string& measured,
                      {"rate", Rcpp::Shield<SEXP>(Rf_ScalarReal(line.rate))}});
 }
 
+SEXP rows_of_family(SEXP table, const std::string& axis, const std::string& measured,
+                    const std::string& family) {
+  const Table& readings = held<Table>(table);
+  formula_model::require_rows_of_family(readings, readings.column(axis), readings.column(measured),
+                                        family);
+  return R_NilValue;
+}
+
 }  // namespace
 
 void add_tables(Doors& doors) {
@@ -93,6 +101,7 @@ void add_tables(Doors& doors) {
   doors.push_back(door<&headings>("headings"));
   doors.push_back(door<&size_of_lives>("life_size"));
   doors.push_back(door<&line_of>("straight_line"));
+  doors.push_back(door<&rows_of_family>("require_rows_of_family"));
 }
 
 }  // namespace wearwell::r

@@ -1,5 +1,6 @@
 """Questions that a fit answers later: predictions under new conditions."""
 
+import difflib
 import json
 import re
 from collections.abc import Mapping
@@ -93,6 +94,40 @@ def _frame_of(new):
     return frame
 
 
+def require_columns(frame, needed):
+    """That a frame ``new`` has these columns; one may be a level of its index, or have another spelling."""
+    of = [each for each in frame.columns if isinstance(each, str)]
+    bare = [in_column(each, None, needed)[0] for each in of]
+    missing = [each for each in needed if each not in bare]
+    if not missing:
+        return
+    levels = [each for each in missing if each in frame.index.names]
+    if levels:
+        raise InputError(f"new has no column '{levels[0]}'; it is a level of the index, and new.reset_index() makes it a column")
+    near = difflib.get_close_matches(missing[0], [each for each in of if each not in needed], n=1, cutoff=0.75)
+    has = f" (its columns: {', '.join(of)})" if of else ""
+    raise InputError(f"new has no column {' and no column '.join(repr(each) for each in missing)}{has}" + (f"; did you mean '{near[0]}'?" if near else ""))
+
+
+def _by_name(frame, columns):
+    """The columns of a frame that a study has, by its names: "F [kN]" is F, with texts where its unit is another; and those that hold numbers.
+    Others are ignored."""
+    import pandas
+
+    named, numbers = {}, []
+    for heading in frame.columns:
+        name, _ = in_column(heading, None, columns)
+        if name not in columns:
+            continue
+        if name in named:
+            raise InputError(f"new: '{heading}' and another column are both '{name}'")
+        other = name != heading and f"[{columns[name]}]" not in heading.replace("(", "[").replace(")", "]")
+        if frame[heading].dtype.kind in "iufb":
+            numbers.append(name)
+        named[name] = [in_column(heading, value, columns)[1] for value in frame[heading]] if other else frame[heading]
+    return pandas.DataFrame(named, index=frame.index), numbers
+
+
 def _whose(frame, label):
     """For each row the item that it is of, None for a new one."""
     if label not in frame:
@@ -117,12 +152,15 @@ def _require_values(frame, columns):
                 raise InputError(f"new, row {int(wild.argmax()) + 1}, column '{name}': {frame[name].iloc[wild.argmax()]} is not a finite number")
 
 
-def _answers(fit, table, level, name):
-    """Of each place its predictions by measured column, of the item of that name or of a new one."""
+def _answers(fit, table, level, name, new):
+    """Of each place its predictions by measured column, of the item of that name or of a new one. ``new``: the caller's frame, for
+    messages."""
     units = [] if name is None else [name]  # none: no paths of items are computed
     try:
         found = fit.ask({**table, "units": units}, level)["predictions"]
     except InputError as error:
+        if needed := re.search(r"needs predict(?:={'given': {'|\.given\.)(\w+)", str(error)):
+            require_columns(new, [needed[1]])
         unknown = re.search(r"predict.units: the data have no (.*) '(.*)' (\(.*\))", str(error), re.DOTALL)
         if not unknown:
             raise
@@ -151,23 +189,23 @@ def predict(fit, new, level, kind, along):
 
         if is_of_lives(study) and axis_of(study, columns, None) is None:
             return predict_lives(fit, study, frame, level, kind)
-    unknown = [c for c in frame.columns if c not in columns]
-    if unknown:
-        raise InputError(f"new: the study has no column {unknown[0]!r} (columns: {', '.join(conditions)})")
+    written = frame
+    frame, of_numbers = _by_name(frame, columns)
     label = next(iter(study.get("random_effects", {})), None)
     if kind == "unit" and label is None:
         raise InputError("kind='unit' needs a study with random effects, and this one has none: kind='next' predicts a "
                          "measurement of a new item")
     whose = _whose(frame, label) if kind == "unit" else [None] * len(frame)
     asked = [c for c in frame.columns if c in conditions]
-    numbers = [c for c in asked if frame[c].dtype.kind in "iufb"]
+    numbers = [c for c in asked if c in of_numbers]
     axis = axis_of(study, columns, along)
     if axis is None and kind == "unit" and len(numbers) > 1:
         raise InputError(f"along is missing: the column along which it wears ({', '.join(numbers)}), since beyond its last row "
                          "the path of an item goes on from its present value")
     axis = axis or next(iter(numbers), None)
     if axis is None or axis not in asked:
-        raise InputError(f"new has no column '{axis or conditions[0]}'")
+        require_columns(written, [axis or conditions[0]])
+        raise InputError(f"new: column '{axis or conditions[0]}' holds no numbers")
     _require_values(frame, asked)
     others = [c for c in asked if c != axis]
     answers = {}
@@ -180,7 +218,7 @@ def predict(fit, new, level, kind, along):
         table = {"along": axis, "at": [_written(at, columns[axis], axis) for _, at in places]}
         if others:
             table["given"] = {c: _written(v, columns[c], c) for c, v in zip(others, given)}
-        for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]])):
+        for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]], written)):
             answers[position] = found
     if not all(answers[i] for i in range(len(rows))):
         raise InputError("measurements of a new item are not predicted with two random effects, or of a process; its path is: "

@@ -95,9 +95,9 @@ def clutch(design, cycles, weighings, *, density, depth, area, balance_sd, trace
         quoted = toml.value(str(name), "points")
         duty = toml.mapping(duty, f"points: {name}", "{'slip_speed': '2800 rpm', ...}")
         parts.append(toml.table(f"life.points.{quoted}", {key: toml.quantity(each, f"points.{name}.{key}") for key, each in duty.items()}))
-    for name, each in tables.items():
-        require_no_truths(each, name)
     given = {name: (table_of(each, name, units.get(name)), each, None) for name, each in tables.items()}
+    for name, (table, _, _) in given.items():
+        require_no_truths(table, name)
     made = Study._made("\n".join(parts), given, {"lining.density": "density", "lining.depth": "depth", "lining.area": "area",
                                                  "balance.sd": "balance_sd", "data.missing_cycles": "missing_cycles", "life.levels": "levels", "life.points": "points",
                                                  "uncertainty.replicates": "replicates"})

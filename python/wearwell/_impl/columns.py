@@ -3,9 +3,10 @@
 import re
 
 from . import _core
-from .data import columns_of_few_kinds, headings_of, holds_truths, no_column, table_of, values_of
+from .data import columns_of_few_kinds, headings_of, holds_truths, no_column, table_of, truths_refused, values_of
 from .errors import InputError
 from .idle_columns import are_counts, are_units, may_be_counts, may_be_units, warn_of_counts, warn_of_units
+from .messages import in_python
 from .toml import mapping, table, unit_text
 
 _bracket = re.compile(r"\s*[\[(](.*)[\])]\s*\Z", re.DOTALL)
@@ -76,8 +77,8 @@ class Columns:
 
     def entry(self, heading, labels=False):
         """What [data.columns] says of a column of numbers, or of labels."""
-        if not labels and self._whole is None and holds_truths(self.data, heading):
-            raise InputError(f"{self._arguments[heading]}: column '{heading}' holds True and False; it is a number in each row (astype(float) makes 1 and 0)")
+        if not labels and holds_truths(self.data if self._whole is None else self._whole, heading):
+            raise truths_refused(f"{self._arguments[heading]}:", heading)
         return {"column": heading, "unit": self._units[heading]} if heading in self._units else heading
 
     def _read(self):
@@ -95,6 +96,13 @@ class Columns:
 
         values = self.cells(heading)
         return values[numpy.isfinite(values)]
+
+    def require_numbers(self, heading, argument):
+        """That a column holds a number."""
+        if len(self.numbers(heading)):
+            return
+        words = [each for each in self.words(heading) if each]
+        raise InputError(f"{argument}: column {heading!r} holds no numbers" + (f", but texts such as {words[0]!r}" if words else ""))
 
     def cells(self, heading):
         """The numbers of a column by row, NaN of those that are missing."""
@@ -160,6 +168,13 @@ class Columns:
     def line(self, axis, measured, unit):
         """(whether a straight path begins at 0, whether it falls, its rate)"""
         return _core.straight_line(self._read(), axis, measured, unit)
+
+    def require_rows_of_family(self, axis, measured, family):
+        """That all rows are readings of paths of a family."""
+        try:
+            _core.require_rows_of_family(self._read(), axis, measured, family)
+        except InputError as error:
+            raise InputError(in_python(str(error))) from None
 
     def warn_of_idle(self, unused, counts=False, units=False, instead="", otherwise=None, noun="", count_as="independent"):
         """Warns of columns that are neither used nor in ``unused`` and look like counts or units, where a study takes such and has none.

@@ -8,6 +8,7 @@ by object.
 import decimal
 import difflib
 import os
+import re
 
 import numpy as np
 
@@ -219,7 +220,8 @@ def table_of(data, name="data", units=None, only=None):
         _headings(names, name)
         return _columns(((n, data.iloc[:, i]) for i, n in enumerate(names)), name, units, only, names)
     elif hasattr(data, "__arrow_c_stream__"):
-        table = _core.table_of_arrow(name, data.__arrow_c_stream__())
+        table, truths = _core.table_of_arrow(name, data.__arrow_c_stream__())
+        table.truths = truths
     elif isinstance(data, np.ndarray) and data.dtype.names:
         return _columns(((n, data[n]) for n in data.dtype.names), name, units, only, data.dtype.names)
     elif hasattr(data, "fetchnumpy"):  # DuckDB
@@ -243,7 +245,7 @@ def _columns(items, name, units, only, names):
     twice = sorted({n for n in names if list(names).count(n) > 1})
     if twice:
         raise InputError(f"{name}: two columns are called '{twice[0]}'")
-    columns = []
+    columns, truths = [], []
     units = dict(units)
     for heading, column in items:
         if only is not None and heading not in only:
@@ -253,9 +255,13 @@ def _columns(items, name, units, only, names):
         if unit is None and hasattr(column, "magnitude") and hasattr(column, "units"):
             unit = unit_text(column.units)
         columns.append((heading, unit or "", _values(column, f"{name}, column '{heading}'")))
+        if _are_truths(column):
+            truths.append(heading)
     if units:
         raise InputError(f"units: {name} has no column '{next(iter(units))}' (columns: {', '.join(names)})")
-    return _core.table_of(name, columns)
+    table = _core.table_of(name, columns)
+    table.truths = truths
+    return table
 
 
 def _is_series(data):
@@ -287,10 +293,15 @@ def values_of(data, headings):
 
 
 def holds_truths(data, heading):
-    """Whether a column in memory is of booleans, which would be read as the numbers 1 and 0."""
+    """Whether a column in memory is of booleans, which would be read as the numbers 1 and 0. Those of a file are texts."""
+    if isinstance(data, _core.Table):
+        return heading in getattr(data, "truths", ())
     if hasattr(data, "fetchnumpy") and hasattr(data, "types"):  # a DuckDB relation, which is not run for this
         return str(data.types[data.columns.index(heading)]) == "BOOLEAN"
-    column = _held(data, [heading])[heading]
+    return _are_truths(_held(data, [heading])[heading])
+
+
+def _are_truths(column):
     dtype = getattr(column, "dtype", None)
     kind = getattr(getattr(getattr(dtype, "categories", None), "dtype", dtype), "kind", "O")
     if kind != "O":
@@ -299,13 +310,14 @@ def holds_truths(data, heading):
     return isinstance(first, (bool, np.bool_))
 
 
-def require_no_truths(data, name):
-    """That no column of a table of measurements in memory is of booleans."""
-    if data is None or isinstance(data, _core.Table):
-        return
-    heading = next((h for h in _found_headings(data) or () if holds_truths(data, h)), None)
-    if heading:
-        raise InputError(f"{name}, column '{heading}' holds True and False; it is a number or a text in each row (astype(float) makes 1 and 0)")
+def truths_refused(where, heading):
+    return InputError(f"{where} column '{heading}' holds True and False; it is a number in each row (astype(float) makes 1 and 0)")
+
+
+def require_no_truths(table, name):
+    """That no column of a table of measurements is of booleans."""
+    if heading := next(iter(getattr(table, "truths", ())), None):
+        raise truths_refused(f"{name},", heading)
 
 
 def columns_of_few_kinds(data, headings):
@@ -322,17 +334,31 @@ def _has_few_kinds(values):
 
 def no_column(data, headings, key, where):
     """The error of a column that is not there; it knows of levels of the index and of names that are near."""
-    levels = [each for each in getattr(getattr(data, "index", None), "names", ()) or () if each is not None] if hasattr(data, "iloc") else []
-    if key in levels:
+    if key in _levels_of_index(data):
         return InputError(f"{where}: data has no column '{key}'; it is a level of the index, and data.reset_index() makes it a column")
     near = difflib.get_close_matches(str(key), [str(each) for each in headings], n=1, cutoff=0.75)
     return InputError(f"{where}: data has no column '{key}' (columns: {', '.join(map(str, headings))})"
                       + (f"; did you mean '{near[0]}'?" if near else ""))
 
 
+def _levels_of_index(data):
+    return [each for each in getattr(getattr(data, "index", None), "names", ()) or () if each is not None] if hasattr(data, "iloc") else []
+
+
+def index_level_of(tables, message):
+    """The error of a column that is a level of the index of its table, where a message says that it is not there; else None."""
+    match = re.match(r"(?:.*: )?(\w+) has no column '([^']*)'", message)
+    if not match or match[1] not in tables:
+        return None
+    for level in _levels_of_index(tables[match[1]]):
+        if isinstance(level, str) and re.sub(r"\s*\[.*", "", level) == re.sub(r"\s*\[.*", "", match[2]):
+            return InputError(f"{match[1]} has no column '{level}'; it is a level of the index, and {match[1]}.reset_index() makes it a column")
+    return None
+
+
 def headings_of(data, name="data"):
     """Names of the columns, without reading them where that can be. InputError where they are no texts."""
-    headings = _found_headings(data)
+    headings = _found_headings(data, name)
     if headings is not None:
         _headings(headings, name)
         if not headings:
@@ -340,9 +366,9 @@ def headings_of(data, name="data"):
     return headings
 
 
-def _found_headings(data):
+def _found_headings(data, name="data"):
     if _is_series(data):
-        raise InputError(f"data is {type(data).__name__}, one column without others; it may be a data frame or a dict of columns")
+        raise InputError(f"{name} is {type(data).__name__}, one column without others; it may be a data frame or a dict of columns")
     if isinstance(data, _core.Table):
         return data.headings()
     if isinstance(data, (str, os.PathLike)) or (hasattr(data, "__arrow_c_stream__") and not hasattr(data, "iloc")):

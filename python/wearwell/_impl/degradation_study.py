@@ -34,22 +34,6 @@ def _require_one_path(columns, x, y):
                          f"several units; unit='...' names the column that tells them apart, or unit=False says that all rows of {y} are of one")
 
 
-def _require_above_zero(columns, x, y, family):
-    """Paths of all families but the normal are 0 at 0, and certain there; only those of a Wiener process fall below."""
-    axis, readings = columns.cells(x), columns.cells(y)
-    early, low = axis <= 0, (readings <= 0) & (family != "wiener-process" and (readings > 0).any())  # where all are below 0 the path falls
-    if not (early | low).any():
-        return
-    row = int((early | low).argmax())
-    where = f"data, row {row + 1}, column "
-    if axis[row] == 0 and readings[row] == 0:
-        raise InputError(f"{where}'{x}': 0; a path of the family '{family}' begins at 0, so a reading there says nothing: leave out the row")
-    if early[row]:
-        raise InputError(f"{where}'{x}': {axis[row]:g} must be positive: a path of the family '{family}' begins at 0, where {x} is 0; family='normal' "
-                         "takes such a row")
-    raise InputError(f"{where}'{y}': {readings[row]:g} must be positive for the family '{family}'; family='normal' takes readings of 0 and less")
-
-
 @fits
 def degradation(data, y, x, *, unit=None, limit=None, path="line", family="normal", starts_at_zero=None, units=None, priors=None,
                 b=(1, 10), confidence=0.9, predict=None, unused=None, title=None, seed=None, method=None, chains=None, warmup=None,
@@ -122,11 +106,10 @@ def degradation(data, y, x, *, unit=None, limit=None, path="line", family="norma
         _require_one_path(columns, x, y)
         columns.warn_of_idle(unused, units=True, otherwise="unit=False")
     of, along = columns.unit(y), columns.unit(x)
-    if family != "normal":
-        _require_above_zero(columns, x, y, family)
+    columns.require_rows_of_family(x, y, family)
+    for argument, heading in (("y", y), ("x", x)):
+        columns.require_numbers(heading, argument)
     values, places = columns.numbers(y), columns.numbers(x)
-    if not len(values) or not len(places):
-        raise InputError(f"data has no readings in column '{y if not len(values) else x}'")
     at_zero, falls, rate = columns.line(x, y, unit or None)
     if starts_at_zero is not None and not starts_at_zero and family != "normal":
         raise InputError(f"starts_at_zero=False needs family='normal': paths of the family {family} begin at 0")

@@ -5,7 +5,7 @@ import os
 import sys
 import warnings
 
-from .messages import in_arguments
+from .messages import in_arguments, in_python
 
 
 class InputError(ValueError):
@@ -93,6 +93,18 @@ def missing_files():
         if "no such file" in str(error) and not isinstance(error, MissingFileError):
             raise MissingFileError(str(error)) from None
         raise
+
+
+@contextlib.contextmanager
+def in_words_of_caller(words):
+    """An InputError of a study that a function made of its arguments speaks of these. ``words``: (arguments by key, their values), None where the
+    caller wrote the study."""
+    try:
+        yield
+    except InputError as error:
+        if words is None or isinstance(error, MissingFileError):
+            raise
+        raise InputError(in_python(str(error), *words)) from None
 
 
 def warn(message):

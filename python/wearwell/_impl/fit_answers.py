@@ -55,7 +55,8 @@ class FitAnswers:
         Parameters
         ----------
         new : pandas.DataFrame or dict of columns
-            A row for each prediction, in the units of the study's columns.
+            A row for each prediction, in the units of the study's columns or of a heading, "F [kN]". Columns that the study does
+            not have are ignored.
         level : float
             Probability that an interval holds, between 0 and 1.
         kind : {"mean", "next", "unit"}
@@ -77,7 +78,7 @@ class FitAnswers:
         Raises
         ------
         InputError
-            If the study is of another model, a column is unknown or missing, a value is missing or not finite, an item is
+            If the study is of another model, a column is missing, a value is missing or not finite, an item is
             unknown, or measurements of a new item cannot be predicted (two random effects, or a process).
 
         Examples

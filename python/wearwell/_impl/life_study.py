@@ -236,8 +236,8 @@ def life(data, life, *, event=None, entry=None, count=None, family="weibull", st
              *(each[0] for each in shapes)}
     columns = Columns(data, units, names - {"life"})
     rows, measured, values, of = _lives(columns, life)
-    if not len(values) and isinstance(life, str) and (cells := [each for each in columns.words(columns.heading(life, "life")) if each]):
-        raise InputError(f"life: column {life!r} holds no numbers, but texts such as {cells[0]!r}")
+    if isinstance(life, str):
+        columns.require_numbers(columns.heading(life, "life"), "life")
     if not len(values) or values[-1] <= 0:
         raise InputError(f"life: {life!r} has no value above 0")
     if event is not None:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 
 from . import toml
-from .ask import _written, columns_of, conditions_of, in_column, tables_of
+from .ask import _written, columns_of, conditions_of, in_column, require_columns, tables_of
 from .errors import InputError
 from .messages import in_python
 
@@ -259,7 +259,11 @@ def predict(fit, study, new, level, kind):
     if kind == "unit":
         raise InputError("kind='unit' predicts measurements of an item along its path; lives are those of new items: kind='next'")
     frame = new if isinstance(new, pandas.DataFrame) else pandas.DataFrame(dict(new))
-    _, found = conditions(fit, study, frame)
+    names = conditions_of(study, columns_of(study))
+    known = [each for each in frame.columns if in_column(each, None, names)[0] in names]
+    if len(known) < len(frame.columns) or any(each in names for each in frame.index.names):
+        require_columns(frame, names)  # a condition that is missing has its usual value, unless another column may mean it
+    _, found = conditions(fit, study, frame[known])
     rows, of = [], ""
     for _, values in found:
         asked = {"mean_life": True} if kind == "mean" else {"mean_life": True, "b_lives": [50]}

@@ -24,6 +24,15 @@ def in_python(message, arguments=None, values=None):
     message = re.sub(r'unused = (\[[^\]]*\])', r"unused=\1", message)
     message = re.sub(r'give the study a status column(, or write \[failure_modes\] runout = ("[^"]*"))?',
                      lambda m: f"name a column as {status}" + (f", or write mode={{'column': ..., 'runout': {m[2]}}}" if m[1] else ""), message)
+    message = message.replace("must be a text in quotes", "must be a text")
+    message = re.sub(r"\A(?:study: )?\d+ keys are missing; with values of yours: ", "these are missing, here with values of an example: ", message)
+    message = re.sub(r'\bfamily "([\w-]+)"', r"family '\1'", message)
+    message = re.sub(r'\bfamily = "([\w-]+)"', r"family='\1'", message)
+    message = re.sub(r"\b(lives_of|units) = (\[[^\]]*\])", r'predict={"\1": \2}', message)
+    message = re.sub(r"\A(\w+)(, column '[^']*' has no unit: name it '([^'\[\]]*) \[([^'\]]*)\]')\Z", lambda m: m[1] + m[2] + ", or write units=" + (
+        f"{{'{m[3]}': '{m[4]}'}}" if m[1] == "data" else f"{{'{m[1]}': {{'{m[3]}': '{m[4]}'}}}}"), message)
+    message = re.sub(r'needs a unit: \w+ = \{ column = "([^"]*)", unit = "([^"]*)" \}', r"needs a unit: units={'\1': '\2'}", message)
+    message = re.sub(r"data\.missing_cycles = ", "missing_cycles=", message)
     for key, argument in sorted(arguments.items(), key=lambda each: -len(each[0])):
         message = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w])", argument, message)
     message = re.sub(r"\bneeds (predict\.)?given\.(\w+)",

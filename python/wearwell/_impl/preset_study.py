@@ -82,7 +82,7 @@ def quantities(values, name):
 
 def percentages(b):
     """Those of B-lives."""
-    return None if b is None else list(b) if hasattr(b, "__iter__") else [b]
+    return None if b is None else list(b) if hasattr(b, "__iter__") and not isinstance(b, str) else [b]
 
 
 def level_of_bounds(confidence, predict):

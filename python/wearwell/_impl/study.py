@@ -5,9 +5,8 @@ import re
 
 from . import _core, toml
 from .assembly import assemble
-from .messages import in_python
-from .data import table_of
-from .errors import InputError, missing_files
+from .data import index_level_of, table_of
+from .errors import InputError, in_words_of_caller, missing_files
 from .fit import Fit
 from .fit_options import fits
 from .progress import reporter
@@ -84,25 +83,25 @@ class Study:
     1.01e-07
     """
 
+    _words = None  # of a study that was made: arguments by key, and their values, for messages
+
     def __init__(self, formula, data, *, priors, units=None, unit=None, random_effects=None, family="normal", scatter=None,
                  likelihood=None, constants=None, predict=None, sampler=None, title=None, status=None, unused=None):
         text, table, only = assemble(formula, data, priors, units, unit, random_effects, family, scatter, likelihood, constants, predict,
                                      sampler, title, status, unused)
-        try:
+        self._words = {}, None
+        with in_words_of_caller(self._words):
             self._set(text, "study", {"data": table}, {"data": (data, {}, only)})
-        except InputError as error:
-            raise InputError(in_python(str(error))) from None
 
     @classmethod
     def _made(cls, text, given, arguments=None, values=None):
         """A study that a function made of its arguments; ``given``: by name (table, data, headings that it holds); ``values``: of arguments,
         for messages."""
         self = cls.__new__(cls)
-        try:
+        self._words = arguments or {}, values
+        with in_words_of_caller(self._words):
             return self._set(text, "study", {k: table for k, (table, _, _) in given.items()},
                              {k: (data, {}, only) for k, (_, data, only) in given.items()})
-        except InputError as error:
-            raise InputError(in_python(str(error), arguments or {}, values)) from None
 
     @classmethod
     def from_toml(cls, text, data=None, *, units=None, folder="", name="study"):
@@ -188,7 +187,10 @@ class Study:
     def _set(self, text, path, tables, given):
         self.toml, self._path, self._shown, self._given = text, path, path, given
         with missing_files():
-            self._read = _core.read_text(text, path, tables)
+            try:
+                self._read = _core.read_text(text, path, tables)
+            except InputError as error:
+                raise index_level_of({k: v for k, (v, _, _) in given.items()}, str(error)) or error from None
         return self
 
     def description(self):
@@ -262,7 +264,7 @@ class Study:
         """
         choice = {"method": method, "chains": chains, "warmup": warmup, "draws": draws, "seed": seed}
         _require_choice(choice, threads)
-        with reporter(progress) as report_progress:
+        with reporter(progress) as report_progress, in_words_of_caller(self._words):
             run = self._read.run(method or "", chains, warmup, draws, seed, threads, bool(report), report_progress)
         return Fit._of(self, run, choice)
 
@@ -275,7 +277,7 @@ class Study:
     def __getstate__(self):
         if any(isinstance(v, _core.Table) for v, _, _ in self._given.values()):
             raise TypeError("a study of wearwell.table(...) cannot be pickled; hand over the data itself")
-        return {k: v for k, v in self.__dict__.items() if k != "_read"}
+        return {k: v for k, v in self.__dict__.items() if k not in ("_read", "_words")}
 
     def __setstate__(self, state):
         self.__dict__.update(state)

@@ -109,7 +109,13 @@ presets <- list(
   ww_bearing = list(
     study = function(frame) ww_bearing(frame, "d", revolutions = "turns", contact = "journal", radius = "10 mm", clearance = "20 um", pressure = "p", unit = "place",
                                        units = c(d = "um", p = "MPa"), fit = FALSE),
-    frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)))
+    frame = list(d = c(5, 9, 14, 20, 24, 31, 33, 41), turns = 1:8 * 1e5, p = rep(1.5, 8), place = site)),
+  ww_repairable = list(
+    study = function(frame) ww_repairable(frame, "age", unit = "part", event = "what", units = c(age = "h"), fit = FALSE),
+    frame = list(age = c(100, 250, 400, 90, 300, 500, 40, 420), part = rep(c("A", "B", "C"), c(3, 3, 2)), what = c("failure", "failure", "end")[c(1, 2, 3, 1, 2, 3, 1, 3)])),
+  ww_returns = list(
+    study = function(frame) ww_returns(frame, sold = "sold", returned = "back", until = "2024-12", fit = FALSE),
+    frame = list(sold = rep(c("2024-01", "2024-02", "2024-03", "2024-04"), 2), back = rep(c("2024-05", "", "2024-08", ""), 2))))
 
 for (preset in names(presets)) {
   test_that(paste("columns of presets are read, or refused by their headings:", preset), {
@@ -134,6 +140,32 @@ for (preset in names(presets)) {
     refused(study("tests.csv"), "data is \"tests.csv\"; it is a data frame")
   })
 }
+
+campaign <- list(
+  design = list(point = 1:8, role = rep("model", 8), `slip_speed [rpm]` = 1:8 * 200, `torque [N m]` = rep(25, 8), `temperature [degC]` = rep(120, 8), `closing_time [s]` = rep(0.9, 8)),
+  cycles = list(plate = rep(1, 8), cycle = 1:8, `slip_speed [rpm]` = rep(1200, 8), `torque [N m]` = rep(25, 8), `temperature [degC]` = rep(120, 8), `closing_time [s]` = rep(0.9, 8),
+                `energy [J]` = rep(25131, 8)),
+  weighings = list(plate = rep(1, 8), cycle = 0:7, block = c("start", rep("run-in", 7)), `mass [g]` = 250 - 0:7 * 0.01))
+
+test_that("columns of a clutch's tables are read, or refused by table and column", {
+  study <- function(tables) {
+    ww_clutch(tables$design, tables$cycles, tables$weighings, density = "2.2 g/cm^3", depth = "1 mm", area = "100 cm^2", balance_sd = "1 mg", fit = FALSE)
+  }
+  of_all <- lapply(campaign, function(table) frame_with("x", NULL, table))
+  for (table in names(campaign)) {
+    for (column in names(campaign[[table]])) {
+      for (kind in setdiff(names(kinds), c("as it is", "integer", "factor", "ordered", "texts", "as is", "negative", "zero", "alike", "huge", "tiny"))) {
+        tables <- of_all
+        tables[[table]] <- frame_with(column, kinds[[kind]](campaign[[table]][[column]]), campaign[[table]])
+        found <- tryCatch(study(tables), error = identity)
+        if (!inherits(found, "condition")) next
+        about <- paste(table, column, kind)
+        expect_s3_class(found, "wearwell_input_error")
+        expect_match(conditionMessage(found), paste0("^", table, "|^run-in: "), info = paste(about, conditionMessage(found)))
+      }
+    }
+  }
+})
 
 test_that("texts of 0 and 1 are read as the codes, and what a preset refuses has the names of its arguments", {
   good <- presets$ww_sn$frame

@@ -47,7 +47,7 @@ test_that("wrong columns are refused by name", {
   }
   refused(with(as.Date("2024-01-01") + 1:18), "column 'F' holds dates or times (Date)")
   refused(with(as.POSIXct("2024-01-01", tz = "UTC") + 1:18), "column 'F' holds dates or times (POSIXct)")
-  refused(with(as.difftime(1:18, units = "hours")), "column 'F' holds dates or times (difftime)")
+  refused(with(as.difftime(1:18, units = "hours")), "column 'F' holds durations (difftime); as.double(..., units = \"hours\") makes numbers of them")
   refused(with(structure(as.double(1:18), class = "integer64")), "column 'F' is of class integer64")
   refused(with(complex(18, 1)), "column 'F' holds complex numbers")
   refused(with(as.raw(1:18)), "column 'F' is raw")

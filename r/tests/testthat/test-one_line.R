@@ -76,6 +76,7 @@ test_that("staircase, joint and bearing are the studies of their files", {
   expect_identical(wearwell:::core(wearwell:::C_keys, one$text)$predict$cycles, 20000)
   refused(ww_joint(transform(joint, w = cycles * 6), "volume", "cycles", work = "w", work_per_cycle = "6 N m", units = c(volume = "mm^3", w = "N m")),
           "predict = list(work_per_cycle = \"6 N m\")")
+  refused(ww_joint(data.frame(V = 1:4, n = 1:4 * 1000), "V", "n", work_per_cycle = "1 J", fit = FALSE), "column 'V' needs a unit: units = c(V = \"m^3\"), or 'V [m^3]' as the heading")
   refused(ww_joint(joint, "volum", "cycles", work_per_cycle = "1 N m"), "volume: data has no column 'volum'")
   worn <- read.csv(example("bearing", "inspections.csv"))
   bearing <- function(...) ww_bearing(worn, "depth_um", revolutions = "revolutions", unit = "bearing", contact = "stationary", force = "force_N", length = "20 mm",
@@ -95,6 +96,7 @@ test_that("a clutch takes three tables", {
   refused(ww_clutch(design = data.frame(point = 1), cycles = 3, weighings = 4, density = "1 g/cm^3", depth = "1 mm", area = "1 cm^2", balance_sd = "1 mg"), "cycles is double")
   expect_error(ww_clutch(design = data.frame(point = 1), cycles = data.frame(plate = 1), weighings = data.frame(plate = 1), density = "2.2 g/cm^3",
                          depth = "1 mm", area = "100 cm^2", balance_sd = "1 mg", fit = FALSE), "design", class = "wearwell_input_error")
+  refused(ww_clutch(density = "1 g/cm^3"), "ww_clutch(): design, cycles, weighings, depth, area, balance_sd are missing; it takes three data frames and quantities of the lining: ww_clutch(design = , ")
 })
 
 test_that("level takes the place of the default confidence", {

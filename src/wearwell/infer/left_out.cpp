@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/pareto_smoothing.h"
 #include "wearwell/math/log_sum_exp.h"
 #include "wearwell/math/view.h"
@@ -18,6 +19,7 @@ std::vector<LeftOut> left_out(const LogDensity& likelihood, const WeightedDraws&
     parts[i].resize(terms);
     const Eigen::Index first = static_cast<Eigen::Index>(i) * part;
     for (Eigen::Index row = first; row < std::min(count, first + part); ++row) {
+      check_stop();
       if (!(points.weights[row] > 0)) continue;
       const double log_weight = std::log(points.weights[row]);
       const Eigen::VectorXd x = points.values.row(row);

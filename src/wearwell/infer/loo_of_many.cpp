@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/left_out.h"
 #include "wearwell/infer/pareto_smoothing.h"
 #include "wearwell/math/view.h"
@@ -74,6 +75,7 @@ Loo loo_of_many(const LogDensity& likelihood, const WeightedDraws& draws, std::s
   std::vector<std::vector<NormalScore>> z(scores ? static_cast<std::size_t>(count) : 0);
   Eigen::VectorXd influences = Eigen::VectorXd::Zero(count);
   tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index s) {
+    check_stop();
     const Eigen::VectorXd x = few.values.row(s);
     const std::vector<double> each = likelihood.pointwise(view(x));
     for (std::size_t i = 0; i < terms; ++i) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/infer/left_out.h"
 #include "wearwell/infer/loo_at_points.h"
 #include "wearwell/infer/loo_of_many.h"
@@ -148,6 +149,7 @@ Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws&
   Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, used, 64), [&](const auto& part) {
     for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
+      check_stop();
       const Eigen::VectorXd x = draws.values.row(row * thin);
       const std::vector<double> each = likelihood.pointwise(view(x));
       log_density.row(row) =
@@ -182,12 +184,14 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
   const Eigen::Index thin = (draws.values.rows() + used - 1) / used;
   std::vector<std::vector<NormalScore>> z(scores ? static_cast<std::size_t>(used) : 0);
   tbb::parallel_for(std::size_t{0}, z.size(), [&](std::size_t s) {
+    check_stop();
     const Eigen::VectorXd x = draws.values.row(static_cast<Eigen::Index>(s) * thin);
     z[s] = (*scores)(x.data());
   });
   loo.threshold = khat_threshold(static_cast<double>(used));
   loo.terms.resize(terms);
   tbb::parallel_for(std::size_t{0}, terms, [&](std::size_t i) {
+    check_stop();
     if (!counts.empty()) loo.terms[i].count = counts[i];
     leave_out_smoothed(loo.terms[i], columns.col(static_cast<Eigen::Index>(i)),
                        scores ? [&](std::size_t s) { return z[s][i]; } : ScoreAt());

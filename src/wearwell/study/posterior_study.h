@@ -162,6 +162,9 @@ struct PosteriorStudy : Study {
   /// ln of the joint prior over the product of the parameters' priors, where an order of parameters
   /// restricts it.
   double log_prior_constant = 0;
+  /// Why not all that is asked can be computed, if so: thrown before anything is fitted. Other users
+  /// of the study, such as a tracker of one of its units, need not ask for it.
+  std::optional<InputError> refusal;
 };
 
 /// What an application reads of a study file and its data, beyond what all studies of a posterior have.

@@ -243,6 +243,7 @@ void require_posterior(const PosteriorStudy& study) {
 
 PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& choice,
                            const Monitor& monitor, bool with_plots) {
+  if (study.refusal) throw InputError(*study.refusal);
   const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
   if (monitor.threads > 0) {

@@ -129,7 +129,7 @@ TEST_F(CampaignTables, MissingCyclesAreRefusedOrFilled) {
   ASSERT_GT(lost, 300u);
   write_campaign(lossy);
   EXPECT_THAT(refused(as_written), AllOf(HasSubstr("cycles are logged between the weighings at"),
-                                         HasSubstr("add missing_cycles = \"fill\" to [data]")));
+                                         HasSubstr("data.missing_cycles = \"fill\" says so")));
   EXPECT_EQ(refused(std::string(as_written) + "missing_cycles = 'refuse'\n"), refused(as_written));
   // `check` says what `fit` would.
   const ClutchStudy unfilled = study(as_written);

@@ -41,6 +41,15 @@ TEST_F(FormulaCells, LimitsAreCensored) {
   EXPECT_DOUBLE_EQ(found.responses[2].at, 3e-9);
 }
 
+TEST_F(FormulaCells, AWordInAColumnThatQualifiesMeasurementsIsRefused) {
+  for (const std::string name : {"count", "entry", "lower", "upper"}) {
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { read("V,s,n\n1,1,2\n1.5,2,many\n", volume + name + " = \"n\"\n"); }),
+                HasSubstr("row 2, column 'n': 'many' is not a number"))
+        << name;
+  }
+}
+
 TEST_F(FormulaCells, ALimitOfDetectionStandsInTheStudy) {
   const std::string table = "V,s\n<LOD,1\n1.5,2\n";
   EXPECT_THAT(message_of<InputError>([&] { read(table, volume); }),

@@ -92,7 +92,7 @@ WornBlocks worn_blocks(const Campaign& campaign) {
           fmt::format("{}: {} cycles are logged between the weighings at {} and {}, but {} ran{}",
                       here, block.cycles(), before.cycle, after.cycle, after.cycle - before.cycle,
                       block.cycles() < static_cast<double>(after.cycle - before.cycle)
-                          ? "; if a log loses some cycles, add missing_cycles = \"fill\" to [data]"
+                          ? "; if a log loses some cycles, data.missing_cycles = \"fill\" says so"
                           : ""));
     for (const Input& input : inputs) block.mean.*input.value /= block.cycles();
     const double loss = before.mass - after.mass;

@@ -86,6 +86,11 @@ bool is_text(const Column& column) {
   });
 }
 
+// Whether a column of this name has the bounds, entries or counts of measurements.
+bool qualifies(const std::string& name) {
+  return name == "lower" || name == "upper" || name == "entry" || name == "count";
+}
+
 // One measured column with the columns that qualify it.
 class ObservedReader {
  public:
@@ -405,7 +410,9 @@ FormulaData read_own_data(const TomlReader& root, const Source& source,
     if (is_label(name) && unit) {
       columns.fail(name, "has a unit, but the study uses it as a label; remove one of the two");
     }
-    const bool words = is_text(*column) || (name == "status" && !column->is_number);
+    // A word in a column that qualifies measurements is an error: a label there would be ignored.
+    const bool words =
+        !qualifies(name) && (is_text(*column) || (name == "status" && !column->is_number));
     if (is_label(name) || (!unit && words)) {
       const bool is_status = name == "status" && data.status;
       data.labels.push_back(

@@ -50,7 +50,10 @@ void require_monotone(const Asked& asked, const TomlReader& table, const std::st
 }
 
 // Lives of all units are computed together.
-constexpr std::size_t most_units = 500;
+std::optional<InputError> too_many_lives(const Asked& asked) {
+  constexpr std::size_t most = 500;
+  return too_many_units(asked, "limit", "lives_of", "remaining useful life", "10 MB", most);
+}
 
 // Each unit of the study, and a new one; with predict.lives_of only those, with an empty list only
 // the new one.
@@ -65,26 +68,14 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
                                                  did_you_mean(each, units)));
     }
   }
+  // Of units that are too many only the names are needed, which a question on one of them finds.
+  const bool names_only = too_many_lives(asked).has_value();
   for (std::size_t u = 0; u < units.size(); ++u) {
     if (only && std::find(reported.begin(), reported.end(), units[u]) == reported.end()) continue;
-    path.seen.push_back(seen_unit(asked, table, name, wanted, u));
+    path.seen.push_back(names_only ? LimitedPath::SeenUnit{{}, {}, asked.last_place(u), u}
+                                   : seen_unit(asked, table, name, wanted, u));
   }
   if (!reported.empty()) path.next.reset();
-}
-
-// Why lives of all units, which no one chose, are not computed; none for fewer.
-std::optional<InputError> too_many_units(const Asked& asked, const LimitedPath& path) {
-  if (asked.predict.has("lives_of") || path.seen.size() <= most_units) return {};
-  try {
-    asked.predict.fail(
-        "limit",
-        fmt::format("the data have {} units of '{}', and the remaining useful life of each "
-                    "takes about 10 MB of memory; without a choice at most {} are computed: "
-                    "lives_of = [\"{}\"] chooses some, lives_of = [] only a new one",
-                    path.seen.size(), asked.noun, most_units, asked.model->units.front()));
-  } catch (const InputError& error) {
-    return error;
-  }
 }
 
 using Lives = std::function<LimitedLives(const WeightedDraws&, double share_of_points)>;
@@ -94,7 +85,8 @@ void request_lives(const Asked& asked, const std::string& name, const Quantity& 
                    const Lives& lives_of, PosteriorStudy& study) {
   const auto rows = std::make_shared<const LimitGroup>(asked, name, limit, path, reported);
   // The study itself is read without a refusal: for one of its units, or with tests that are planned.
-  if (const auto refusal = too_many_units(asked, *path)) {
+  if (const auto refusal = too_many_lives(asked)) {
+    study.refusal = refusal;
     study.quantity_groups.push_back(
         {rows->requests(),
          [refusal](const WeightedDraws&) -> std::vector<QuantityQuantiles> {
@@ -188,6 +180,23 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
 }
 
 }  // namespace
+
+std::optional<InputError> too_many_units(const Asked& asked, const std::string& key,
+                                         const std::string& choice, const std::string& what,
+                                         const std::string& size, std::size_t most) {
+  const std::vector<std::string>& units = asked.model->units;
+  if (asked.predict.has(choice) || units.size() <= most) return {};
+  try {
+    asked.predict.fail(
+        key,
+        fmt::format("the data have {} units of '{}', and the {} of each takes about {} of "
+                    "memory; without a choice at most {} are computed: {} = [\"{}\"] chooses "
+                    "some, {} = [] only a new one",
+                    units.size(), asked.noun, what, size, most, choice, units.front(), choice));
+  } catch (const InputError& error) {
+    return error;
+  }
+}
 
 void set_reach(const Asked& asked, LimitedPath& path) {
   const NumberColumn& axis = asked.axis();

@@ -11,6 +11,12 @@ namespace wearwell::formula_model {
 LimitedPath::SeenUnit seen_unit(const Asked& asked, const TomlReader& table, const std::string& key,
                                 const std::vector<formula::Wanted>& wanted, std::size_t unit);
 
+/// Why what takes `size` of memory for each unit is not computed for all of them: they are more than
+/// `most`, and no key `choice` under [predict] says which. None for fewer.
+std::optional<InputError> too_many_units(const Asked& asked, const std::string& key,
+                                         const std::string& choice, const std::string& what,
+                                         const std::string& size, std::size_t most);
+
 /// Fills in the start of a new unit's path, the range of the data from there, and whether the path
 /// rises.
 void set_reach(const Asked& asked, LimitedPath& path);

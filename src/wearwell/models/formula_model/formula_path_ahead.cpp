@@ -162,6 +162,9 @@ void add_units(const Asked& asked, const Measured& measured, const std::vector<Q
   }
 }
 
+// Paths of all units are computed together, each in about 4 MB.
+constexpr std::size_t most_paths = 2000;
+
 // The value of each unit, without measurement scatter.
 void request_paths(const Asked& asked, const Measured& measured,
                    const std::vector<Quantity>& places, const LimitedPath& axis, bool of_new,
@@ -186,7 +189,9 @@ void request_paths(const Asked& asked, const Measured& measured,
   const std::vector<formula::Wanted> wanted(measured.wanted.begin(),
                                             measured.wanted.begin() + (measured.process ? 2 : 1));
   if (of_new) add({{axis.next, {}, 0}, {}, {}}, "new " + asked.noun);
-  if (asked.model->label || axis.next->goes_on() || measured.process) {
+  if (const auto refusal = too_many_units(asked, "at", "units", "path", "4 MB", most_paths)) {
+    if (!study.refusal) study.refusal = refusal;
+  } else if (asked.model->label || axis.next->goes_on() || measured.process) {
     const std::vector<std::string> only = asked.predict.texts("units");
     for (std::size_t u = 0; u < asked.model->units.size(); ++u) {
       const bool reported =

@@ -1,5 +1,7 @@
 #include "wearwell/models/formula_model/straight_line.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "wearwell/base/stop_scope.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/study/column_values.h"
 
@@ -77,6 +80,36 @@ StraightLine straight_line(const Table& table, const Column& axis, const Column&
     line.rate = largest_y / largest_x;
   }
   return line;
+}
+
+void require_rows_of_family(const Table& table, const Column& axis, const Column& measured,
+                            std::string_view family) {
+  if (family == "normal") return;
+  const std::vector<double> x = numbers_of(table, axis), y = numbers_of(table, measured);
+  // Where all readings are below 0 the path falls, which is refused as such.
+  const bool rises = family != "wiener-process" &&
+                     std::any_of(y.begin(), y.end(), [](double each) { return each > 0; });
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    check_stop();
+    if (x[i] == 0 && y[i] == 0) {
+      throw InputError(
+          fmt::format("{}: 0; a path of the family \"{}\" begins at 0, so a reading "
+                      "there says nothing: leave out the row",
+                      place(table, axis.name, i), family));
+    }
+    if (x[i] <= 0) {
+      throw InputError(
+          fmt::format("{}: {:.15g} must be positive: a path of the family \"{}\" begins "
+                      "at 0, where {} is 0; family = \"normal\" takes such a row",
+                      place(table, axis.name, i), x[i], family, axis.name));
+    }
+    if (rises && y[i] <= 0) {
+      throw InputError(
+          fmt::format("{}: {:.15g} must be positive for the family \"{}\"; family = "
+                      "\"normal\" takes readings of 0 and less",
+                      place(table, measured.name, i), y[i], family));
+    }
+  }
 }
 
 }  // namespace wearwell::formula_model

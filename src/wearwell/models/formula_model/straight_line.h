@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "wearwell/input/table.h"
 
 namespace wearwell::formula_model {
@@ -15,5 +17,11 @@ struct StraightLine {
 /// `unit`: the label of the units whose paths these are; null for one.
 StraightLine straight_line(const Table& table, const Column& axis, const Column& measured,
                            const Column* unit);
+
+/// Refuses rows that paths of this family cannot have. Paths of all families but "normal" are 0
+/// where the axis is 0, and certain there; only those of a Wiener process fall below. Missing cells
+/// are no matter here. Throws InputError that names row and column.
+void require_rows_of_family(const Table& table, const Column& axis, const Column& measured,
+                            std::string_view family);
 
 }  // namespace wearwell::formula_model
