@@ -323,35 +323,4 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
   if (prediction) prediction->p_value = std::min(1.0, least * std::max(columns, 1.0));
 }
 
-ReadingPrediction NodeRows::predict(const Nodes& nodes, const UnitReading& reading,
-                                    const std::vector<NodePath>& before,
-                                    const Sample& sample) const {
-  ReadingPrediction prediction;
-  // Of most nodes together, lines share what nodes of their own would repeat.
-  if (follows_ || 2 * sample.node.size() > nodes.count()) {
-    look(nodes, reading, before, nullptr, {}, &sample, &prediction);
-    return prediction;
-  }
-  const std::size_t count = sample.node.size();
-  Points parameters(static_cast<Eigen::Index>(count), nodes.parameters->cols());
-  Nodes some;
-  for (std::size_t e = 0; e < std::size(nodes.effect); ++e) {
-    if (!nodes.effect[e].empty()) some.effect[e].resize(count);
-  }
-  Sample all{std::vector<std::size_t>(count), sample.weight};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t node = sample.node[i];
-    all.node[i] = i;
-    parameters.row(static_cast<Eigen::Index>(i)) =
-        nodes.parameters->row(static_cast<Eigen::Index>(node / nodes.per_line));
-    for (std::size_t e = 0; e < std::size(nodes.effect); ++e) {
-      if (!nodes.effect[e].empty()) some.effect[e][i] = nodes.effect[e][node];
-    }
-  }
-  some.parameters = std::make_shared<const Points>(std::move(parameters));
-  some.per_line = 1;
-  look(some, reading, before, nullptr, {}, &all, &prediction);
-  return prediction;
-}
-
 }  // namespace wearwell::formula_model
