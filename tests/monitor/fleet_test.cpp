@@ -9,6 +9,7 @@
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_metrics.h"
 #include "wearwell/monitor/fleet_text.h"
+#include "wearwell/monitor/save_schedule.h"
 #include "wearwell/monitor/unit_record.h"
 
 namespace wearwell::monitor {
@@ -18,6 +19,20 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 using Fleets = FleetRig;
+
+// States of very many units: a save of 20 s is followed by 180 s without one.
+TEST(SaveSchedule, TakesATenthOfTheTimeAtMost) {
+  using std::chrono::seconds;
+  const SaveSchedule::Clock::time_point begin{};
+  SaveSchedule saves(seconds(30), 9, begin);
+  EXPECT_FALSE(saves.is_due(begin + seconds(29)));
+  EXPECT_TRUE(saves.is_due(begin + seconds(30)));
+  saves.saved(begin + seconds(30), begin + seconds(31));
+  EXPECT_TRUE(saves.is_due(begin + seconds(61)));
+  saves.saved(begin + seconds(61), begin + seconds(81));
+  EXPECT_FALSE(saves.is_due(begin + seconds(260)));
+  EXPECT_TRUE(saves.is_due(begin + seconds(261)));
+}
 
 TEST_F(Fleets, TellWhatIsKnown) {
   open();

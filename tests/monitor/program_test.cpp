@@ -102,6 +102,8 @@ TEST_F(Programs, CheckReportsEachProblem) {
   EXPECT_THAT(
       check(keeps).out,
       HasSubstr("readings of parts that have been out of service for 100 days are removed"));
+  keeps.replace(keeps.find("100 d"), 5, "5 years");
+  EXPECT_THAT(check(keeps).out, HasSubstr("out of service for 5 years are removed"));
   std::string nowhere = good;
   nowhere.replace(nowhere.find("fleet.sqlite"), 12, "sub/fleet.sqlite");
   EXPECT_EQ(check(nowhere).exit_code, 2);

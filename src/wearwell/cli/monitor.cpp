@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -187,11 +188,16 @@ MonitoredFleet checked_fleet(const std::filesystem::path& config, Models models)
 /// What store.keep means for the store that is there; empty without it.
 std::string retention_text(const MonitoredFleet& read) {
   if (!read.config.keep_s) return {};
-  constexpr double day = 86400;
+  const auto in = [&](const char* unit) {
+    return from_si(read_unit(unit, "s"), *read.config.keep_s);
+  };
+  const double years = in("year");
+  const bool whole_years = years > 0.5 && std::abs(years - std::round(years)) < 1e-6;
+  const double number = whole_years ? years : in("day");
   const std::string rule = fmt::format(
-      "readings of parts that have been out of service for {:.6g} days are removed, and forecasts "
+      "readings of parts that have been out of service for {:.6g} {}{} are removed, and forecasts "
       "as old",
-      *read.config.keep_s / day);
+      number, whole_years ? "year" : "day", std::abs(number - 1) < 1e-6 ? "" : "s");
   const std::string& url = read.config.store;
   std::error_code ignored;
   if (monitor::is_postgres(url) || !std::filesystem::exists(read.config.folder / url, ignored))

@@ -95,6 +95,7 @@ std::size_t Fleet::apply(std::int64_t last, std::size_t most) {
   }
   std::vector<std::pair<Unit*, const std::vector<const StoredReading*>*>> work;
   for (const auto& [name, list] : of_unit) work.emplace_back(&unit_named(name), &list);
+  if (!readings.empty()) note_lag(readings.front().received_ms);
   run_tasks(static_cast<int>(work.size()), settings_.threads, [&](int i) {
     const auto& [unit, list] = work[static_cast<std::size_t>(i)];
     apply_to(*unit, *list);
@@ -114,15 +115,20 @@ std::size_t Fleet::apply(std::int64_t last, std::size_t most) {
     if (!list->empty()) hear(*unit, list->back()->received_ms);
   }
   place_ = readings.back().place;
+  note_lag(readings.front().received_ms);
+  return readings.size();
+}
+
+// For readers, also while readings are processed.
+void Fleet::note_lag(std::int64_t received_ms) {
   using std::chrono::milliseconds;
-  std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
+  std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - received_ms);
   // No reading from before the start is newer than it, even if the system clock has jumped.
   if (live_)
     lag = std::min<std::int64_t>(
         lag, std::chrono::duration_cast<milliseconds>(Clock::now() - all_known_).count());
   const std::lock_guard lock(lock_);
   lag_ms_ = lag;
-  return readings.size();
 }
 
 // A unit with new events is rebuilt from its readings in their light.
@@ -343,10 +349,11 @@ void Fleet::save() {
   if (unsaved.empty() && before == all_up_to) return;
   for (std::size_t from = 0;; from += at_once) {
     const std::size_t end = std::min(from + at_once, unsaved.size());
-    std::vector<Checkpoint> states;
-    for (std::size_t i = from; i < end; ++i)
-      states.push_back(
-          {unsaved[i]->record.unit, unsaved[i]->record.place, bytes_of(unsaved[i]->record)});
+    std::vector<Checkpoint> states(end - from);
+    run_tasks(static_cast<int>(states.size()), settings_.threads, [&](int i) {
+      const UnitRecord& record = unsaved[from + static_cast<std::size_t>(i)]->record;
+      states[static_cast<std::size_t>(i)] = {record.unit, record.place, bytes_of(record)};
+    });
     store_.save(settings_.population, states, end == unsaved.size() ? all_up_to : before);
     for (std::size_t i = from; i < end; ++i) unsaved[i]->unsaved = false;
     if (end == unsaved.size()) return;

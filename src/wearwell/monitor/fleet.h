@@ -109,6 +109,7 @@ class Fleet : public FleetReader {
   void publish(std::vector<Unit*>& units);
   void fall_silent();
   void take_events();
+  void note_lag(std::int64_t received_ms);
 
   const prognosis::Tracker& tracker_;
   Store& store_;

@@ -20,6 +20,7 @@
 #include "wearwell/monitor/monitor_signals.h"
 #include "wearwell/monitor/publisher.h"
 #include "wearwell/monitor/retention.h"
+#include "wearwell/monitor/save_schedule.h"
 #include "wearwell/monitor/source.h"
 #include "wearwell/monitor/starting_fleet.h"
 #include "wearwell/monitor/time_text.h"
@@ -255,17 +256,17 @@ bool RunningFleet::done(MonitorSignals& signals, const std::function<void()>& wo
 }
 
 bool RunningFleet::start(MonitorSignals& signals) {
-  constexpr auto between_saves = std::chrono::seconds(5);
   if (!done(signals, [&] { fleet_ = make(population_, settings_of(population_)); })) return false;
   fleet_->set_moved(fit_since_ms_, std::move(moved_));
-  Clock::time_point saved = Clock::now();
+  SaveSchedule saves(std::chrono::seconds(5), 4, Clock::now());
   bool all = false;
   const auto piece = [&] {
     // Sources may deliver faster than states follow: what has come since is for later.
     all = fleet_->apply(last_place_, Fleet::small_piece) == 0;
-    if (!all && Clock::now() - saved < between_saves) return;
+    const Clock::time_point begin = Clock::now();
+    if (!all && !saves.is_due(begin)) return;
     fleet_->save();
-    saved = Clock::now();
+    saves.saved(begin, Clock::now());
     if (all) return;
     const std::int64_t reached_ms = unix_ms_now() - fleet_->fleet().lag_ms;
     notices_.tell("start", fmt::format("states include the readings stored until {}",
@@ -316,15 +317,16 @@ class Follower {
 
   /// One round; false if there is nothing to do now.
   bool round() {
-    constexpr auto between_saves = std::chrono::seconds(30);
     bool busy = false;
     const bool good = guarded([&] {
       Fleet& fleet = running_.fleet();
       busy = fleet.apply() > 0;
       busy = !fleet.refresh() || busy;
-      if (Clock::now() - saved_ < between_saves) return;
-      saved_ = Clock::now();
+      const Clock::time_point begin = Clock::now();
+      if (!saves_.is_due(begin)) return;
+      saves_.saved(begin, begin);  // should the store not respond
       fleet.save();
+      saves_.saved(begin, Clock::now());
     });
     return busy && good;
   }
@@ -374,7 +376,7 @@ class Follower {
   Retention& retention_;
   Notices& notices_;
   std::optional<FitExchange::Ready> next_;
-  Clock::time_point saved_ = Clock::now();
+  SaveSchedule saves_{std::chrono::seconds(30), 9, Clock::now()};
 };
 
 /// The server, the publisher and the webhook, while they live.

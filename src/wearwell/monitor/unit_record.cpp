@@ -25,7 +25,7 @@ std::optional<double> measured_level(const StoredReading& reading, double added,
   return level;
 }
 
-UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
+UnitMoment moment_of(const StoredReading& reading, const prognosis::ForecastQuantiles& forecast,
                      double added, const TrackerUnits& units) {
   UnitMoment moment;
   moment.key = reading.key;
@@ -39,9 +39,9 @@ UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& fo
 }
 
 /// The forecast as it was at a reading: without later repairs.
-prognosis::Forecast forecast_with(UnitRecord& record, double restored) {
+prognosis::ForecastQuantiles forecast_with(UnitRecord& record, double restored) {
   record.state->set_restored(restored);
-  prognosis::Forecast forecast = record.state->forecast();
+  const prognosis::ForecastQuantiles forecast = record.state->quantiles();
   record.state->set_restored(record.events->restored());
   return forecast;
 }
@@ -52,7 +52,7 @@ bool is_repaired_before(UnitRecord& record, const CountedReading& seen, const Tr
   const double before = record.events->restored_until(record.last_key);
   if (seen.restored == before) return false;
   if (record.moments.empty() || record.moments.back().key == record.last_key) return true;
-  const prognosis::Forecast forecast = forecast_with(record, before);
+  const prognosis::ForecastQuantiles forecast = forecast_with(record, before);
   StoredReading last;
   last.key = record.last_key;
   last.time_ms = record.last_time_ms;
@@ -201,7 +201,7 @@ void take(UnitRecord& record, const StoredReading& stored, const TrackerUnits& u
     record.held += taken.p_value >= outside;
   }
   if (!is_kept_moment(record.readings) && !repaired) return;
-  const prognosis::Forecast forecast = forecast_with(record, seen.restored);
+  const prognosis::ForecastQuantiles forecast = forecast_with(record, seen.restored);
   // If the continuation was undetermined, there was no forecast.
   if (!std::isnan(forecast.passed))
     record.moments.push_back(moment_of(reading, forecast, added, units));
@@ -245,8 +245,9 @@ std::string bytes_of(const UnitRecord& record) {
       {"earlier_readings", record.earlier_readings},
       {"measured", record.last_measured ? Json(*record.last_measured) : Json()},
   };
-  const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
-  return {bytes.begin(), bytes.end()};
+  std::string bytes;
+  Json::to_cbor(json, bytes);
+  return bytes;
 }
 
 UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker,

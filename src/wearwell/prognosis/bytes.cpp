@@ -11,8 +11,10 @@ namespace {
 
 template <class Unsigned>
 void put(Unsigned value, std::string& bytes) {
+  char little[sizeof value];
   for (std::size_t i = 0; i < sizeof value; ++i)
-    bytes.push_back(static_cast<char>((value >> (8 * i)) & 0xff));
+    little[i] = static_cast<char>((value >> (8 * i)) & 0xff);
+  bytes.append(little, sizeof value);
 }
 
 template <class Unsigned>

@@ -73,6 +73,15 @@ struct Forecast {
   std::optional<RateChange> rate_change = {};
 };
 
+/// A forecast as three quantiles of each quantity, SI.
+struct ForecastQuantiles {
+  double now = 0;  ///< Forecast::now
+  double level05 = 0, level50 = 0, level95 = 0;
+  double passed = 0;                                         ///< Forecast::passed
+  double remaining05 = 0, remaining50 = 0, remaining95 = 0;  ///< 0 if it has certainly passed
+};
+ForecastQuantiles quantiles_of(const Forecast& forecast);
+
 /// The forecast of a unit given each possible population (`Tracker::populations`), in their order.
 /// Units share only the population: given it they are independent.
 struct InPopulations {
@@ -118,6 +127,8 @@ class TrackedUnit {
   /// before this one.
   virtual UpdateResult update(const Reading& reading, const History& history) = 0;
   virtual Forecast forecast() const = 0;
+  /// Those of `forecast` (to rounding), perhaps at a fraction of its cost.
+  virtual ForecastQuantiles quantiles() const { return quantiles_of(forecast()); }
   /// The tails that `update` would find for a reading, without taking it. Empty if the reading is
   /// invalid, or as for `UpdateResult::tails`.
   virtual std::vector<PredictiveTails> predictive(const Reading& reading) const = 0;

@@ -11,14 +11,20 @@ TrackerUnits::TrackerUnits(const Tracker& tracker)
       level_(tracker.limit().unit),
       watched_(watched_columns(tracker)) {}
 
-Interval TrackerUnits::level(const Forecast& forecast) const {
+Interval TrackerUnits::level(const ForecastQuantiles& forecast) const {
   return {level(forecast.level05), level(forecast.level50), level(forecast.level95)};
 }
 
+Interval TrackerUnits::level(const Forecast& forecast) const {
+  return level(quantiles_of(forecast));
+}
+
+Interval TrackerUnits::remaining(const ForecastQuantiles& forecast) const {
+  return {along(forecast.remaining05), along(forecast.remaining50), along(forecast.remaining95)};
+}
+
 Interval TrackerUnits::remaining(const Forecast& forecast) const {
-  if (forecast.remaining.points().empty()) return {0, 0, 0};
-  return {along(forecast.remaining.quantile(0.05)), along(forecast.remaining.quantile(0.5)),
-          along(forecast.remaining.quantile(0.95))};
+  return remaining(quantiles_of(forecast));
 }
 
 double TrackerUnits::b10(const Forecast& forecast) const {

@@ -25,8 +25,10 @@ class TrackerUnits {
   double at(double si) const { return from_si(axis_, si); }
   double along(double si) const { return si / axis_.scale; }  ///< a length of the axis
   double level(double si) const { return from_si(level_, si); }
+  Interval level(const ForecastQuantiles& forecast) const;
   Interval level(const Forecast& forecast) const;
   /// From now on; infinite if it may never be.
+  Interval remaining(const ForecastQuantiles& forecast) const;
   Interval remaining(const Forecast& forecast) const;
   /// Remaining useful life that 90 % exceed.
   double b10(const Forecast& forecast) const;

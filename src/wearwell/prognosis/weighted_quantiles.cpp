@@ -14,22 +14,20 @@ constexpr std::size_t bins = 4096;
 
 struct Point {
   double value, weight;
+  std::size_t bin;
 };
 
 // The weights of values by the leading bits in which they differ.
 struct Bins {
-  std::uint64_t least = ~std::uint64_t{0}, most = 0;
-  int shift = 0;
+  static constexpr std::uint16_t none = bins;  // of values that do not count
   std::vector<double> weight = std::vector<double>(bins), before = std::vector<double>(bins);
+  std::vector<std::uint16_t> of = {};  // by value
   double sum = 0;
 
   static bool counts(double value, double weight) { return weight > 0 && !std::isnan(value); }
-  std::size_t of(double value) const {
-    const std::uint64_t order = order_of(value);
-    return order > most ? bins - 1 : static_cast<std::size_t>((order - least) >> shift);
-  }
 
-  Bins(std::span<const double> values, std::span<const double> weights) {
+  void fill(std::span<const double> values, std::span<const double> weights) {
+    std::uint64_t least = ~std::uint64_t{0}, most = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!counts(values[i], weights[i]) || values[i] == infinity) continue;
       const std::uint64_t order = order_of(values[i]);
@@ -38,10 +36,17 @@ struct Bins {
     }
     if (least > most) least = most = 0;
     // The last bin holds only infinite values.
-    shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - 11);
+    const int shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - 11);
+    std::fill(weight.begin(), weight.end(), 0);
+    of.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (counts(values[i], weights[i])) weight[of(values[i])] += weights[i];
+      of[i] = none;
+      if (!counts(values[i], weights[i])) continue;
+      const std::uint64_t order = order_of(values[i]);
+      of[i] = static_cast<std::uint16_t>(order > most ? bins - 1 : (order - least) >> shift);
+      weight[of[i]] += weights[i];
     }
+    sum = 0;
     for (std::size_t b = 0; b < bins; ++b) {
       before[b] = sum;
       sum += weight[b];
@@ -92,10 +97,11 @@ double quantile_of(std::span<const Point> points, double before, double target) 
 
 std::vector<double> weighted_quantiles(std::span<const double> value,
                                        std::span<const double> weight, std::span<const double> at) {
-  const Bins all(value, weight);
+  static thread_local Bins all;  // one for each thread: its memory costs as much as the rest
+  all.fill(value, weight);
   std::vector<double> quantiles(at.size(), std::nan(""));
   if (!(all.sum > 0)) return quantiles;
-  std::vector<std::uint8_t> wanted(bins);
+  std::vector<std::uint8_t> wanted(bins + 1);
   std::vector<Bins::Range> ranges;
   for (const double p : at) {
     ranges.push_back(all.about(p * all.sum));
@@ -104,15 +110,12 @@ std::vector<double> weighted_quantiles(std::span<const double> value,
   }
   std::vector<Point> points;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (Bins::counts(value[i], weight[i]) && wanted[all.of(value[i])])
-      points.push_back({value[i], weight[i]});
+    if (wanted[all.of[i]]) points.push_back({value[i], weight[i], all.of[i]});
   }
   std::stable_sort(points.begin(), points.end(),
                    [](const Point& a, const Point& b) { return a.value < b.value; });
   for (std::size_t k = 0; k < at.size(); ++k) {
-    const auto in_bin = [&](const Point& point, std::size_t bin) {
-      return all.of(point.value) < bin;
-    };
+    const auto in_bin = [](const Point& point, std::size_t bin) { return point.bin < bin; };
     const auto first = std::lower_bound(points.begin(), points.end(), ranges[k].first, in_bin);
     const auto last = std::lower_bound(first, points.end(), ranges[k].last + 1, in_bin);
     quantiles[k] = quantile_of({first, last}, all.before[ranges[k].first], at[k] * all.sum);

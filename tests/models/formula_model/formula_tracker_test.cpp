@@ -126,6 +126,39 @@ TEST(FormulaTracker, ARepairMovesTheThresholdAndTheLevels) {
   }
 }
 
+// `predictive` looks at some nodes where `update` looks at all, `quantiles` does not sort all lives.
+TEST(FormulaTracker, ShortWaysHaveTheSameNumbers) {
+  const Watched watched(straight, lines(rates, 5, 0.3),
+                        points({{1 * um / h, 0.3, 0.3 * um}, {1.2 * um / h, 0.5, 0.2 * um}}));
+  FollowedUnit unit(*watched.tracker, "new");
+  double least = 1;
+  for (const auto& [depth, time] : {std::pair{1.9, 1.0},
+                                    {3.4, 2.0},
+                                    {5.9, 3.0},
+                                    {3.2, 4.0},
+                                    {9.8, 8.0},
+                                    {12.5, 9.0},
+                                    {30.0, 20.0}}) {
+    const prognosis::Reading reading{{depth * um, time * h}, {}};
+    const std::vector<prognosis::PredictiveTails> before = unit.unit->predictive(reading);
+    const UpdateResult taken = unit.update(reading.numbers);
+    ASSERT_TRUE(before.size() == 1 && taken.tails.size() == 1);
+    EXPECT_EQ(before[0].below, taken.tails[0].below);
+    EXPECT_EQ(before[0].above, taken.tails[0].above);
+    least = std::min(least, taken.p_value);
+    const prognosis::ForecastQuantiles one = unit.unit->quantiles(),
+                                       other = quantiles_of(unit.unit->forecast());
+    for (const auto of :
+         {&prognosis::ForecastQuantiles::now, &prognosis::ForecastQuantiles::level05,
+          &prognosis::ForecastQuantiles::level95, &prognosis::ForecastQuantiles::passed,
+          &prognosis::ForecastQuantiles::remaining05, &prognosis::ForecastQuantiles::remaining50,
+          &prognosis::ForecastQuantiles::remaining95})
+      EXPECT_NEAR(one.*of, other.*of, 1e-9 * std::abs(other.*of)) << time;
+  }
+  EXPECT_LT(least, 0.01);                            // summed over all nodes
+  EXPECT_EQ(unit.unit->quantiles().remaining95, 0);  // nothing is left
+}
+
 // b of the unit is all that is not known of a straight path: level(t) = b t.
 TEST(FormulaTracker, ThePathAheadByBruteForce) {
   const std::vector<double> x = {1 * um / h, 0.3, 0.3 * um};

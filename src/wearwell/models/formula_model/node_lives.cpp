@@ -90,15 +90,28 @@ namespace {
 
 // Lives over all nodes of a unit together.
 struct OfAll : LivesSample {
+  std::size_t level_count = 0, life_count = 0;
+
+  // At most so many points will come.
+  void begin(std::size_t most) {
+    for (auto* each : {&levels, &level_weight, &lives, &life_weight}) each->resize(most);
+    level_count = life_count = 0;
+    left_over = all = 0;
+  }
+  void end() {
+    for (auto* each : {&levels, &level_weight}) each->resize(level_count);
+    for (auto* each : {&lives, &life_weight}) each->resize(life_count);
+  }
+
   void level(double weight, double value) {
-    levels.push_back(value);
-    level_weight.push_back(weight);
+    levels[level_count] = value;
+    level_weight[level_count++] = weight;
   }
   void stands(std::size_t, double weight) { all += weight; }
   void lasts(std::size_t, double weight, double life) {
     left_over += weight;
-    lives.push_back(life);
-    life_weight.push_back(weight);
+    lives[life_count] = life;
+    life_weight[life_count++] = weight;
   }
 };
 
@@ -120,6 +133,8 @@ struct OfLines {
     line.weight.push_back(weight);
   }
 };
+
+constexpr std::array shown = {0.05, 0.5, 0.95};
 
 double passed_of(double left_over, double all) {
   return all > 0 ? std::clamp(1 - left_over / all, 0.0, 1.0) : std::nan("");
@@ -228,8 +243,7 @@ void LivesSample::add(const LivesSample& other, double weight) {
 
 prognosis::Forecast LivesSample::forecast() const {
   prognosis::Forecast forecast;
-  const std::vector<double> level =
-      prognosis::weighted_quantiles(levels, level_weight, std::array{0.05, 0.5, 0.95});
+  const std::vector<double> level = prognosis::weighted_quantiles(levels, level_weight, shown);
   forecast.level05 = level[0];
   forecast.level50 = level[1];
   forecast.level95 = level[2];
@@ -238,25 +252,59 @@ prognosis::Forecast LivesSample::forecast() const {
   return forecast;
 }
 
+prognosis::ForecastQuantiles LivesSample::quantiles() const {
+  const std::vector<double> level = prognosis::weighted_quantiles(levels, level_weight, shown);
+  const std::vector<double> life = prognosis::weighted_quantiles(lives, life_weight, shown);
+  const bool any = !std::isnan(life[0]);
+  return {0,
+          level[0],
+          level[1],
+          level[2],
+          passed_of(left_over, all),
+          any ? life[0] : 0,
+          any ? life[1] : 0,
+          any ? life[2] : 0};
+}
+
+// One for each thread: a forecast would otherwise spend a tenth of its time on memory.
+const LivesSample& NodeLives::sample(const Nodes& nodes, const std::vector<double>& weight,
+                                     const UnitReading& last,
+                                     const std::vector<NodePath>& paths) const {
+  static thread_local OfAll sums;
+  sums.begin(parts * nodes.count());
+  look_ahead(nodes, weight, last, paths, points_of_node, sums);
+  sums.end();
+  return sums;
+}
+
 LivesSample NodeLives::lives(const Nodes& nodes, const std::vector<double>& weight,
                              const UnitReading& last, const std::vector<NodePath>& paths,
                              const NodeAxis* axis) const {
   OfAll sums;
-  for (auto* each : {&sums.levels, &sums.level_weight, &sums.lives, &sums.life_weight})
-    each->reserve(parts * nodes.count());
+  sums.begin(parts * nodes.count());
   look_ahead(nodes, weight, last, paths, points_of_node, sums, axis);
+  sums.end();
   return sums;
 }
 
 prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
                                         const UnitReading& last,
                                         const std::vector<NodePath>& paths) const {
-  prognosis::Forecast forecast = lives(nodes, weight, last, paths).forecast();
+  prognosis::Forecast forecast = sample(nodes, weight, last, paths).forecast();
   forecast.now = last.place;
   double square = 0;
   for (const double each : weight) square += each * each;
   forecast.effective = square > 0 ? 1 / square : 0;
   return forecast;
+}
+
+prognosis::ForecastQuantiles NodeLives::quantiles(const Nodes& nodes,
+                                                  const std::vector<double>& weight,
+                                                  const UnitReading& last,
+                                                  const std::vector<NodePath>& paths) const {
+  prognosis::ForecastQuantiles quantiles = sample(nodes, weight, last, paths).quantiles();
+  quantiles.now = last.place;
+  return quantiles;
 }
 
 prognosis::InPopulations NodeLives::by_line(const Nodes& nodes, const std::vector<double>& weight,

@@ -33,7 +33,8 @@ struct LivesSample {
 
   /// Adds another one with this weight.
   void add(const LivesSample& other, double weight);
-  prognosis::Forecast forecast() const;  ///< without `now` and `effective`
+  prognosis::Forecast forecast() const;            ///< without `now` and `effective`
+  prognosis::ForecastQuantiles quantiles() const;  ///< without `now`
 };
 
 /// The quantity with the threshold at one place, as weighted values.
@@ -81,6 +82,9 @@ class NodeLives {
   /// row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
+  prognosis::ForecastQuantiles quantiles(const Nodes& nodes, const std::vector<double>& weight,
+                                         const UnitReading& last,
+                                         const std::vector<NodePath>& paths) const;
   /// The same before its quantiles. With an axis, nodes are single ones, not lines.
   LivesSample lives(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
                     const std::vector<NodePath>& paths, const NodeAxis* axis = nullptr) const;
@@ -104,6 +108,9 @@ class NodeLives {
  private:
   struct Ahead;
   NodeRow conditions(const NodeRow& last) const;
+  /// `lives`, until the next call of this thread.
+  const LivesSample& sample(const Nodes& nodes, const std::vector<double>& weight,
+                            const UnitReading& last, const std::vector<NodePath>& paths) const;
   template <class Sums>
   void look_ahead(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
                   const std::vector<NodePath>& paths, std::size_t points, Sums& sums,

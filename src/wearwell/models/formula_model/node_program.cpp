@@ -163,14 +163,15 @@ void copy_parameter(const Nodes& nodes, std::size_t parameter, std::size_t begin
 
 void NodeProgram::evaluate(const Nodes& nodes, std::size_t begin, std::size_t count,
                            const NodeRow& row, const double* place, const GoesOn& on,
-                           Scratch& scratch) const {
+                           Scratch& scratch, bool again) const {
+  again = again && scratch.shared_labels_ == row.labels;
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const Source& source = sources_[s];
     if (source.place) {
       scratch.by_row_[s] = place;
     } else if (source.effect >= 0) {
       scratch.by_row_[s] = nodes.effect[source.effect].data() + begin;
-    } else {
+    } else if (!again) {
       const std::size_t level =
           source.label < 0
               ? 0
@@ -180,6 +181,7 @@ void NodeProgram::evaluate(const Nodes& nodes, std::size_t begin, std::size_t co
       scratch.by_row_[s] = shared.data();
     }
   }
+  scratch.shared_labels_ = row.labels;
   if (!plain_) {
     bind_rows(count, row, place, on, scratch);
   } else if (scratch.data_.rows() == 0 || (labelled_ && scratch.bound_labels_ != row.labels)) {

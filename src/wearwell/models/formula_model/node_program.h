@@ -68,7 +68,7 @@ class NodeProgram {
     friend class NodeProgram;
     formula::Workspace workspace_;
     formula::Data data_;
-    std::vector<int> bound_labels_;
+    std::vector<int> bound_labels_, shared_labels_;
     std::vector<std::array<double, most>> shared_;
     std::vector<const double*> by_row_, carried_;
     std::vector<double> numbers_;
@@ -77,9 +77,10 @@ class NodeProgram {
   };
 
   /// Nodes begin .. begin + count - 1, count <= most. `place`: of each of them, if the axis is open
-  /// (else may be null); `on` matters if the formula has a path or a state.
+  /// (else may be null); `on` matters if the formula has a path or a state. `again`: the nodes are
+  /// those of the last evaluation with this scratch.
   void evaluate(const Nodes& nodes, std::size_t begin, std::size_t count, const NodeRow& row,
-                const double* place, const GoesOn& on, Scratch& scratch) const;
+                const double* place, const GoesOn& on, Scratch& scratch, bool again = false) const;
   /// Output o of the last evaluation; a single value if it is uniform.
   std::span<const double> values(std::size_t o, const Scratch& scratch) const {
     return scratch.workspace_.values(o);

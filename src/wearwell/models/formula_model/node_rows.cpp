@@ -301,6 +301,7 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
         if (!std::isnan(place.below + place.above))
           predicted.add(sample->weight[next], place.below, place.above);
       }
+      if (log_likelihood.empty()) continue;
       double* const to = &log_likelihood[begin];
       measured.process ? process_block(block, measured, y->at, before[m], moved, to)
                        : plain_block(block, measured, *y, reading.count, column, to);

@@ -70,11 +70,15 @@ class NodeRows {
     std::vector<double> weight;
   };
 
-  /// Fills `log_likelihood`, node by node, for a reading whose paths are at `before`, and updates
+  /// Fills `log_likelihood` (may be empty), node by node, for a reading whose paths are at `before`, and updates
   /// `after` (may be null). With a sample, fills `prediction`. `places`: of each node, if open.
   void look(const Nodes& nodes, const UnitReading& reading, const std::vector<NodePath>& before,
             std::vector<NodePath>* after, std::span<double> log_likelihood, const Sample* sample,
             ReadingPrediction* prediction, const double* places = nullptr) const;
+  /// The same prediction alone: rows that do not follow each other are computed at the nodes of the
+  /// sample only.
+  ReadingPrediction predict(const Nodes& nodes, const UnitReading& reading,
+                            const std::vector<NodePath>& before, const Sample& sample) const;
 
  private:
   struct Scratch {

@@ -17,7 +17,7 @@ struct NodeLives::Ahead {
   NodeRow own, ahead;
   bool runs, changes = false;
   NodeProgram::Scratch scratch;
-  std::size_t begin = 0, count = 0;
+  std::size_t begin = 0, count = 0, evaluated = ~std::size_t{0};
   double passed_by[most_crossings] = {};
   const NodeAxis* axis;
 
@@ -61,7 +61,8 @@ struct NodeLives::Ahead {
     if (runs) {
       on = {from(), path->begun ? &path->carried : nullptr, &lives.steps_, lives.row_length_};
     }
-    lives.program_->evaluate(nodes, begin, count, row, place, on, scratch);
+    lives.program_->evaluate(nodes, begin, count, row, place, on, scratch, evaluated == begin);
+    evaluated = begin;
   }
   double at(std::size_t o, std::size_t i) const {
     const std::span<const double> values = lives.program_->values(o, scratch);

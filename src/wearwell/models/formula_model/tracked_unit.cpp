@@ -133,7 +133,10 @@ ReadingPrediction TrackedUnit::predict(const UnitReading& reading, std::span<dou
                                        std::vector<NodePath>* after) const {
   ReadingPrediction prediction;
   tracked_->rows.look(nodes_.nodes, reading, paths_, after, value, &sample_, &prediction);
-  if (prediction.p_value > doubtful) return prediction;
+  return prediction.p_value > doubtful ? prediction : predict_by_all(reading);
+}
+
+ReadingPrediction TrackedUnit::predict_by_all(const UnitReading& reading) const {
   NodeRows::Sample all;
   std::vector<double> weight;
   normalize(log_weight_, weight);
@@ -142,9 +145,7 @@ ReadingPrediction TrackedUnit::predict(const UnitReading& reading, std::span<dou
     all.node.push_back(i);
     all.weight.push_back(weight[i]);
   }
-  std::vector<double> again(value.size());
-  tracked_->rows.look(nodes_.nodes, reading, paths_, nullptr, again, &all, &prediction);
-  return prediction;
+  return tracked_->rows.predict(nodes_.nodes, reading, paths_, all);
 }
 
 // Among rows that depend on earlier ones, a row cannot be added before the last.
@@ -156,8 +157,8 @@ std::vector<prognosis::PredictiveTails> TrackedUnit::predictive(
     const prognosis::Reading& reading) const {
   UnitReading y;
   if (!tracked_->problem(reading, y).empty() || is_late(y)) return {};
-  std::vector<double> value(log_weight_.size());
-  return predict(y, value, nullptr).tails;
+  const ReadingPrediction prediction = tracked_->rows.predict(nodes_.nodes, y, paths_, sample_);
+  return prediction.p_value > doubtful ? prediction.tails : predict_by_all(y).tails;
 }
 
 prognosis::UpdateResult TrackedUnit::update(const prognosis::Reading& reading,
@@ -226,6 +227,15 @@ prognosis::Forecast TrackedUnit::forecast() const {
       nodes_.nodes, weight, any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
   move_levels(forecast, -moved_);
   return forecast;
+}
+
+prognosis::ForecastQuantiles TrackedUnit::quantiles() const {
+  static thread_local std::vector<double> weight;
+  normalize(log_weight_, weight);
+  prognosis::ForecastQuantiles quantiles = lives().quantiles(
+      nodes_.nodes, weight, any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+  move_levels(quantiles, -moved_);
+  return quantiles;
 }
 
 void TrackedUnit::set_restored(double amount) {

@@ -44,6 +44,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   prognosis::UpdateResult update(const prognosis::Reading& reading,
                                  const prognosis::History& history) override;
   prognosis::Forecast forecast() const override;
+  prognosis::ForecastQuantiles quantiles() const override;
   std::vector<prognosis::PredictiveTails> predictive(
       const prognosis::Reading& reading) const override;
   std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
@@ -69,6 +70,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   void weigh();
   ReadingPrediction predict(const UnitReading& reading, std::span<double> value,
                             std::vector<NodePath>* after) const;
+  ReadingPrediction predict_by_all(const UnitReading& reading) const;
   const NodeLives& lives() const { return restored_ ? *restored_ : tracked_->lives; }
   bool is_late(const UnitReading& reading) const;
   std::vector<UnitReading> all_of(const prognosis::History& history) const;
