@@ -7,6 +7,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <limits>
 #include <thread>
 
 #include "wearwell/base/error.h"
@@ -320,7 +321,7 @@ class Follower {
     bool busy = false;
     const bool good = guarded([&] {
       Fleet& fleet = running_.fleet();
-      busy = fleet.apply() > 0;
+      busy = take_readings(fleet);
       busy = !fleet.refresh() || busy;
       const Clock::time_point begin = Clock::now();
       if (!saves_.is_due(begin)) return;
@@ -371,6 +372,19 @@ class Follower {
 
  private:
   bool guarded(const std::function<void()>& work) { return monitor::guarded(notices_, work); }
+
+  /// Readings for a second at most, then it is the turn of forecasts: where states are behind, units
+  /// would wait for theirs for as long as it takes to process thousands of readings.
+  static bool take_readings(Fleet& fleet) {
+    constexpr std::size_t piece = 1000;
+    const Clock::time_point begin = Clock::now();
+    std::size_t taken = 0, last = 0;
+    do {
+      last = fleet.apply(std::numeric_limits<std::int64_t>::max(), piece);
+      taken += last;
+    } while (last == piece && Clock::now() - begin < std::chrono::seconds(1));
+    return taken > 0;
+  }
 
   RunningFleet& running_;
   Retention& retention_;
