@@ -55,7 +55,7 @@ def test_b_lives_of_a_new_joint(fit):
             low, high = ((low + high) / 2, high) if _normal_below((low + high) / 2) < b / 100 else (low, (low + high) / 2)
         of_all = middle * np.exp(fit.draws["k_scatter"] * low)
         assert row["q50"] == pytest.approx(of_all.quantile(0.5), rel=0.03)
-        assert row["bound"] == pytest.approx(of_all.quantile(0.05), rel=0.06)
+        assert row["bound"] == pytest.approx(of_all.quantile(0.05), rel=0.1)  # an error of about 4 % of 2000 draws
         assert row["q05"] == row["bound"]  # exceeded with 95 %
     half = fit.life(**asked, b=10, confidence=0.5)
     assert half.loc[1, "bound"] == half.loc[1, "q50"] and list(half.columns[-3:]) == ["b10", "predictive", "bound"]
