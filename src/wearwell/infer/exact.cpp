@@ -47,15 +47,6 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
-  // With three parameters a lattice takes fewer evaluations than boxes if the posterior is smooth;
-  // if not, it has to show so soon.
-  constexpr long soon = 300'000;
-  if (posterior.dimension() == 3 && settings.maxima.empty()) {
-    ExactSettings few = settings;
-    few.max_evaluations = std::min(few.max_evaluations, soon);
-    ExactPosterior exact = integrate_on_lattice(posterior, whitening, few);
-    if (exact.failure.empty() && exact.error <= settings.tolerance) return exact;
-  }
   // Boxes are too expensive in four dimensions; they are tried only if a lattice does not converge.
   if (posterior.dimension() == 4) {
     const auto on_lattice = settings.maxima.empty() ? integrate_on_lattice : integrate_by_parts;

@@ -49,9 +49,9 @@ struct ExactPosterior {
   bool contradicted = false;  ///< it failed because of what the walk along the ridge met
 };
 
-/// Integrates a posterior with up to `max_exact_dimension` parameters: three (with one maximum) and
-/// four on a lattice (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works
-/// on the whitened real line, along the ridge where the posterior opens like a funnel or bends (ridge_map.h): boxes are
+/// Integrates a posterior with up to `max_exact_dimension` parameters: four on a lattice
+/// (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works on the whitened real
+/// line, along the ridge where the posterior opens like a funnel or bends (ridge_map.h): boxes are
 /// halved along the axis that resolves worst until the estimated error of mass and second moments is
 /// below the tolerance, and the region grows where mass or second moments still lie at its edge. Boxes
 /// that share a face have to agree on the density there, and each that counts is inspected between its

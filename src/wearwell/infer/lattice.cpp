@@ -28,19 +28,12 @@ constexpr long most_nodes = 6'000'000;
 // lie beyond.
 constexpr double first_end = -16;
 // Finer than sums require: with cells that suffice for sums, quantiles have errors of some
-// hundredths of a standard deviation, which decrease with the fourth power of the step. Three
-// parameters can afford more.
-double widest_reported(int dimension) {
-  return dimension == 3 ? 0.25 : 0.55;
-}
+// hundredths of a standard deviation, which decrease with the fourth power of the step.
+constexpr double widest_reported = 0.55;
+constexpr double longest_on_line = 0.7;
 
-Steps steps_of(double step, int dimension) {
-  constexpr double longest_on_line = 0.7;
-  Steps steps;
-  steps.fill(step);
-  double& on_line = steps[static_cast<std::size_t>(dimension - 1)];
-  on_line = std::min(on_line, longest_on_line);
-  return steps;
+Steps steps_of(double step) {
+  return {step, step, step, std::min(step, longest_on_line)};
 }
 
 // A filled lattice, or the reason of its failure.
@@ -89,25 +82,23 @@ void deepen(Filled& filled, double most_beyond, long enough_nodes, const ExactSe
 // exp(-c/step), faster for coarse steps.
 Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, double tolerance,
                  const Steps& widest) {
-  constexpr double share = 0.2, least = 1.15, largest = 2.5, coarse = 0.6;
+  constexpr double share = 0.2, least = 1.15, most = 2.5, coarse = 0.6;
   Steps next;
-  for (std::size_t a = 0; a < most; ++a) {
+  for (std::size_t a = 0; a < d; ++a) {
     const ErrorEstimate& error_estimate = error_estimates.along[a];
     const double too_much = std::log(error_estimate.lacks / (share * tolerance));
     const double faster = steps[a] > coarse ? 1.5 : 1;
     const double finer =
         1 + too_much / (-4 * faster * std::log(std::min(error_estimate.decay, 0.9)));
     const bool refined = too_much > 0 && error_estimates.steps > 0.5 * tolerance;
-    const double step = refined ? steps[a] / std::clamp(finer, least, largest) : steps[a];
+    const double step = refined ? steps[a] / std::clamp(finer, least, most) : steps[a];
     next[a] = std::min(widest[a], step);
   }
   return next;
 }
 
-double mean_step(const Steps& steps, int dimension) {
-  double product = 1;
-  for (int a = 0; a < dimension; ++a) product *= steps[static_cast<std::size_t>(a)];
-  return std::pow(product, 1.0 / dimension);
+double mean_step(const Steps& steps) {
+  return std::pow(steps[0] * steps[1] * steps[2] * steps[3], 1.0 / d);
 }
 
 // Coordinates and a coarse lattice in them.
@@ -136,8 +127,7 @@ Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
   std::shared_ptr<Filled> filled = in.coarse;
   Refined refined;
   double before = INFINITY, step_before = coarsest;
-  const int d = posterior.dimension();
-  for (Steps steps = steps_of(coarsest, d); refined.evaluations < settings.max_evaluations;) {
+  for (Steps steps = steps_of(coarsest); refined.evaluations < settings.max_evaluations;) {
     if (settings.stop.stop_requested()) throw Cancelled();
     if (!filled)
       filled =
@@ -166,12 +156,12 @@ Refined refine(const Posterior& posterior, const Coordinates& in, double enough,
     refined.failure = fmt::format("no convergence in {} evaluations", refined.evaluations);
     // With a kink or a jump errors decrease only by a power of the step; a refinement that exceeds
     // the evaluations is not started. A small change of the step shows no power.
-    const double step = mean_step(steps, d);
+    const double step = mean_step(steps);
     if (!std::isfinite(before) || step < 0.9 * step_before) {
       const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
       const bool hopeless =
           std::isfinite(before) &&
-          (error_estimates.steps >= before || std::pow(error_estimates.steps / enough, d / power) *
+          (error_estimates.steps >= before || std::pow(error_estimates.steps / enough, 4 / power) *
                                                       static_cast<double>(refined.evaluations) >
                                                   static_cast<double>(settings.max_evaluations));
       before = error_estimates.steps;
@@ -203,12 +193,11 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     map.emplace(posterior, whitening);
     along = ridge_chart(*map);
   }
-  const int d = posterior.dimension();
   // Error estimates of coarse lattices are several times too large.
   const bool coarse = settings.tolerance >= good_enough;
   const double enough = coarse ? 5 * settings.tolerance : settings.tolerance;
   const auto coarse_on = [&](const LatticeChart& chart, const Axes& axes, double end, long most) {
-    return std::make_shared<Filled>(posterior, chart, axes, steps_of(coarsest, d), end, most,
+    return std::make_shared<Filled>(posterior, chart, axes, steps_of(coarsest), end, most,
                                     settings);
   };
   Coordinates in;
@@ -233,7 +222,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     }
   }
   deepen(*in.coarse, share_beyond * enough, most_nodes, settings);
-  const Steps widest = steps_of(coarse ? coarsest : widest_reported(d), d);
+  const Steps widest = steps_of(coarse ? coarsest : widest_reported);
   Refined refined;
   // Long tails take most nodes. If axes that end them soon do not converge, even ones remain.
   constexpr long long_tails = 20'000;

@@ -4,7 +4,7 @@
 
 namespace wearwell {
 
-/// The posterior of three or four parameters on a lattice: the trapezoidal rule, which converges
+/// The posterior of four parameters on a lattice: the trapezoidal rule, which converges
 /// exponentially for a smooth density that falls off on the whole space (Trefethen and Weideman
 /// 2014). It uses the coordinates of a RidgeMap, in which a funnel is round, sheared so that no
 /// layer of cells shares the value of a parameter; or those of the covariance, with lines along the

@@ -6,9 +6,8 @@
 namespace wearwell {
 namespace {
 
+constexpr int d = 4, outer = 3;
 using Z = LatticeChart::Z;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 
 // For a parameter between two bounds the density on the real line decays no faster than exp(-|z|),
 // so a lattice would extend 22 units. z = w sqrt(1 + (w/5)^2) is nearly the normal quantile of its
@@ -17,7 +16,7 @@ using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 class Bending {
  public:
   explicit Bending(const Posterior& posterior) {
-    for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    for (std::size_t i = 0; i < d; ++i) {
       const Distribution& prior = posterior.parameters()[i].prior;
       bent_[i] = std::isfinite(prior.lower) && std::isfinite(prior.upper);
     }
@@ -34,7 +33,7 @@ class Bending {
   // Maps w to z; returns the log of the product of the slopes.
   double to_real(Z& w) const {
     double slopes = 1;
-    for (std::size_t i = 0; i < bent_.size(); ++i) {
+    for (std::size_t i = 0; i < d; ++i) {
       if (!bent_[i]) continue;
       const double square = square_of(w[i]), root = std::sqrt(1 + square);
       slopes *= (1 + 2 * square) / root;
@@ -51,25 +50,23 @@ class Bending {
  private:
   static constexpr double far = 5;
   static double square_of(double w) { return (w / far) * (w / far); }
-  std::array<bool, 4> bent_{};
+  std::array<bool, d> bent_{};
 };
 
 // Lines along the parameter that the others determine best, so that they follow a narrow curved
 // ridge; the others by their covariance.
 class Straight final : public LatticeChart {
  public:
-  Straight(const Posterior& posterior, const Whitening& whitening)
-      : bending_(posterior), outer_(posterior.dimension() - 1) {
-    const int d = posterior.dimension();
-    Vector center(d), slopes(d);
+  Straight(const Posterior& posterior, const Whitening& whitening) : bending_(posterior) {
+    Eigen::Vector4d center, slopes;
     for (int i = 0; i < d; ++i) {
       const auto at = static_cast<std::size_t>(i);
       center[i] = bending_.from_real(at, whitening.center[i]);
       slopes[i] = bending_.slope(at, center[i]);
     }
-    const Square scale = slopes.cwiseInverse().asDiagonal() * whitening.scale;
-    const Square covariance = scale * scale.transpose();
-    const Square precision = covariance.inverse();
+    const Eigen::Matrix4d scale = slopes.cwiseInverse().asDiagonal() * whitening.scale;
+    const Eigen::Matrix4d covariance = scale * scale.transpose();
+    const Eigen::Matrix4d precision = covariance.inverse();
     // The smallest fraction of a parameter's variance that remains given the others.
     double least = INFINITY;
     for (int i = 0; i < d; ++i) {
@@ -82,25 +79,24 @@ class Straight final : public LatticeChart {
     for (int i = 0, at = 0; i < d; ++i) {
       if (i != line_) rest_[static_cast<std::size_t>(at++)] = i;
     }
-    Square block(outer_, outer_);
-    center_.resize(outer_);
-    for (int i = 0; i < outer_; ++i) {
+    Eigen::Matrix3d block;
+    for (int i = 0; i < outer; ++i) {
       center_[i] = center[rest_[static_cast<std::size_t>(i)]];
-      for (int j = 0; j < outer_; ++j)
+      for (int j = 0; j < outer; ++j)
         block(i, j) =
             covariance(rest_[static_cast<std::size_t>(i)], rest_[static_cast<std::size_t>(j)]);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(block);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
     scale_ = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
     line_center_ = center[line_];
     line_scale_ = 1 / std::sqrt(precision(line_, line_));
   }
 
   double to_real(const Eigen::Vector4d& u, Z& z) const override {
-    const Vector rest = center_ + scale_ * u.head(outer_);
-    for (int i = 0; i < outer_; ++i)
-      z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = rest[i];
-    z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer_];
+    const Eigen::Vector3d three = center_ + scale_ * u.head<outer>();
+    for (int i = 0; i < outer; ++i)
+      z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = three[i];
+    z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer];
     return bending_.to_real(z);
   }
   std::optional<std::size_t> line_parameter() const override {
@@ -115,10 +111,10 @@ class Straight final : public LatticeChart {
 
  private:
   Bending bending_;
-  int outer_, line_ = 0;
-  std::array<int, 3> rest_{};
-  Vector center_;
-  Square scale_;
+  int line_ = 0;
+  std::array<int, outer> rest_{};
+  Eigen::Vector3d center_;
+  Eigen::Matrix3d scale_;
   double line_center_ = 0, line_scale_ = 1;
 };
 
@@ -127,16 +123,14 @@ class Straight final : public LatticeChart {
 class AlongRidge final : public LatticeChart {
  public:
   explicit AlongRidge(const RidgeMap& map) : map_(map) {
-    const Vector v = Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5))
-                         .head(map.dimension())
-                         .normalized();
-    reflection_ = Square::Identity(v.size(), v.size()) - 2 * v * v.transpose();
+    const Eigen::Vector4d v =
+        Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5)) / std::sqrt(11);
+    reflection_ = Eigen::Matrix4d::Identity() - 2 * v * v.transpose();
   }
 
   double to_real(const Eigen::Vector4d& u, Z& z) const override {
-    RidgeMap::Coordinates turned{};
-    const Eigen::Index d = reflection_.rows();
-    Eigen::Map<Eigen::Vector4d>(turned.data()).head(d).noalias() = reflection_ * u.head(d);
+    RidgeMap::Coordinates turned;
+    Eigen::Map<Eigen::Vector4d>(turned.data()).noalias() = reflection_ * u;
     const RidgeMap::Frame frame = map_.at(turned[static_cast<std::size_t>(map_.axis())]);
     map_.to_real(frame, turned, z);
     return frame.log_jacobian;
@@ -145,7 +139,7 @@ class AlongRidge final : public LatticeChart {
 
  private:
   const RidgeMap& map_;
-  Square reflection_;
+  Eigen::Matrix4d reflection_;
 };
 
 }  // namespace

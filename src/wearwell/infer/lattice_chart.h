@@ -11,8 +11,8 @@
 
 namespace wearwell {
 
-/// Coordinates in which a posterior of three or four parameters is nearly standard normal; lines of
-/// a lattice (lattice.h) run along the last one. Entries beyond the number of parameters are unused.
+/// Coordinates in which a posterior of four parameters is nearly standard normal; lines of a
+/// lattice (lattice.h) run along the last one.
 class LatticeChart {
  public:
   using Z = std::array<double, 4>;

@@ -10,10 +10,11 @@
 namespace wearwell::lattice {
 namespace {
 
+constexpr int directions = 27;     // directions of the outer axes, with opposites and zero
 constexpr double shell_depth = 3;  // of log density
 
 // The assessed mass, first and second moments, relative to their sizes.
-using Terms = Eigen::Array<double, 2 * most + 1, 1>;
+using Terms = Eigen::Array<double, 2 * d + 1, 1>;
 
 // The error of a lattice sum is the Fourier transform of its terms at the lattice's frequencies.
 // Half and quarter lattices give the transform at a half and a quarter of these; its decay between
@@ -21,18 +22,18 @@ using Terms = Eigen::Array<double, 2 * most + 1, 1>;
 // are assessed together, because a single one may vanish at a sign change.
 ErrorEstimate beyond_lattice(const Terms& quarter, const Terms& half) {
   ErrorEstimate worst;
-  for (int i = 1; i <= most; ++i) {
+  for (int i = 1; i <= d; ++i) {
     const double at_quarter = std::max(quarter[0], quarter[i]),
                  at_half = std::max(half[0], half[i]);
     const double decay = at_quarter > at_half ? at_half / at_quarter : 1;
-    const double lacks = std::max(at_half, half[i + most]) * decay * decay;
+    const double lacks = std::max(at_half, half[i + d]) * decay * decay;
     if (lacks > worst.lacks) worst = {lacks, decay};
   }
   return worst;
 }
 
 // The direction of a wave: -1, 0 or 1 along each outer axis.
-std::array<int, most - 1> way_of(int direction) {
+std::array<int, outer> way_of(int direction) {
   return {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 % 3 - 1};
 }
 
@@ -52,8 +53,8 @@ LineSums sum_of(const Lines& lines, const Line& line, const Eigen::Vector4d& mid
     here[0] = mass;
     if (moments) {
       const Eigen::Array4d x = (lines.located(line, j).natural - middle).array();
-      here.segment<most>(1) = mass * x;
-      here.segment<most>(1 + most) = mass * x * x;
+      here.segment<d>(1) = mass * x;
+      here.segment<d>(1 + d) = mass * x * x;
     }
     sums.all += here;
     sums.half += (t & 1) != 0 ? Terms(-here) : here;
@@ -76,15 +77,15 @@ std::vector<LineSums> line_sums(const Lines& lines, bool moments) {
                     });
   Terms all = Terms::Zero();
   for (const LineSums& line : sums) all += line.all;
-  const Eigen::Array4d mean = all.segment<most>(1) / all[0];
+  const Eigen::Array4d mean = all.segment<d>(1) / all[0];
   const auto about_mean = [&](Terms& terms) {
-    terms.segment<most>(1 + most) += mean * (mean * terms[0] - 2 * terms.segment<most>(1));
-    terms.segment<most>(1) -= mean * terms[0];
+    terms.segment<d>(1 + d) += mean * (mean * terms[0] - 2 * terms.segment<d>(1));
+    terms.segment<d>(1) -= mean * terms[0];
   };
   Terms size = all;
   about_mean(size);
-  size.segment<most>(1) = (all[0] * size.segment<most>(1 + most)).sqrt();
-  for (int i = 0; i < 2 * most + 1; ++i) {
+  size.segment<d>(1) = (all[0] * size.segment<d>(1 + d)).sqrt();
+  for (int i = 0; i < 2 * d + 1; ++i) {
     if (!(size[i] > 0)) size[i] = INFINITY;
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sums.size(), 256), [&](const auto& part) {
@@ -105,20 +106,17 @@ std::vector<LineSums> line_sums(const Lines& lines, bool moments) {
 ErrorEstimates error_estimates(const Lines& lines, bool moments) {
   const std::vector<LineSums> sums = line_sums(lines, moments);
   ErrorEstimates found;
-  const int line = lines.dimension() - 1;
-  // Of the outer axes, with opposites and zero.
-  const int directions = line == 2 ? 9 : 27;
   // Each axis and each diagonal once.
-  std::array<ErrorEstimate, 27> each;
+  std::array<ErrorEstimate, directions> each;
   tbb::parallel_for(directions / 2 + 1, directions, [&](int direction) {
-    const std::array<int, most - 1> way = way_of(direction);
+    const std::array<int, outer> way = way_of(direction);
     Terms real = Terms::Zero(), imaginary = real, half = real;
     for (std::size_t l = 0; l < lines.all().size(); ++l) {
       int phase = 0;
-      for (std::size_t a = 0; a < way.size(); ++a) phase += way[a] * lines.all()[l].index[a];
-      const Terms& terms = sums[l].all;
-      ((phase & 1) != 0 ? imaginary : real) += (phase & 2) != 0 ? Terms(-terms) : terms;
-      half += (phase & 1) != 0 ? Terms(-terms) : terms;
+      for (std::size_t a = 0; a < outer; ++a) phase += way[a] * lines.all()[l].index[a];
+      const Terms& line = sums[l].all;
+      ((phase & 1) != 0 ? imaginary : real) += (phase & 2) != 0 ? Terms(-line) : line;
+      half += (phase & 1) != 0 ? Terms(-line) : line;
     }
     each[static_cast<std::size_t>(direction)] =
         beyond_lattice((real.square() + imaginary.square()).sqrt(), half.abs());
@@ -126,22 +124,21 @@ ErrorEstimates error_estimates(const Lines& lines, bool moments) {
   for (int direction = directions / 2 + 1; direction < directions; ++direction) {
     const ErrorEstimate& here = each[static_cast<std::size_t>(direction)];
     found.steps += here.lacks;
-    for (std::size_t a = 0; a < most - 1; ++a) {
+    for (std::size_t a = 0; a < outer; ++a) {
       if (way_of(direction)[a] != 0 && here.lacks > found.along[a].lacks) found.along[a] = here;
     }
   }
   Terms quarter[2] = {Terms::Zero(), Terms::Zero()}, half = Terms::Zero(), shell[2] = {half, half};
-  for (const LineSums& of : sums) {
+  for (const LineSums& line : sums) {
     for (const int i : {0, 1}) {
-      quarter[i] += of.quarter[i];
-      shell[i] += of.shell[i];
+      quarter[i] += line.quarter[i];
+      shell[i] += line.shell[i];
     }
-    half += of.half;
+    half += line.half;
   }
-  const ErrorEstimate on_line =
+  found.along[outer] =
       beyond_lattice((quarter[0].square() + quarter[1].square()).sqrt(), half.abs());
-  found.along[static_cast<std::size_t>(line)] = on_line;
-  found.steps += on_line.lacks;
+  found.steps += found.along[outer].lacks;
   // The mass of the outer shells decreases; the ratio of the last two is extrapolated.
   for (const int i : {0, 5, 6, 7, 8}) {
     if (!(shell[0][i] > 0)) continue;

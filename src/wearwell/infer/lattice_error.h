@@ -13,9 +13,9 @@ struct ErrorEstimate {
       1;  // decay of the transform of the terms over the last quarter of the lattice's frequency
 };
 struct ErrorEstimates {
-  std::array<ErrorEstimate, most> along{};  // for each axis, the worst direction that involves it
-  double steps = 0;                         // of all directions
-  double beyond = 0;                        // mass at the edge of the lattice
+  std::array<ErrorEstimate, d> along{};  // for each axis, the worst direction that involves it
+  double steps = 0;                      // of all directions
+  double beyond = 0;                     // mass at the edge of the lattice
 };
 
 /// By the transforms of density and moments (only the density without `moments`), and the mass of

@@ -41,11 +41,7 @@ double mass_of(const Line& line) {
 
 Lines::Lines(const Posterior& posterior, const LatticeChart& chart, const Axes& axes,
              const Steps& steps)
-    : posterior_(posterior),
-      chart_(chart),
-      outer_(posterior.dimension() - 1),
-      axes_(axes),
-      steps_(steps) {
+    : posterior_(posterior), chart_(chart), axes_(axes), steps_(steps) {
   reference_ = density(place({}, -1, 0, 0));
 }
 
@@ -57,7 +53,7 @@ Lines::~Lines() {
 }
 
 double Lines::log_of(double mass) const {
-  for (int a = 0; a < dimension(); ++a) mass *= steps_[static_cast<std::size_t>(a)];
+  for (const double step : steps_) mass *= step;
   return reference_ + std::log(mass) + chart_.log_scale();
 }
 
@@ -84,7 +80,7 @@ std::string Lines::fill(double log_negligible, long most, Progress* progress) {
 
 Axes Lines::stretched_axes() const {
   Axes axes;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(outer_); ++a) {
+  for (std::size_t a = 0; a < outer; ++a) {
     std::map<int, double> marginal;
     double all = 0;
     for (const Line& line : lines_) {
@@ -146,7 +142,7 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
   for (std::size_t i = first; i < lines_.size(); ++i) {
     const Line& line = lines_[i];
     if (line.highest < highest_ + log_negligible_) continue;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(outer_); ++a) {
+    for (std::size_t a = 0; a < outer; ++a) {
       for (const int way : {-1, 1}) {
         Line next;
         next.index = line.index;
@@ -168,25 +164,24 @@ std::string Lines::surround(std::size_t first, std::vector<Line>& ring) {
 
 // The three coordinates: step (index + shift along one axis).
 Place Lines::place(const Index& index, int axis, double shift, double on_line) const {
-  Eigen::Vector4d along = Eigen::Vector4d::Zero();
+  Eigen::Vector4d along;
   double slopes = 1;
-  for (int i = 0; i < outer_; ++i) {
+  for (int i = 0; i < outer; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const Axis::Place there = axes_[a].at(steps_[a] * (index[a] + (i == axis ? shift : 0)));
     along[i] = there.u;
     slopes *= there.slope;
   }
-  along[outer_] = on_line;
+  along[outer] = on_line;
   Place place;
   place.log_jacobian = chart_.to_real(along, place.z) + std::log(slopes);
   return place;
 }
 Place Lines::at(const Line& line, double t) const {
-  return place(line.index, -1, 0,
-               line.middle + line.width * steps_[static_cast<std::size_t>(outer_)] * t);
+  return place(line.index, -1, 0, line.middle + line.width * steps_[outer] * t);
 }
 double Lines::density(const Place& there) const {
-  return posterior_.value(parameters(there.z)) + there.log_jacobian;
+  return posterior_.value(there.z) + there.log_jacobian;
 }
 Place Lines::between(const Line& line, const Line& other, const Line& opposite, int axis,
                      double shift, int t) const {
@@ -195,13 +190,12 @@ Place Lines::between(const Line& line, const Line& other, const Line& opposite, 
   };
   return place(line.index, axis, shift,
                half_way(line.middle, other.middle, opposite.middle) +
-                   half_way(line.width, other.width, opposite.width) *
-                       steps_[static_cast<std::size_t>(outer_)] * t);
+                   half_way(line.width, other.width, opposite.width) * steps_[outer] * t);
 }
 
 Eigen::Vector4d Lines::natural(const Place& there) const {
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();
-  posterior_.to_natural(parameters(there.z), {x.data(), static_cast<std::size_t>(dimension())});
+  Eigen::Vector4d x;
+  posterior_.to_natural(there.z, std::span<double>(x.data(), d));
   return x;
 }
 
@@ -239,7 +233,7 @@ class Lines::Walk {
     const auto parameter = lattice.chart_.line_parameter();
     if (!parameter) return;
     there_ = lattice.place(index_, -1, 0, line.middle);
-    along_.emplace(lattice.posterior_, lattice.parameters(there_.z), *parameter);
+    along_.emplace(lattice.posterior_, there_.z, *parameter);
     others_ = there_.log_jacobian - lattice.chart_.on_line(line.middle).log_slope;
   }
 
@@ -255,9 +249,7 @@ class Lines::Walk {
   // Of the last evaluated point.
   Located located() const {
     if (!along_) return {lattice_.natural(there_), there_.log_jacobian};
-    Located here{Eigen::Vector4d::Zero(), there_.log_jacobian};
-    std::copy(along_->natural().begin(), along_->natural().end(), here.natural.begin());
-    return here;
+    return {Eigen::Map<const Eigen::Vector4d>(along_->natural().data()), there_.log_jacobian};
   }
 
  private:
@@ -319,7 +311,7 @@ void Lines::walk_outward(Walk& walk, Line& line, Sides& sides) const {
     const bool first = line.values.size() == 1;
     for (int t = (way < 0 ? line.first : last) + way;
          std::abs(t) <= most_across && (farther(v) || (first && values.empty())); t += way) {
-      v = walk.value(line.middle + t * steps_[static_cast<std::size_t>(outer_)] * line.width);
+      v = walk.value(line.middle + t * steps_[outer] * line.width);
       values.push_back(v);
       if (keeps_) kept.push_back(walk.located());
       line.highest = std::max(line.highest, v);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -15,10 +14,9 @@
 
 namespace wearwell::lattice {
 
-// Arrays are for four parameters; of three the last entries are unused.
-constexpr int most = 4;
-using Index = std::array<std::int16_t, most - 1>;
-using Steps = std::array<double, most>;  // steps between lines along each axis, and along the lines
+constexpr int d = 4, outer = 3;
+using Index = std::array<std::int16_t, outer>;
+using Steps = std::array<double, d>;  // steps between lines along each axis, and along the lines
 
 /// Coordinates of an outer axis: v, in which steps are even, and u of the chart. With a finite `far`
 /// steps in u are nearly even about the center and grow exponentially beyond, so that long tails end
@@ -34,15 +32,15 @@ struct Axis {
     return {center + 0.5 * far * (e - 1 / e), 0.5 * (e + 1 / e)};
   }
 };
-using Axes = std::array<Axis, most - 1>;
+using Axes = std::array<Axis, outer>;
 
 /// A node's natural parameters, and the log Jacobian of its position on the real line.
 struct Located {
-  Eigen::Matrix<double, most, 1, Eigen::DontAlign> natural;
+  Eigen::Matrix<double, d, 1, Eigen::DontAlign> natural;
   double log_jacobian = 0;
 };
 
-/// One line: the last coordinate is middle + width t at t = 0, +-step, +-2 step, ...
+/// One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
 struct Line {
   Index index{};
   double middle = 0, width = 1;
@@ -77,7 +75,6 @@ class Lines {
   /// density; what is there stays. Empty, or the reason for stopping.
   std::string fill(double log_negligible, long most, Progress* progress);
 
-  int dimension() const { return outer_ + 1; }
   const std::vector<Line>& all() const { return lines_; }
   long nodes() const { return nodes_; }
   const Posterior& posterior() const { return posterior_; }
@@ -114,9 +111,6 @@ class Lines {
   std::string surround(std::size_t first, std::vector<Line>& ring);
   bool set_reference();
   Place place(const Index& index, int axis, double shift, double on_line) const;
-  std::span<const double> parameters(const LatticeChart::Z& z) const {
-    return {z.data(), static_cast<std::size_t>(dimension())};
-  }
   double density(const Place& there) const;
   void integrate(Line& line, Sides& sides) const;
   void lengthen(Line& line, Sides& sides) const;
@@ -124,7 +118,6 @@ class Lines {
 
   const Posterior& posterior_;
   const LatticeChart& chart_;
-  int outer_;  // axes between lines
   Axes axes_;
   Steps steps_;
   double log_negligible_ = 0;

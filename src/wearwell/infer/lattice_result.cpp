@@ -26,7 +26,7 @@ constexpr double gathered_share = 3e-7;
 // neighbours, in cell lengths.
 class CellShape {
  public:
-  CellShape(double node, int axes) : node_(node), axes_(axes) {}
+  explicit CellShape(double node) : node_(node) {}
 
   void along(int axis, double below, double above) {
     auto& [mass, mean, square] = along_[static_cast<std::size_t>(axis)];
@@ -50,7 +50,7 @@ class CellShape {
 
   void write(Eigen::Index row, WeightedDraws::Cells& cells) const {
     double mass = node_;
-    for (int axis = 0; axis < axes_; ++axis) {
+    for (int axis = 0; axis < d; ++axis) {
       const Along& along = along_[static_cast<std::size_t>(axis)];
       mass *= along.mass;
       cells.mean(row, axis) = along.mean;
@@ -70,8 +70,7 @@ class CellShape {
     double mass = 1, mean = 0, square = 1.0 / 12;
   };
   double node_;
-  int axes_;
-  std::array<Along, most> along_{};
+  std::array<Along, d> along_{};
 };
 
 // Sums over all nodes, in the order of lines for any number of threads.
@@ -96,8 +95,8 @@ struct Node {
 
 // Moments about the middle relative to the mass, and the relevant nodes.
 struct Moments {
-  Eigen::Matrix<double, most, 1, Eigen::DontAlign> first = Eigen::Vector4d::Zero();
-  Eigen::Matrix<double, most, most, Eigen::DontAlign> second = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, d, 1, Eigen::DontAlign> first = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, d, d, Eigen::DontAlign> second = Eigen::Matrix4d::Zero();
   double highest = -INFINITY;
   std::vector<Node> kept;
 };
@@ -141,19 +140,16 @@ Eigen::Index gather(std::vector<Node>& nodes, double least) {
 void write_cell(const Lines& lines, const Node& node, Eigen::Index row, WeightedDraws& nodes) {
   const Line& line = *node.line;
   const int t = node.t;
-  const int d = lines.dimension(), on_line = d - 1;
-  CellShape shape(nodes.weights[row], d);
-  shape.along(on_line, node_mass(line, t - 1), node_mass(line, t + 1));
-  const auto write = [&](std::vector<Points>& ends, int axis, const Place& there) {
-    ends[static_cast<std::size_t>(axis)].row(row) = lines.natural(there).head(d);
-  };
-  write(nodes.lower, on_line, lines.at(line, t - 0.5));
-  write(nodes.upper, on_line, lines.at(line, t + 0.5));
-  for (int a = 0; a < on_line; ++a) {
+  CellShape shape(nodes.weights[row]);
+  shape.along(outer, node_mass(line, t - 1), node_mass(line, t + 1));
+  nodes.lower[outer].row(row) = lines.natural(lines.at(line, t - 0.5));
+  nodes.upper[outer].row(row) = lines.natural(lines.at(line, t + 0.5));
+  for (int a = 0; a < outer; ++a) {
     const Line &below = lines.neighbour(line, a, -1), &above = lines.neighbour(line, a, 1);
     shape.along(a, mass_in(below, line, t), mass_in(above, line, t));
-    write(nodes.lower, a, lines.between(line, below, above, a, -0.5, t));
-    write(nodes.upper, a, lines.between(line, above, below, a, 0.5, t));
+    const auto axis = static_cast<std::size_t>(a);
+    nodes.lower[axis].row(row) = lines.natural(lines.between(line, below, above, a, -0.5, t));
+    nodes.upper[axis].row(row) = lines.natural(lines.between(line, above, below, a, 0.5, t));
   }
   shape.write(row, nodes.cells);
   nodes.cells.mass[row] *= node.mass / nodes.weights[row];
@@ -162,7 +158,6 @@ void write_cell(const Lines& lines, const Node& node, Eigen::Index row, Weighted
 // The first `with_cells` of them have cells.
 WeightedDraws nodes_of(const Lines& lines, const std::vector<Node>& kept, Eigen::Index with_cells) {
   const auto n = static_cast<Eigen::Index>(kept.size());
-  const Eigen::Index d = lines.dimension();
   WeightedDraws nodes;
   nodes.values.resize(n, d);
   nodes.weights.resize(n);
@@ -172,15 +167,14 @@ WeightedDraws nodes_of(const Lines& lines, const std::vector<Node>& kept, Eigen:
     cells.node = Points::Zero(with_cells, d);
     cells.mean.resize(with_cells, d);
     cells.square.resize(with_cells, d);
-    nodes.lower.assign(static_cast<std::size_t>(d), Points(with_cells, d));
-    nodes.upper.assign(static_cast<std::size_t>(d), Points(with_cells, d));
+    nodes.lower.assign(d, Points(with_cells, d));
+    nodes.upper.assign(d, Points(with_cells, d));
   }
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
     for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
       const Node& node = kept[static_cast<std::size_t>(row)];
       nodes.values.row(row) =
-          lines.located(*node.line, static_cast<std::size_t>(node.t - node.line->first))
-              .natural.head(d);
+          lines.located(*node.line, static_cast<std::size_t>(node.t - node.line->first)).natural;
       nodes.weights[row] = node_mass(*node.line, node.t);
       if (row < with_cells) write_cell(lines, node, row, nodes);
     }
@@ -212,9 +206,8 @@ ExactPosterior result_of(const Lines& lines, bool moments, bool with_cells) {
   exact.highest = sums.highest;
   const Eigen::Index cells = with_cells ? gather(sums.kept, gathered_share * mass) : 0;
   exact.nodes = nodes_of(lines, sums.kept, cells);
-  const int d = lines.dimension();
-  exact.mean = (middle + sums.first).head(d);
-  exact.covariance = (sums.second - sums.first * sums.first.transpose()).topLeftCorner(d, d);
+  exact.mean = middle + sums.first;
+  exact.covariance = sums.second - sums.first * sums.first.transpose();
   if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
   exact.sd = exact.covariance.diagonal().cwiseSqrt();
   bool proper = true;

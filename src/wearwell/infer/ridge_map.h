@@ -54,7 +54,6 @@ class RidgeMap {
 
   double log_scale() const { return log_scale_; }
 
-  int dimension() const { return d_; }
   int axis() const { return axis_; }
   bool affine() const { return affine_; }
 
