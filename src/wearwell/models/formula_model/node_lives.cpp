@@ -268,11 +268,11 @@ prognosis::ForecastQuantiles LivesSample::quantiles() const {
 
 // One for each thread: a forecast would otherwise spend a tenth of its time on memory.
 const LivesSample& NodeLives::sample(const Nodes& nodes, const std::vector<double>& weight,
-                                     const UnitReading& last,
-                                     const std::vector<NodePath>& paths) const {
+                                     const UnitReading& last, const std::vector<NodePath>& paths,
+                                     const NodeAxis* axis) const {
   static thread_local OfAll sums;
   sums.begin(parts * nodes.count());
-  look_ahead(nodes, weight, last, paths, points_of_node, sums);
+  look_ahead(nodes, weight, last, paths, points_of_node, sums, axis);
   sums.end();
   return sums;
 }
@@ -280,11 +280,7 @@ const LivesSample& NodeLives::sample(const Nodes& nodes, const std::vector<doubl
 LivesSample NodeLives::lives(const Nodes& nodes, const std::vector<double>& weight,
                              const UnitReading& last, const std::vector<NodePath>& paths,
                              const NodeAxis* axis) const {
-  OfAll sums;
-  sums.begin(parts * nodes.count());
-  look_ahead(nodes, weight, last, paths, points_of_node, sums, axis);
-  sums.end();
-  return sums;
+  return sample(nodes, weight, last, paths, axis);
 }
 
 prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,

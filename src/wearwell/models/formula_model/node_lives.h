@@ -110,7 +110,8 @@ class NodeLives {
   NodeRow conditions(const NodeRow& last) const;
   /// `lives`, until the next call of this thread.
   const LivesSample& sample(const Nodes& nodes, const std::vector<double>& weight,
-                            const UnitReading& last, const std::vector<NodePath>& paths) const;
+                            const UnitReading& last, const std::vector<NodePath>& paths,
+                            const NodeAxis* axis = nullptr) const;
   template <class Sums>
   void look_ahead(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
                   const std::vector<NodePath>& paths, std::size_t points, Sums& sums,
